@@ -1,0 +1,53 @@
+#include "demos/atomic_file.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <unistd.h>
+
+#include "demos/exit_code.h"
+
+namespace carom::demos {
+namespace fs = std::filesystem;
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
+  std::error_code failed;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
+  if (failed) fail(failed.message());
+  temporary_ = path.parent_path() / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".partial");
+  file_.reset(std::fopen(temporary_.c_str(), "wb"));
+  if (!file_) fail(std::strerror(errno));
+}
+
+AtomicFile::~AtomicFile() {
+  if (temporary_.empty()) return;
+  file_.reset();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail(std::strerror(errno));
+  written_ += text.size();
+}
+
+void AtomicFile::write(std::span<const std::uint8_t> bytes) {
+  write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void AtomicFile::commit() {
+  if (std::fclose(file_.release()) != 0) fail(std::strerror(errno));
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(temporary_, failed);
+  if (failed) fail(failed.message());
+  if (size != written_) fail("only " + std::to_string(size) + " of " + std::to_string(written_) + " bytes arrived");
+  fs::rename(temporary_, path_, failed);
+  if (failed) fail(failed.message());
+  temporary_.clear();
+}
+
+void AtomicFile::fail(const std::string& reason) const {
+  throw CannotWrite("cannot write " + path_.string() + ": " + reason);
+}
+
+}  // namespace carom::demos

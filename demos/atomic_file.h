@@ -1,0 +1,40 @@
+#pragma once
+// A file that appears whole or not at all: written under a temporary name in the same folder, checked, then renamed.
+// A file that is given up (an exception, an interrupt) leaves nothing behind. Tested in tests/demos/atomic_file_test.cpp.
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace carom::demos {
+
+class AtomicFile {
+ public:
+  /// Creates the folder and the temporary file. Throws CannotWrite.
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view text);
+  void write(std::span<const std::uint8_t> bytes);
+  /// Checks that every byte arrived and gives the file its name. Throws CannotWrite, leaving an older file as it was.
+  void commit();
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::uintmax_t written_ = 0;
+};
+
+}  // namespace carom::demos

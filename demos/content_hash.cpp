@@ -1,0 +1,30 @@
+#include "demos/content_hash.h"
+
+#include <algorithm>
+
+namespace carom::demos {
+
+void ContentHash::mix(std::uint64_t word) {
+  state_ = (state_ ^ word) * 0x9e3779b97f4a7c15ull;  // odd, bits of the golden ratio: every input bit reaches the top
+  state_ ^= state_ >> 32;                            // and from there the bottom
+}
+
+ContentHash& ContentHash::add(const void* bytes, std::size_t count) {
+  const auto* at = static_cast<const unsigned char*>(bytes);
+  for (std::size_t done = 0; done < count; done += 8) {
+    std::uint64_t word = 0;
+    const std::size_t width = std::min<std::size_t>(8, count - done);
+    for (std::size_t i = 0; i < width; ++i) word |= static_cast<std::uint64_t>(at[done + i]) << (8 * i);
+    mix(word);
+  }
+  mix(count);
+  return *this;
+}
+
+std::string hexText(std::uint64_t value) {
+  std::string text(16, '0');
+  for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(value >> (4 * i)) & 15];
+  return text;
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,46 @@
+#pragma once
+// The program's exit codes, and the failures that lead to them and that the engine has no name for.
+// InputError (bad scene or asset) comes from engine/foundation, NoRenderer from renderer; main.cpp maps them all.
+// Tested in tests/demos/exit_code_test.cpp.
+
+#include <stdexcept>
+
+namespace carom::demos {
+
+enum class ExitCode {
+  kOk = 0,
+  kNo = 1,           ///< The question has been answered: no.
+  kUsage = 2,        ///< Unknown command or option, or a value out of range.
+  kBadInput = 3,     ///< Bad scene or asset.
+  kCannotWrite = 4,
+  kInvalid = 5,      ///< The simulation left what it guarantees.
+  kNoRenderer = 6,
+  kSignal = 128      ///< Plus the signal's number.
+};
+
+/// A command line that cannot be carried out as it stands.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file or folder that cannot be written; says which and why.
+class CannotWrite : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A simulation whose state broke the engine's guarantee (a gap that closed, a number that is not finite).
+class SimulationInvalid : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The person or the system asked the program to stop.
+class Interrupted : public std::runtime_error {
+ public:
+  explicit Interrupted(int signal_number) : std::runtime_error("interrupted"), signal(signal_number) {}
+  int signal;
+};
+
+}  // namespace carom::demos

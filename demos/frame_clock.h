@@ -1,0 +1,40 @@
+#pragma once
+// Which instant a frame shows: frame k shows exactly t = k / fps, whatever the step of the simulation, and a duration
+// holds round(duration x fps) frames. Where the step does not divide the frame, the instant lies between two steps and
+// the drawn pose is interpolated. Exact: frame, rate and fps stay whole as long as they were given whole.
+// Tested in tests/demos/frame_clock_test.cpp.
+
+#include "engine/foundation/frames.h"
+
+namespace carom::demos {
+
+/// An instant between two steps: `fraction` in [0, 1) of the way from `step` to `step` + 1.
+struct StepInstant {
+  int step = 0;
+  double fraction = 0.0;
+
+  /// The last step that must have been made to know the state at this instant.
+  int lastStepNeeded() const { return fraction > 0.0 ? step + 1 : step; }
+};
+
+class FrameClock {
+ public:
+  struct Rates {
+    double fps = 30.0;
+    double steps_per_second = 240.0;
+  };
+  explicit FrameClock(const Rates& rates) : rates_(rates) {}
+
+  int frameCount(double duration_s) const;
+  int stepCount(double duration_s) const;
+  double time(int frame) const { return frame / rates_.fps; }
+  StepInstant instant(int frame) const;
+
+ private:
+  Rates rates_;
+};
+
+/// The pose a fraction of the way from a to b: position along the line, rotation along the shortest arc.
+Pose interpolated(const Pose& a, const Pose& b, double fraction);
+
+}  // namespace carom::demos

@@ -1,0 +1,250 @@
+#include "demos/json.h"
+
+#include <cmath>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "demos/nearest_name.h"
+#include "engine/foundation/contract.h"
+
+namespace carom::demos {
+namespace {
+
+/// Hands characters to the parser and counts lines. The parser reads one character past a number, so a line break
+/// counts only once the character after it has been read.
+class LineCounter {
+ public:
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  using iterator_category = std::input_iterator_tag;
+
+  LineCounter(const char* at, int* line) : at_(at), line_(line) {}
+  reference operator*() const { return *at_; }
+  LineCounter& operator++() {
+    if (after_break_) ++*line_;
+    after_break_ = *at_ == '\n';
+    ++at_;
+    return *this;
+  }
+  bool operator==(const LineCounter& other) const { return at_ == other.at_; }
+  bool operator!=(const LineCounter& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_;
+  int* line_;
+  bool after_break_ = false;
+};
+
+const char* kindName(Json::Kind kind) {
+  switch (kind) {
+    case Json::Kind::kNull: return "null";
+    case Json::Kind::kBoolean: return "a boolean";
+    case Json::Kind::kNumber: return "a number";
+    case Json::Kind::kString: return "a string";
+    case Json::Kind::kArray: return "an array";
+    case Json::Kind::kObject: return "an object";
+  }
+  return "";
+}
+
+/// The library's message without its own numbering: "[json.exception.parse_error.101] parse error at line 3, ...".
+std::string parserReason(const std::string& message) {
+  const std::size_t mark = message.find("; ");
+  const std::size_t bracket = message.find("] ");
+  std::string reason = message.substr(mark != std::string::npos ? mark + 2 : bracket != std::string::npos ? bracket + 2 : 0);
+  for (char& c : reason)
+    if (c == '\n') c = ' ';
+  return reason;
+}
+
+nlohmann::ordered_json toLibrary(const Json& value) {
+  switch (value.kind()) {
+    case Json::Kind::kBoolean: return value.asBoolean();
+    case Json::Kind::kString: return value.asString();
+    case Json::Kind::kNumber: {
+      const double number = value.asNumber();
+      if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
+      return number;
+    }
+    case Json::Kind::kArray: {
+      nlohmann::ordered_json array = nlohmann::ordered_json::array();
+      for (const Json& item : value.items()) array.push_back(toLibrary(item));
+      return array;
+    }
+    case Json::Kind::kObject: {
+      nlohmann::ordered_json object = nlohmann::ordered_json::object();
+      for (const auto& [key, member] : value.members()) object[key] = toLibrary(member);
+      return object;
+    }
+    case Json::Kind::kNull: break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+/// Receives the parser's events and builds the tree.
+class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  JsonBuilder(std::string origin, const int* line) : origin_(std::move(origin)), line_(line) {}
+
+  bool null() override { return add(Json()); }
+  bool boolean(bool value) override { return add(Json(value)); }
+  bool number_integer(number_integer_t value) override { return add(Json(static_cast<double>(value))); }
+  bool number_unsigned(number_unsigned_t value) override { return add(Json(static_cast<double>(value))); }
+  bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
+  bool string(string_t& value) override { return add(Json(value)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool end_array() override { return close(); }
+  bool end_object() override { return close(); }
+
+  bool key(string_t& name) override {
+    const Json& object = open_.back().first;
+    if (object.find(name) != nullptr) fail("key \"" + name + "\" is given twice");
+    open_.back().second = name;
+    return true;
+  }
+
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
+    fail(parserReason(error.what()));
+  }
+
+  Json take() {
+    root_.place("");
+    return std::move(root_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InputError(origin_ + ":" + std::to_string(*line_) + ": " + reason);
+  }
+  Json placed(Json value) const {
+    value.line_ = *line_;
+    value.origin_ = origin_;
+    return value;
+  }
+  bool open(Json container) {
+    constexpr std::size_t kDeepest = 64;  // far beyond any scene; keeps hostile files from exhausting the stack
+    if (open_.size() >= kDeepest) fail("nested deeper than " + std::to_string(kDeepest) + " levels");
+    open_.emplace_back(placed(std::move(container)), "");
+    return true;
+  }
+  bool close() {
+    Json done = std::move(open_.back().first);
+    open_.pop_back();
+    return insert(std::move(done));
+  }
+  bool add(Json value) { return insert(placed(std::move(value))); }
+  bool insert(Json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+    } else if (auto& [container, key] = open_.back(); container.kind() == Json::Kind::kArray) {
+      container.push(std::move(value));
+    } else {
+      container.set(key, std::move(value));
+    }
+    return true;
+  }
+
+  std::string origin_;
+  const int* line_;
+  Json root_;
+  std::vector<std::pair<Json, std::string>> open_;  // containers not closed yet, each with its pending key
+};
+
+Json Json::array(std::vector<Json> items) {
+  Json value;
+  value.kind_ = Kind::kArray;
+  value.items_ = std::move(items);
+  return value;
+}
+
+Json Json::object(std::initializer_list<Member> members) {
+  Json value;
+  value.kind_ = Kind::kObject;
+  value.members_ = members;
+  return value;
+}
+
+Json Json::parse(std::string_view text, const std::string& origin) {
+  int line = 1;
+  JsonBuilder builder(origin, &line);
+  nlohmann::json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), &line), &builder,
+                            nlohmann::json::input_format_t::json, true, true);
+  return builder.take();
+}
+
+void Json::place(const std::string& path) {
+  path_ = path;
+  for (std::size_t i = 0; i < items_.size(); ++i) items_[i].place(path + "[" + std::to_string(i) + "]");
+  for (auto& [key, value] : members_) value.place(path.empty() ? key : path + "." + key);
+}
+
+void Json::fail(const std::string& message) const {
+  std::string where = origin_.empty() ? "" : origin_ + ":" + std::to_string(line_) + ": ";
+  if (!path_.empty()) where += path_ + ": ";
+  throw InputError(where + message);
+}
+
+std::string Json::shown() const {
+  constexpr std::size_t kLongest = 60;
+  const std::string whole = text();
+  return whole.size() <= kLongest ? whole : whole.substr(0, kLongest) + "...";
+}
+
+bool Json::asBoolean() const {
+  if (kind_ != Kind::kBoolean) fail(shown() + " is " + kindName(kind_) + "; accepted: true or false");
+  return boolean_;
+}
+
+double Json::asNumber() const {
+  if (kind_ != Kind::kNumber) fail(shown() + " is " + kindName(kind_) + "; accepted: a finite number");
+  return number_;
+}
+
+const std::string& Json::asString() const {
+  if (kind_ != Kind::kString) fail(shown() + " is " + kindName(kind_) + "; accepted: a string");
+  return string_;
+}
+
+const std::vector<Json>& Json::items() const {
+  if (kind_ != Kind::kArray) fail(shown() + " is " + kindName(kind_) + "; accepted: an array");
+  return items_;
+}
+
+const std::vector<Json::Member>& Json::members() const {
+  if (kind_ != Kind::kObject) fail(shown() + " is " + kindName(kind_) + "; accepted: an object");
+  return members_;
+}
+
+const Json* Json::find(std::string_view key) const {
+  for (const auto& [name, value] : members())
+    if (name == key) return &value;
+  return nullptr;
+}
+
+const Json& Json::at(std::string_view key) const {
+  const Json* value = find(key);
+  if (value == nullptr) fail("key \"" + std::string(key) + "\" is missing");
+  return *value;
+}
+
+void Json::onlyKeys(std::initializer_list<const char*> accepted) const {
+  const std::vector<std::string> names(accepted.begin(), accepted.end());
+  for (const auto& [key, value] : members()) {
+    bool known = false;
+    for (const std::string& name : names) known = known || name == key;
+    if (!known) value.fail("unknown key \"" + key + "\"" + acceptedNames(key, names));
+  }
+}
+
+std::string Json::text(int indent) const {
+  return toLibrary(*this).dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace carom::demos

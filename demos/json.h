@@ -1,0 +1,76 @@
+#pragma once
+// JSON values that remember where they stood, so that every complaint about a file names its line and JSON path.
+// json.cpp is the only file that names the JSON library. Comments (// and /* */) are accepted; keys given twice are not.
+// Tested in tests/demos/json_test.cpp.
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace carom::demos {
+
+class Json {
+ public:
+  enum class Kind { kNull, kBoolean, kNumber, kString, kArray, kObject };
+  using Member = std::pair<std::string, Json>;
+
+  Json() = default;
+  Json(bool value) : kind_(Kind::kBoolean), boolean_(value) {}
+  Json(double value) : kind_(Kind::kNumber), number_(value) {}
+  Json(int value) : Json(static_cast<double>(value)) {}
+  Json(std::string value) : kind_(Kind::kString), string_(std::move(value)) {}
+  Json(const char* value) : Json(std::string(value)) {}
+  static Json array(std::vector<Json> items = {});
+  static Json object(std::initializer_list<Member> members = {});
+
+  /// Parses a text; `origin` stands for the file's name in messages.
+  static Json parse(std::string_view text, const std::string& origin);
+
+  Kind kind() const { return kind_; }
+  int line() const { return line_; }
+  const std::string& path() const { return path_; }
+
+  // Reading: each throws InputError, with this value's place, when the value is of another kind.
+  bool asBoolean() const;
+  double asNumber() const;
+  const std::string& asString() const;
+  const std::vector<Json>& items() const;
+  const std::vector<Member>& members() const;
+
+  /// The member of that name, or nullptr. The value must be an object.
+  const Json* find(std::string_view key) const;
+  /// The member of that name; throws InputError when it is missing.
+  const Json& at(std::string_view key) const;
+  /// Throws InputError for the first member whose key is not one of these, with the nearest that is.
+  void onlyKeys(std::initializer_list<const char*> accepted) const;
+
+  /// Throws InputError: "file:line: path: message".
+  [[noreturn]] void fail(const std::string& message) const;
+  /// The value as a person would write it, shortened, for messages.
+  std::string shown() const;
+
+  // Writing.
+  void push(Json item) { items_.push_back(std::move(item)); }
+  void set(std::string key, Json value) { members_.emplace_back(std::move(key), std::move(value)); }
+  /// `indent` < 0 writes one line. Numbers are written so that reading them gives the same bits.
+  std::string text(int indent = -1) const;
+
+ private:
+  friend class JsonBuilder;
+  void place(const std::string& path);
+
+  Kind kind_ = Kind::kNull;
+  bool boolean_ = false;
+  double number_ = 0.0;
+  std::string string_;
+  std::vector<Json> items_;
+  std::vector<Member> members_;
+  int line_ = 0;
+  std::string path_;
+  std::string origin_;
+};
+
+}  // namespace carom::demos

@@ -1,0 +1,21 @@
+#pragma once
+// Reads a mesh file of any format that assimp knows, and makes a solid of it: the convex hull of each of the file's
+// meshes, every one placed by the transforms of the nodes it hangs from. Axes and units are taken as they stand.
+// mesh_import.cpp is the only file that names assimp. Tested in tests/demos/mesh_import_test.cpp.
+
+#include <filesystem>
+#include <vector>
+
+#include "engine/foundation/frames.h"
+
+namespace carom::demos {
+
+/// The vertices of each mesh of a file, in the file's own frame.
+struct ImportedMesh {
+  std::vector<std::vector<Vec3>> parts;
+};
+
+/// Throws InputError for a file that is missing, unreadable, empty, or has a vertex that is not finite.
+ImportedMesh importMesh(const std::filesystem::path& path);
+
+}  // namespace carom::demos

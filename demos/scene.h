@@ -1,0 +1,95 @@
+#pragma once
+// A scene as a person describes it: plain values in SI units, already checked, nothing resolved into solids yet.
+// scene_file.h reads it, scene_world.h makes a world of it. Every part remembers its place in the file for messages.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/foundation/frames.h"
+#include "engine/simulation/world.h"
+#include "renderer/frame_renderer.h"
+
+namespace carom::demos {
+
+/// "file:line: json.path" of a value.
+using Place = std::string;
+
+struct BoxShape {
+  Vec3 size_m = Vec3::Ones();
+};
+struct SphereShape {
+  double radius_m = 0.5;
+};
+/// Along z; `length_m` is the distance between the centres of the caps.
+struct CapsuleShape {
+  double radius_m = 0.5;
+  double length_m = 1.0;
+};
+/// The convex hull of points, or of each mesh of a file.
+struct HullShape {
+  std::filesystem::path file;      ///< Empty when `points` are given.
+  std::vector<Vec3> points;
+  double scale = 1.0;
+  std::optional<double> fit_m;     ///< Scaled so that the longest side is this, and centred on its bounding box.
+  bool replaceable = false;        ///< The mesh of the command line (--mesh) takes the place of `file`.
+};
+struct CompoundPart;
+struct CompoundShape {
+  std::vector<CompoundPart> parts;
+};
+
+struct Shape {
+  std::variant<BoxShape, SphereShape, CapsuleShape, HullShape, CompoundShape> form;
+  Place place;
+};
+struct CompoundPart {
+  Shape shape;
+  Pose X_SP;  ///< Part frame in the frame of the compound shape.
+};
+
+struct SurfaceLook {
+  renderer::Color color;
+  bool checker = false;
+};
+
+/// Copies of a body on a lattice, each moved and turned a little by the scene's random numbers.
+struct Repeat {
+  int count[3] = {1, 1, 1};
+  Vec3 step_m = Vec3::Zero();
+  double jitter_m = 0.0;        ///< Largest shift along each axis.
+  double jitter_degrees = 0.0;  ///< Largest turn, about a random axis.
+
+  int total() const { return count[0] * count[1] * count[2]; }
+};
+
+struct Body {
+  std::string name;
+  Shape shape;
+  Pose X_WS;  ///< The frame the shape is described in.
+  Vec3 linear_velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Material material;
+  SurfaceLook look;
+  std::vector<renderer::Color> colors;  ///< Taken in turn by the copies; empty: the look's colour.
+  bool is_static = false;
+  Repeat repeat;
+  Place place;
+};
+
+struct Scene {
+  std::string name;  ///< The file's name without its ending.
+  std::filesystem::path file;
+  std::string description;
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);
+  double rate_hz = 240.0;  ///< Steps a second.
+  std::uint64_t seed = 1;
+  double duration_s = 5.0;
+  std::vector<Body> bodies;
+  std::map<std::string, renderer::Camera> cameras;
+};
+
+}  // namespace carom::demos

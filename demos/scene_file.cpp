@@ -1,0 +1,331 @@
+#include "demos/scene_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "demos/asset_path.h"
+#include "demos/json.h"
+#include "demos/nearest_name.h"
+#include "engine/foundation/contract.h"
+#include "engine/foundation/elementary.h"
+
+namespace carom::demos {
+namespace {
+
+// What a scene may hold. The sizes keep every length far from the rounding of the others.
+constexpr double kSmallestLength_m = 1e-4;
+constexpr double kLargestLength_m = 1e5;
+constexpr double kLargestSpeed = 1e5;  // m/s and rad/s
+constexpr int kMostBodies = 20000;
+constexpr double kUnitTolerance = 1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
+constexpr double kPi = 3.14159265358979323846;
+
+/// The values that are accepted; a limit that is `open` is itself left out.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;
+};
+constexpr Range kLength{kSmallestLength_m, kLargestLength_m};
+constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
+constexpr Range kSpeed{-kLargestSpeed, kLargestSpeed};
+
+std::string plainNumber(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::string shown(const Range& range) {
+  if (std::isinf(range.high)) return (range.low_open ? "above " : "at least ") + plainNumber(range.low);
+  return (range.low_open ? "above " : "") + plainNumber(range.low) + " to " + plainNumber(range.high);
+}
+
+double readNumber(const Json& json, const Range& range) {
+  const double value = json.asNumber();
+  const bool inside = value >= range.low && value <= range.high && !(range.low_open && value == range.low);
+  if (!inside) json.fail(json.shown() + " is out of range; accepted: " + shown(range));
+  return value;
+}
+
+int readWhole(const Json& json, int least, int most) {
+  const double value = json.asNumber();
+  if (!(value >= least && value <= most) || value != std::floor(value))
+    json.fail(json.shown() + " is out of range; accepted: a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(value);
+}
+
+Vec3 readVec3(const Json& json, const Range& range) {
+  if (json.items().size() != 3) json.fail(json.shown() + " has " + std::to_string(json.items().size()) + " numbers; accepted: three");
+  return {readNumber(json.items()[0], range), readNumber(json.items()[1], range), readNumber(json.items()[2], range)};
+}
+
+Place placeOf(const Json& json, const std::filesystem::path& file) {
+  return file.string() + ":" + std::to_string(json.line()) + ": " + json.path();
+}
+
+// Rotations: {"axis": [x, y, z], "degrees": d} or a quaternion [w, x, y, z].
+
+Quat readAxisRotation(const Json& json) {
+  json.onlyKeys({"axis", "degrees"});
+  const Vec3 axis = readVec3(json.at("axis"), kCoordinate);
+  if (!(axis.norm() > kSmallestLength_m)) json.at("axis").fail(json.at("axis").shown() + " has no direction; accepted: an axis of some length");
+  const double radians = readNumber(json.at("degrees"), {-36000.0, 36000.0}) * kPi / 180.0;
+  return rotationBy(axis.normalized() * radians);
+}
+
+Quat readRotation(const Json& json) {
+  if (json.kind() == Json::Kind::kObject) return readAxisRotation(json);
+  if (json.kind() != Json::Kind::kArray || json.items().size() != 4)
+    json.fail(json.shown() + " is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a unit quaternion [w, x, y, z]");
+  double q[4];
+  for (std::size_t i = 0; i < 4; ++i) q[i] = json.items()[i].asNumber();
+  const Quat rotation(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance))
+    json.fail(json.shown() + " has length " + plainNumber(rotation.norm()) + "; accepted: a unit quaternion [w, x, y, z]");
+  return rotation.normalized();
+}
+
+Pose readPose(const Json& json) {
+  Pose pose;
+  if (const Json* position = json.find("position")) pose.position = readVec3(*position, kCoordinate);
+  if (const Json* rotation = json.find("rotation")) pose.rotation = readRotation(*rotation);
+  return pose;
+}
+
+// Colours: "#rrggbb".
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+renderer::Color readColor(const Json& json) {
+  const std::string& text = json.asString();
+  bool valid = text.size() == 7 && text[0] == '#';
+  for (std::size_t i = 1; valid && i < 7; ++i) valid = hexDigit(text[i]) >= 0;
+  if (!valid) json.fail(json.shown() + " is no colour; accepted: \"#rrggbb\"");
+  float channel[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    channel[i] = static_cast<float>(16 * hexDigit(text[1 + 2 * i]) + hexDigit(text[2 + 2 * i])) / 255.0f;
+  return {channel[0], channel[1], channel[2]};
+}
+
+std::vector<renderer::Color> readColors(const Json& json) {
+  if (json.kind() != Json::Kind::kArray) return {readColor(json)};
+  std::vector<renderer::Color> colors;
+  for (const Json& item : json.items()) colors.push_back(readColor(item));
+  if (colors.empty()) json.fail("the list of colours is empty");
+  return colors;
+}
+
+// Materials.
+
+struct NamedMaterial {
+  Material physical;
+  SurfaceLook look;
+};
+using Materials = std::map<std::string, NamedMaterial>;
+
+NamedMaterial readMaterial(const Json& json) {
+  json.onlyKeys({"staticFriction", "dynamicFriction", "restitution", "density", "color", "checker"});
+  NamedMaterial material;
+  Material& m = material.physical;
+  if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
+  m.dynamic_friction = m.static_friction;
+  if (const Json* value = json.find("dynamicFriction")) {
+    m.dynamic_friction = readNumber(*value, {0.0, 100.0});
+    if (m.dynamic_friction > m.static_friction)
+      value->fail(value->shown() + " is above the static friction of " + plainNumber(m.static_friction) + "; accepted: at most that");
+  }
+  if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
+  if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
+  if (const Json* value = json.find("color")) material.look.color = readColor(*value);
+  if (const Json* value = json.find("checker")) material.look.checker = value->asBoolean();
+  return material;
+}
+
+Materials readMaterials(const Json& json) {
+  Materials materials;
+  for (const auto& [name, value] : json.members()) materials[name] = readMaterial(value);
+  return materials;
+}
+
+NamedMaterial chooseMaterial(const Json& json, const Materials& materials) {
+  if (json.kind() == Json::Kind::kObject) return readMaterial(json);
+  const std::string& name = json.asString();
+  const auto found = materials.find(name);
+  if (found != materials.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, unused] : materials) names.push_back(known);
+  json.fail("unknown material \"" + name + "\"" + acceptedNames(name, names));
+}
+
+// Shapes: one of box, sphere, capsule, hull, compound.
+
+HullShape readHull(const Json& json, const std::filesystem::path& scene_file) {
+  json.onlyKeys({"file", "points", "scale", "fit", "replaceable"});
+  HullShape hull;
+  const Json* file = json.find("file");
+  const Json* points = json.find("points");
+  if ((file == nullptr) == (points == nullptr)) json.fail("accepted: either \"file\" or \"points\"");
+  if (file != nullptr) {
+    const std::optional<std::filesystem::path> found = findBeside(scene_file, file->asString());
+    if (!found) file->fail("no file " + file->shown() + " beside the scene or in the assets folder");
+    hull.file = *found;
+  }
+  if (points != nullptr)
+    for (const Json& point : points->items()) hull.points.push_back(readVec3(point, kCoordinate));
+  if (const Json* scale = json.find("scale")) hull.scale = readNumber(*scale, {1e-9, 1e9});
+  if (const Json* fit = json.find("fit")) {
+    if (json.find("scale") != nullptr) fit->fail("given together with \"scale\"; accepted: one of them");
+    hull.fit_m = readNumber(*fit, kLength);
+  }
+  if (const Json* replaceable = json.find("replaceable")) {
+    hull.replaceable = replaceable->asBoolean();
+    if (hull.replaceable && file == nullptr) replaceable->fail("only a hull with a \"file\" can be replaced");
+  }
+  return hull;
+}
+
+Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound = false);
+
+CompoundShape readCompound(const Json& json, const std::filesystem::path& file) {
+  CompoundShape compound;
+  for (const Json& item : json.items()) {
+    item.onlyKeys({"shape", "position", "rotation"});
+    compound.parts.push_back({readShape(item.at("shape"), file, true), readPose(item)});
+  }
+  if (compound.parts.empty()) json.fail("a compound needs at least one part");
+  return compound;
+}
+
+Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound) {
+  json.onlyKeys({"box", "sphere", "capsule", "hull", "compound"});
+  if (json.members().size() != 1) json.fail("accepted: exactly one of box, sphere, capsule, hull, compound");
+  const auto& [kind, value] = json.members().front();
+  Shape shape;
+  shape.place = placeOf(value, file);
+  if (kind == "box") {
+    shape.form = BoxShape{readVec3(value, kLength)};
+  } else if (kind == "sphere") {
+    value.onlyKeys({"radius"});
+    shape.form = SphereShape{readNumber(value.at("radius"), kLength)};
+  } else if (kind == "capsule") {
+    value.onlyKeys({"radius", "length"});
+    shape.form = CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
+  } else if (kind == "hull") {
+    shape.form = readHull(value, file);
+  } else {
+    if (inside_compound) value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull");
+    shape.form = readCompound(value, file);
+  }
+  return shape;
+}
+
+// Bodies.
+
+Repeat readRepeat(const Json& json) {
+  json.onlyKeys({"count", "step", "jitter", "jitterDegrees"});
+  Repeat repeat;
+  const Json& count = json.at("count");
+  if (count.items().size() != 3) count.fail(count.shown() + " has " + std::to_string(count.items().size()) + " numbers; accepted: three");
+  double total = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    repeat.count[i] = readWhole(count.items()[i], 1, kMostBodies);
+    total *= repeat.count[i];
+  }
+  if (total > kMostBodies) count.fail(count.shown() + " makes too many bodies; accepted: at most " + std::to_string(kMostBodies));
+  repeat.step_m = readVec3(json.at("step"), kCoordinate);
+  if (const Json* jitter = json.find("jitter")) repeat.jitter_m = readNumber(*jitter, {0.0, kLargestLength_m});
+  if (const Json* jitter = json.find("jitterDegrees")) repeat.jitter_degrees = readNumber(*jitter, {0.0, 180.0});
+  return repeat;
+}
+
+Body readBody(const Json& json, const Materials& materials, const std::filesystem::path& file) {
+  json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material", "color",
+                 "static", "repeat"});
+  Body body;
+  body.place = placeOf(json, file);
+  body.name = json.at("name").asString();
+  if (body.name.empty()) json.at("name").fail("a body needs a name");
+  body.shape = readShape(json.at("shape"), file);
+  body.X_WS = readPose(json);
+  if (const Json* velocity = json.find("linearVelocity")) body.linear_velocity = readVec3(*velocity, kSpeed);
+  if (const Json* velocity = json.find("angularVelocity")) body.angular_velocity = readVec3(*velocity, kSpeed);
+  if (const Json* is_static = json.find("static")) body.is_static = is_static->asBoolean();
+  if (const Json* material = json.find("material")) {
+    const NamedMaterial chosen = chooseMaterial(*material, materials);
+    body.material = chosen.physical;
+    body.look = chosen.look;
+    if (!body.is_static && !(body.material.density_kgpm3 > 0.0))
+      material->fail("density " + plainNumber(body.material.density_kgpm3) + " for a body that moves; accepted: above 0");
+  }
+  if (const Json* color = json.find("color")) body.colors = readColors(*color);
+  if (const Json* repeat = json.find("repeat")) body.repeat = readRepeat(*repeat);
+  if (body.is_static && (!body.linear_velocity.isZero(0.0) || !body.angular_velocity.isZero(0.0)))
+    json.fail("a static body has no velocity; accepted: leave out linearVelocity and angularVelocity");
+  return body;
+}
+
+std::vector<Body> readBodies(const Json& json, const Materials& materials, const std::filesystem::path& file) {
+  std::vector<Body> bodies;
+  std::set<std::string> names;
+  int total = 0;
+  for (const Json& item : json.items()) {
+    bodies.push_back(readBody(item, materials, file));
+    if (!names.insert(bodies.back().name).second) item.at("name").fail(item.at("name").shown() + " names two bodies");
+    total += bodies.back().repeat.total();
+    if (total > kMostBodies) item.fail("more bodies than " + std::to_string(kMostBodies));
+  }
+  if (bodies.empty()) json.fail("a scene needs at least one body");
+  return bodies;
+}
+
+renderer::Camera readCamera(const Json& json) {
+  json.onlyKeys({"eye", "target", "fovDegrees"});
+  renderer::Camera camera;
+  camera.eye = readVec3(json.at("eye"), kCoordinate);
+  camera.target = readVec3(json.at("target"), kCoordinate);
+  if (!((camera.eye - camera.target).norm() > kSmallestLength_m)) json.fail("eye and target coincide");
+  if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, {1.0, 150.0});
+  return camera;
+}
+
+void readFormat(const Json& json) {
+  if (json.at("format").asNumber() != 1.0) json.at("format").fail(json.at("format").shown() + " is unknown; accepted: 1");
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& path) {
+  const Json json = Json::parse(text, path.string());
+  json.onlyKeys({"format", "description", "gravity", "rate", "seed", "materials", "bodies", "cameras", "duration"});
+  readFormat(json);
+  Scene scene;
+  scene.name = path.stem().string();
+  scene.file = path;
+  if (const Json* value = json.find("description")) scene.description = value->asString();
+  if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
+  if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
+  if (const Json* value = json.find("seed")) scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
+  if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
+  Materials materials;
+  if (const Json* value = json.find("materials")) materials = readMaterials(*value);
+  scene.bodies = readBodies(json.at("bodies"), materials, path);
+  if (const Json* value = json.find("cameras"))
+    for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera);
+  if (scene.cameras.empty()) scene.cameras["main"] = renderer::Camera();
+  return scene;
+}
+
+Scene readSceneFile(const std::filesystem::path& path) {
+  return parseScene(readTextFile(path), path);
+}
+
+}  // namespace carom::demos

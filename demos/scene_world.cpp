@@ -1,0 +1,148 @@
+#include "demos/scene_world.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "demos/asset_path.h"
+#include "demos/content_hash.h"
+#include "demos/shape_solid.h"
+#include "engine/foundation/contract.h"
+#include "engine/foundation/elementary.h"
+
+namespace carom::demos {
+namespace {
+
+using Mesh = std::optional<std::filesystem::path>;
+constexpr double kPi = 3.14159265358979323846;
+
+/// SplitMix64 (Steele, Lea, Flood 2014), one stream for each copy of a body.
+class JitterStream {
+ public:
+  JitterStream(std::uint64_t seed, std::size_t body, int copy)
+      : state_(seed * 0x9e3779b97f4a7c15ull + body * 0xbf58476d1ce4e5b9ull + static_cast<std::uint64_t>(copy)) {
+    next();
+  }
+  /// Uniform in [-1, 1), a multiple of 2^-52: no rounding, the same on every machine.
+  double signedUnit() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1.0; }
+  /// A direction, uniform on the sphere: the first of a bounded number of points of the cube that lies in the ball.
+  Vec3 direction() {
+    for (int i = 0; i < 64; ++i) {
+      const Vec3 p = vector();
+      if (p.squaredNorm() < 1.0 && p.squaredNorm() > 1e-4) return p.normalized();
+    }
+    return Vec3::UnitZ();
+  }
+  Vec3 vector() {
+    const double x = signedUnit();
+    const double y = signedUnit();
+    return {x, y, signedUnit()};
+  }
+
+ private:
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+Pose poseOfCopy(const Body& body, std::uint64_t seed, std::size_t index, int copy) {
+  const Repeat& repeat = body.repeat;
+  const Vec3 cell(copy % repeat.count[0], copy / repeat.count[0] % repeat.count[1], copy / (repeat.count[0] * repeat.count[1]));
+  JitterStream random(seed, index, copy);
+  Pose X_WS = body.X_WS;
+  X_WS.position += cell.cwiseProduct(repeat.step_m) + repeat.jitter_m * random.vector();
+  if (repeat.jitter_degrees > 0.0) {
+    const Vec3 axis = random.direction();
+    const double radians = repeat.jitter_degrees * kPi / 180.0 * random.signedUnit();
+    X_WS.rotation = (rotationBy(axis * radians) * X_WS.rotation).normalized();
+  }
+  return X_WS;
+}
+
+bool isReplaceable(const Shape& shape) {
+  if (const auto* hull = std::get_if<HullShape>(&shape.form)) return hull->replaceable;
+  if (const auto* compound = std::get_if<CompoundShape>(&shape.form)) {
+    for (const CompoundPart& part : compound->parts)
+      if (isReplaceable(part.shape)) return true;
+  }
+  return false;
+}
+
+void requireReplaceableHull(const Scene& scene) {
+  for (const Body& body : scene.bodies)
+    if (isReplaceable(body.shape)) return;
+  throw InputError(scene.file.string() + ": takes no --mesh: no hull in it says \"replaceable\": true");
+}
+
+void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh) {
+  const Body& body = scene.bodies[index];
+  const int solid = made.world.addSolid(makeSolid(body.shape, mesh));
+  const Pose X_SB{Quat::Identity(), -made.world.solids()[static_cast<std::size_t>(solid)].origin_B()};
+  for (int copy = 0; copy < body.repeat.total(); ++copy) {
+    BodyDescription description;
+    description.solid = solid;
+    description.X_WB = poseOfCopy(body, scene.seed, index, copy) * X_SB;
+    description.linear_velocity = body.linear_velocity;
+    description.angular_velocity = body.angular_velocity;
+    description.material = body.material;
+    description.is_static = body.is_static;
+    made.world.addBody(description);
+    made.names.push_back(body.repeat.total() == 1 ? body.name : body.name + "[" + std::to_string(copy) + "]");
+    made.looks.push_back(body.look);
+    if (!body.colors.empty()) made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
+  }
+}
+
+[[noreturn]] void refuseOverlaps(const SceneWorld& made, const Scene& scene, const std::vector<Overlap>& overlaps) {
+  const Overlap& worst = overlaps.front();
+  std::ostringstream message;
+  message << scene.file.string() << ": \"" << made.names[static_cast<std::size_t>(worst.body_a)] << "\" and \""
+          << made.names[static_cast<std::size_t>(worst.body_b)] << "\" overlap at the start by " << worst.depth_m
+          << " m";
+  if (overlaps.size() > 1) message << " (the deepest of " << overlaps.size() << " pairs)";
+  message << "; accepted: apart, or just touching";
+  throw InputError(message.str());
+}
+
+void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {
+  if (const auto* hull = std::get_if<HullShape>(&shape.form)) {
+    if (!hull->file.empty()) hash.add(readTextFile(hull->replaceable && mesh ? *mesh : hull->file));
+  } else if (const auto* compound = std::get_if<CompoundShape>(&shape.form)) {
+    for (const CompoundPart& part : compound->parts) addMeshFiles(hash, part.shape, mesh);
+  }
+}
+
+}  // namespace
+
+SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh) {
+  if (mesh) requireReplaceableHull(scene);
+  WorldSettings settings;
+  settings.step_s = 1.0 / scene.rate_hz;
+  settings.gravity = scene.gravity;
+  SceneWorld made{World(settings), {}, {}};
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);
+  const std::vector<Overlap> overlaps = made.world.start();
+  if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);
+  return made;
+}
+
+std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::span<const BodyState> states) {
+  std::vector<renderer::Instance> instances;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    instances.push_back({scene.world.bodies()[i].solid, states[i].X_WB, scene.looks[i].color, scene.looks[i].checker});
+  return instances;
+}
+
+std::uint64_t sceneHash(const Scene& scene, const Mesh& mesh) {
+  ContentHash hash;
+  hash.add(readTextFile(scene.file));
+  for (const Body& body : scene.bodies) addMeshFiles(hash, body.shape, mesh);
+  hash.add(std::to_string(scene.seed));
+  return hash.value();
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,34 @@
+#pragma once
+// From a described scene to a world that is ready to step, with the names and looks of its bodies beside it.
+// Repeated bodies are laid out here; their jitter comes from an integer generator of our own, so that a seed gives the
+// same scene everywhere. Tested in tests/demos/scene_world_test.cpp.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demos/scene.h"
+#include "engine/simulation/world.h"
+#include "renderer/frame_renderer.h"
+
+namespace carom::demos {
+
+/// Indices are those of the world's bodies.
+struct SceneWorld {
+  World world;
+  std::vector<std::string> names;  ///< "crate", or "crate[7]" for the copies of a repeated body.
+  std::vector<SurfaceLook> looks;
+};
+
+/// Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no volume, and
+/// when bodies overlap at the start (both named, with the depth).
+SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh);
+
+/// What the renderer is to draw for these states of the scene's bodies.
+std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::span<const BodyState> states);
+
+/// Fingerprint of the scene's file, its meshes' files and its seed.
+std::uint64_t sceneHash(const Scene& scene, const std::optional<std::filesystem::path>& mesh);
+
+}  // namespace carom::demos

@@ -1,0 +1,41 @@
+#pragma once
+// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping.
+// Tested in tests/engine/broad_phase/candidate_pairs_test.cpp.
+
+#include <span>
+#include <vector>
+
+#include "engine/foundation/frames.h"
+
+namespace carom {
+
+struct Bounds {
+  Vec3 low = Vec3::Zero();
+  Vec3 high = Vec3::Zero();
+
+  bool overlaps(const Bounds& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  bool contains(const Bounds& other) const {
+    return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
+  }
+};
+
+/// One thing to pair: things of one group never pair with each other, nor do two that don't move.
+struct Proxy {
+  Bounds bounds;
+  int group = 0;
+  bool moves = true;
+};
+
+struct IndexPair {
+  int a = -1;
+  int b = -1;  ///< a < b.
+  friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
+};
+
+/// All overlapping pairs in ascending order. Cost O(n log n + overlaps along the sweep axis).
+std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies);
+bool canPair(const Proxy& p, const Proxy& q);
+
+}  // namespace carom

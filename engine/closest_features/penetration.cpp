@@ -1,0 +1,113 @@
+#include "engine/closest_features/penetration.h"
+
+#include <limits>
+
+namespace carom {
+namespace {
+
+// Edges closer to parallel than this give no axis of their own: the faces beside them give it better.
+constexpr double kParallelSine = 1e-10;
+
+// The largest gap along the face normals of the pair's A; false in `swap` order.
+void tryFaces(const PolyhedronPair& pair, MinimumTranslation& best, bool swap) {
+  int far = 0;
+  for (int f = 0; f < pair.a.faceCount(); ++f) {
+    const Plane& plane = pair.a.plane(f);
+    far = pair.b.support(-(pair.R_AB.transpose() * plane.normal), far);
+    const Vec3 p = pair.toA(pair.b.vertex(far));
+    const double gap = plane.signedDistance(p);
+    if (gap <= best.gap_m) continue;
+    const Vec3 foot = p - gap * plane.normal;
+    if (!swap) {
+      best = {gap, plane.normal, {faceFeature(f), vertexFeature(far)}, foot, p};
+    } else {  // the pair's A is the caller's B: turn everything round and into the caller's frame
+      const Vec3 n = pair.R_AB.transpose() * plane.normal;
+      best = {gap, -n, {vertexFeature(far), faceFeature(f)}, pair.toB(p), pair.toB(foot)};
+    }
+  }
+}
+
+// An edge of B in the frame of A, with its faces' normals negated: its arc on the Gauss map of the difference A - B.
+struct EdgeOfB {
+  int index;
+  Vec3 tail, direction, arc_left, arc_right;
+  bool has_faces;
+};
+
+EdgeOfB edgeOfB(const PolyhedronPair& pair, int e) {
+  const Edge& edge = pair.b.edge(e);
+  EdgeOfB result{e, pair.toA(pair.b.vertex(edge.tail)), pair.R_AB * edge.direction, Vec3::Zero(), Vec3::Zero(), edge.left >= 0};
+  if (result.has_faces) {
+    result.arc_left = -(pair.R_AB * pair.b.plane(edge.left).normal);
+    result.arc_right = -(pair.R_AB * pair.b.plane(edge.right).normal);
+  }
+  return result;
+}
+
+// Whether two edges make a face of the Minkowski difference: their arcs cross on the Gauss map. The left and right
+// normals of a convex edge satisfy n_l x n_r = sin(angle) * direction, so the directions stand for the arcs' planes.
+// A segment has no faces: its arc is the whole great circle.
+bool makesMinkowskiFace(const ConvexPolyhedron& a, const Edge& e1, const EdgeOfB& e2) {
+  double left2 = 0.0;
+  double right1 = 0.0;
+  if (e2.has_faces) {
+    left2 = e2.arc_left.dot(e1.direction);
+    if (left2 * e2.arc_right.dot(e1.direction) >= 0.0) return false;
+  }
+  if (e1.left >= 0) {
+    right1 = a.plane(e1.right).normal.dot(e2.direction);
+    if (right1 * a.plane(e1.left).normal.dot(e2.direction) >= 0.0) return false;
+  }
+  // Both arcs cross the other's great circle; the same hemisphere makes it a crossing and not its antipode.
+  return !e2.has_faces || e1.left < 0 || left2 * right1 > 0.0;
+}
+
+// A direction that leans outwards from A at the crossing of two edges.
+Vec3 outwardHint(const PolyhedronPair& pair, const Edge& e1, const EdgeOfB& e2) {
+  if (e1.left >= 0) return pair.a.plane(e1.left).normal + pair.a.plane(e1.right).normal;
+  if (e2.has_faces) return e2.arc_left + e2.arc_right;
+  return e2.tail - pair.a.vertex(e1.tail);
+}
+
+void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
+  for (int i2 = 0; i2 < pair.b.edgeCount(); ++i2) {
+    const EdgeOfB e2 = edgeOfB(pair, i2);
+    for (int i1 = 0; i1 < pair.a.edgeCount(); ++i1) {
+      const Edge& e1 = pair.a.edge(i1);
+      if (!makesMinkowskiFace(pair.a, e1, e2)) continue;
+      const Vec3 cross = e1.direction.cross(e2.direction);
+      const double sine = cross.norm();
+      if (sine < kParallelSine) continue;
+      Vec3 n = cross / sine;
+      if (n.dot(outwardHint(pair, e1, e2)) < 0.0) n = -n;
+      const Vec3& p1 = pair.a.vertex(e1.tail);
+      const double gap = n.dot(e2.tail - p1);
+      if (gap <= best.gap_m) continue;
+      // The feet of the common perpendicular of the two lines.
+      const double s1 = (e2.tail - p1).cross(e2.direction).dot(cross) / (sine * sine);
+      const Vec3 foot = p1 + s1 * e1.direction;
+      best = {gap, n, {edgeFeature(i1), edgeFeature(i2)}, foot, foot + gap * n};
+    }
+  }
+}
+
+}  // namespace
+
+MinimumTranslation minimumTranslation(const PolyhedronPair& pair) {
+  MinimumTranslation best;
+  best.gap_m = -std::numeric_limits<double>::infinity();
+  tryFaces(pair, best, false);
+  tryFaces(pair.swapped(), best, true);
+  tryEdges(pair, best);
+  if (best.gap_m > -std::numeric_limits<double>::infinity()) return best;
+  // Cores without faces or crossing edges that meet (balls with one centre, capsules on one line): any direction
+  // across them separates the cores, so the rounding radii alone make the depth.
+  best.gap_m = 0.0;
+  best.features = {vertexFeature(0), vertexFeature(0)};
+  if (pair.a.edgeCount() > 0) best.normal = tangentBasis(pair.a.edge(0).direction).t1;
+  else if (pair.b.edgeCount() > 0) best.normal = tangentBasis(pair.R_AB * pair.b.edge(0).direction).t1;
+  best.p_a = best.p_b = pair.a.vertex(0);
+  return best;
+}
+
+}  // namespace carom

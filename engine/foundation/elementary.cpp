@@ -1,0 +1,48 @@
+#include "engine/foundation/elementary.h"
+
+#include <cmath>
+
+namespace carom {
+namespace {
+
+// pi/2 in two pieces, the first with 33 significant bits: quarter * kHalfPiHigh is exact up to 2^20 quarters.
+constexpr double kHalfPiHigh = 0x1.921fb544p+0;
+constexpr double kHalfPiLow = 0x1.0b4611a626331p-34;
+constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
+
+// Taylor sums on |x| <= pi/4: the first term left out is below 1e-17.
+double sineNear(double x) {
+  const double s = x * x;
+  return x * (1.0 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 +
+         s * (-1.0 / 39916800 + s * (1.0 / 6227020800.0 + s * (-1.0 / 1307674368000.0))))))));
+}
+double cosineNear(double x) {
+  const double s = x * x;
+  return 1.0 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800 +
+         s * (1.0 / 479001600 + s * (-1.0 / 87178291200.0 + s * (1.0 / 20922789888000.0))))))));
+}
+
+}  // namespace
+
+SineCosine sineCosine(double angle) {
+  const double quarter = std::nearbyint(angle * kTwoOverPi);
+  const double x = (angle - quarter * kHalfPiHigh) - quarter * kHalfPiLow;
+  const double s = sineNear(x);
+  const double c = cosineNear(x);
+  switch (static_cast<long long>(quarter) & 3) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+  }
+}
+
+Quat rotationBy(const Vec3& rotation) {
+  const double angle = rotation.norm();
+  const SineCosine half = sineCosine(0.5 * angle);
+  // sin(x/2)/x tends to 1/2.
+  const double scale = angle > 1e-9 ? half.sine / angle : 0.5;
+  return Quat(half.cosine, scale * rotation.x(), scale * rotation.y(), scale * rotation.z());
+}
+
+}  // namespace carom

@@ -1,0 +1,19 @@
+#pragma once
+// Elementary functions whose bits we own: only additions and multiplications in a fixed order, so that the state of a
+// simulation does not depend on the C library. Tested in tests/engine/foundation/elementary_test.cpp.
+
+#include "engine/foundation/frames.h"
+
+namespace carom {
+
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+/// Sine and cosine of an angle in radians, within 2 ulp of one for |angle| <= 1e5.
+SineCosine sineCosine(double angle);
+
+/// The rotation by |rotation| radians about the direction of `rotation` (exponential map).
+Quat rotationBy(const Vec3& rotation);
+
+}  // namespace carom

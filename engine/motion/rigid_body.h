@@ -1,0 +1,38 @@
+#pragma once
+// Mass and velocity of a rigid body, and torque-free rotation.
+// Tested in tests/engine/motion/rigid_body_test.cpp.
+
+#include "engine/foundation/frames.h"
+
+namespace carom {
+
+/// Constant for a body; a static body has both inverses zero.
+struct Inertia {
+  double mass_kg = 0.0;
+  double inverse_mass = 0.0;
+  Mat3 tensor_B = Mat3::Zero();          ///< kg m^2 about the centre of mass.
+  Mat3 inverse_tensor_B = Mat3::Zero();
+};
+Inertia inertiaOf(double density_kgpm3, double volume, const Mat3& unit_inertia);
+
+struct Velocity {
+  Vec3 linear = Vec3::Zero();   ///< m/s of the centre of mass.
+  Vec3 angular = Vec3::Zero();  ///< rad/s, world frame.
+
+  /// v = v_lin + omega x r (DEVIATES: the paper prints r x v_ang, the sign of a left-handed convention).
+  Vec3 at(const Vec3& r_W) const { return linear + angular.cross(r_W); }
+};
+
+Mat3 inverseTensorInWorld(const Inertia& inertia, const Quat& R_WB);
+/// I omega, world frame.
+Vec3 angularMomentum(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity);
+/// The angular velocity that carries angular momentum L in an orientation.
+Vec3 angularVelocity(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum);
+double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& velocity);
+
+/// The constant spin that carries a free body from `R_WB` through `dt_s` seconds: the implicit midpoint rule on the
+/// rotation group. Time-reversible, second order; with omega recomputed from the conserved angular momentum at the
+/// end, that momentum is exact and the energy stays bounded.
+Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
+
+}  // namespace carom

@@ -1,0 +1,74 @@
+#include "engine/response/collision.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace carom {
+namespace {
+
+constexpr int kSweeps = 2000;
+constexpr double kConverged = 1e-13;  // of the approach speed
+
+// 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
+double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before, std::span<const ImpulseBody> bodies) {
+  double gain = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) gain += rows[i].impulse.dot(before[i] + rowVelocity(rows[i], bodies));
+  return gain;
+}
+
+// Takes back the share of the restitution phase that would leave more energy than there was. Velocities between the
+// end of compression and the end of restitution are linear in the share, so the energy is a convex parabola of it.
+void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before, const std::vector<Vec3>& compressed,
+                    std::span<ImpulseBody> bodies) {
+  std::vector<Vec3> whole(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) whole[i] = rows[i].impulse;
+  const auto setShare = [&](double share) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Vec3 impulse = compressed[i] + share * (whole[i] - compressed[i]);
+      applyToRow(rows[i], impulse - rows[i].impulse, bodies);
+      rows[i].impulse = impulse;
+    }
+  };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    setShare(middle);
+    (twiceEnergyGain(rows, before, bodies) <= 0.0 ? low : high) = middle;
+  }
+  setShare(low);
+}
+
+}  // namespace
+
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double restitution) {
+  CollisionReport report;
+  std::vector<Vec3> before(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    before[i] = rowVelocity(rows[i], bodies);
+    report.approach_mps = std::min(report.approach_mps, before[i].x());
+    rows[i].lowest_speed = 0.0;
+  }
+  const SolverSettings settings{kSweeps, kConverged * -report.approach_mps, true};
+  solveContacts(rows, bodies, settings);
+
+  if (restitution > 0.0) {
+    std::vector<Vec3> compressed(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      compressed[i] = rows[i].impulse;
+      const double rebound = restitution * rows[i].impulse.x();
+      applyToRow(rows[i], Vec3(rebound, 0.0, 0.0), bodies);
+      rows[i].impulse.x() += rebound;
+      rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution * std::min(before[i].x(), 0.0) : 0.0;
+    }
+    solveContacts(rows, bodies, settings);
+    if (twiceEnergyGain(rows, before, bodies) > 0.0) {
+      report.restitution_cut = true;
+      cutRestitution(rows, before, compressed, bodies);
+    }
+  }
+  for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
+  return report;
+}
+
+}  // namespace carom

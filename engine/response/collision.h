@@ -1,0 +1,23 @@
+#pragma once
+// A collision of two bodies at one or more points (paper §2.1 and §2.4) with restitution and Coulomb friction:
+// compression to rest with friction, then every compressed point leaves with e times its approach speed, friction
+// acting on. For a single frictionless point this is the paper's j. Kinetic energy never grows: compression with
+// friction only dissipates, and restitution is cut back where it would return more than was there.
+// Tested in tests/engine/response/collision_test.cpp.
+
+#include <span>
+
+#include "engine/response/contact_solver.h"
+
+namespace carom {
+
+struct CollisionReport {
+  double approach_mps = 0.0;   ///< The most negative separating speed before.
+  double impulse_Ns = 0.0;     ///< Sum of the normal impulses.
+  bool restitution_cut = false;
+};
+
+/// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to.
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double restitution);
+
+}  // namespace carom

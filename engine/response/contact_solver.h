@@ -1,0 +1,60 @@
+#pragma once
+// Simultaneous impulses at many contact points: block Gauss-Seidel on accumulated impulses with the true Coulomb cone
+// (paper §2.4: an impulse at every colliding point; §3: friction in every collision).
+// For each row: separating speed >= `lowest_speed`, normal impulse >= 0, complementary; the friction impulse opposes
+// the sliding velocity, at most the static coefficient's share when it can hold the point, else the dynamic one's.
+// Order matters to the path, not to the converged answer; rows are swept forwards and backwards in turn.
+// Tested in tests/engine/response/contact_solver_test.cpp.
+
+#include <span>
+#include <vector>
+
+#include "engine/response/impulse.h"
+
+namespace carom {
+
+struct Friction {
+  double static_coefficient = 0.0;
+  double dynamic_coefficient = 0.0;
+};
+
+/// One contact point between bodies a and b of the solver's list.
+struct ContactRow {
+  int a = -1;
+  int b = -1;
+  Vec3 n = Vec3::UnitZ();  ///< Unit, A to B.
+  Vec3 r_a = Vec3::Zero();
+  Vec3 r_b = Vec3::Zero();
+  Friction friction;
+  double lowest_speed = 0.0;  ///< m/s: the separating speed must not be below this.
+  Vec3 impulse = Vec3::Zero();  ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
+
+  // Filled by `prepareRow`.
+  Vec3 t1 = Vec3::UnitX();
+  Vec3 t2 = Vec3::UnitY();
+  Mat3 response = Mat3::Zero();  ///< K in the frame (n, t1, t2).
+};
+
+void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
+/// World-frame impulse on B for an impulse in the row's frame.
+inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {
+  return impulse.x() * row.n + impulse.y() * row.t1 + impulse.z() * row.t2;
+}
+void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies);
+/// (separating, t1, t2) velocity of B relative to A, m/s.
+Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies);
+
+struct SolverSettings {
+  int sweeps = 0;              ///< At most.
+  double residual_mps = 0.0;   ///< A sweep that changes no row's speed by more has converged.
+  bool friction = true;
+};
+
+struct SolverReport {
+  int sweeps = 0;
+  double residual_mps = 0.0;  ///< The largest change of speed in the last sweep.
+};
+
+SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings);
+
+}  // namespace carom

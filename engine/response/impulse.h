@@ -1,0 +1,32 @@
+#pragma once
+// The impulse of one contact point (paper §2.1, after Baraff): how bodies answer to an impulse at a point, and the
+// frictionless j of the paper's formula. DEVIATES: -(1 + e) for the printed -(1 - e), and n . [(J^-1 (r x n)) x r]
+// with the world-frame tensor for the printed (r x n)^2 / J.
+// Tested in tests/engine/response/impulse_test.cpp.
+
+#include "engine/motion/rigid_body.h"
+
+namespace carom {
+
+/// A body as impulses see it, world frame. A body that cannot move has zero inverses.
+struct ImpulseBody {
+  Velocity velocity;
+  Vec3 center = Vec3::Zero();
+  double inverse_mass = 0.0;
+  Mat3 inverse_tensor = Mat3::Zero();
+
+  /// Changes the velocity by an impulse (N s) at arm r from the centre of mass.
+  void apply(const Vec3& impulse, const Vec3& r) {
+    velocity.linear += inverse_mass * impulse;
+    velocity.angular += inverse_tensor * r.cross(impulse);
+  }
+};
+
+/// K, 1/kg: the change of the relative velocity at a point is K times the impulse on B (and its opposite on A).
+Mat3 collisionMatrix(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b);
+
+/// The paper's j, N s along n (A to B): brings the separating speed u to -e u. Zero when u >= 0.
+double frictionlessImpulse(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b, const Vec3& n,
+                           double restitution);
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+#pragma once
+// What the world keeps of a body and of its parts. Internal to the simulation floor.
+
+#include "engine/motion/rigid_body.h"
+#include "engine/motion/trajectory.h"
+#include "engine/response/impulse.h"
+#include "engine/simulation/world.h"
+
+namespace carom {
+
+/// How a body travels through the current step.
+enum class Travel : std::uint8_t {
+  kStill,      ///< Static or resting.
+  kBallistic,  ///< Free flight: gravity acts along the path.
+  kCarried,    ///< In lasting contact: gravity was given at the start of the step (paper §2.4).
+  kHeld        ///< Stopped at its last safe time for the rest of the step.
+};
+
+struct Body {
+  Inertia inertia;
+  Material material;
+  double radius_m = 0.0;
+  bool is_static = false;
+  bool resting = false;
+  int rest_island = -1;
+  double still_s = 0.0;  ///< For how long it has lain still.
+  Mode mode = Mode::kFree;
+
+  Pose X_WB;          ///< At the time of the last finished step.
+  Velocity velocity;  ///< At the time of the last finished step.
+
+  // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They differ in
+  // lasting contact, where the path also reopens gaps without giving the body energy.
+  Travel travel = Travel::kStill;
+  Trajectory path;
+  Velocity momentum_velocity;  ///< At path.start_s.
+  int events = 0;
+  bool collided = false;
+
+  bool moves() const { return !is_static && !resting; }
+
+  /// The velocity impulses act on, at a time not before path.start_s.
+  Velocity velocityAt(double t_s) const {
+    Velocity v = momentum_velocity;
+    if (travel == Travel::kBallistic) v.linear += (t_s - path.start_s) * path.acceleration;
+    if (!v.angular.isZero(0.0))
+      v.angular = angularVelocity(inertia, path.at(t_s).rotation, angularMomentum(inertia, path.X_WB.rotation, v.angular));
+    return v;
+  }
+
+  ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {
+    return {v, X.position, inertia.inverse_mass, is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
+  }
+};
+
+/// One convex part of one body: what the broad phase pairs.
+struct Shape {
+  int body = -1;
+  const ConvexPart* part = nullptr;
+  double reach_m = 0.0;  ///< The largest distance of the core from the body's centre of mass.
+};
+
+}  // namespace carom

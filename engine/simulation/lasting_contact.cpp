@@ -1,0 +1,177 @@
+#include "engine/simulation/lasting_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/approach.h"
+#include "engine/environment/gravity.h"
+
+namespace carom {
+namespace {
+
+constexpr int kPathSweeps = 20;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Which row belongs to which pair's manifold point.
+struct RowSource {
+  std::size_t pair;
+  std::uint64_t id;
+  double gap_m;
+};
+
+struct Assembly {
+  LastingContacts contacts;
+  std::vector<RowSource> sources;
+};
+
+void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
+  for (int i = 0; i < pair.remembered_count; ++i) {
+    if (pair.remembered[at(i)].id != id) continue;
+    const Vec3& impulse = pair.remembered[at(i)].impulse_W;
+    row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
+    return;
+  }
+}
+
+void addRows(Assembly& assembly, std::size_t index, const ShapePair& pair, const std::vector<Body>& bodies,
+             const std::vector<Shape>& shapes, const WorldSettings& settings) {
+  const Body& a = bodies[at(pair.body_a)];
+  const Body& b = bodies[at(pair.body_b)];
+  const ContactManifold manifold = contactManifold(pair.closest, *shapes[at(pair.shapes.a)].part, a.X_WB,
+                                                   *shapes[at(pair.shapes.b)].part, b.X_WB, pair.window);
+  for (const ManifoldPoint& point : manifold.view()) {
+    // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution.
+    const double speed = separatingSpeed(a.velocity, a.X_WB.position, b.velocity, b.X_WB.position, point.p_W, manifold.n_W);
+    if (speed < -pair.collision_speed_mps) continue;
+    ContactRow row;
+    row.a = pair.body_a;
+    row.b = pair.body_b;
+    row.n = manifold.n_W;
+    row.r_a = point.p_W - a.X_WB.position;
+    row.r_b = point.p_W - b.X_WB.position;
+    row.friction = combinedFriction(a.material, b.material);
+    row.lowest_speed = std::min(0.0, (pair.window.rest - point.gap_m) / settings.step_s);
+    prepareRow(row, assembly.contacts.bodies);
+    warmStart(row, pair, point.id);
+    assembly.contacts.rows.push_back(row);
+    assembly.sources.push_back({index, point.id, point.gap_m});
+  }
+}
+
+Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
+                  const WorldSettings& settings) {
+  Assembly assembly;
+  assembly.contacts.touched.assign(bodies.size(), 0);
+  for (const Body& body : bodies) assembly.contacts.bodies.push_back(body.impulseBody(body.X_WB, body.velocity));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
+    if (!moves) continue;  // what a resting pair remembers, it keeps
+    if (isLasting(pairs[i], settings.step_s)) addRows(assembly, i, pairs[i], bodies, shapes, settings);
+    pairs[i].remembered_count = 0;
+  }
+  return assembly;
+}
+
+void giveGravity(LastingContacts& contacts, const std::vector<Body>& bodies, const WorldSettings& settings) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves()) contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
+}
+
+// The path of a pressed body: the mean of the velocities before and after, which is exact for constant friction, but
+// never into a gap: the same contacts once more, as bounds on the path alone, so that reopening a gap gives no energy.
+void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s) {
+  std::vector<ImpulseBody> paths = assembly.contacts.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!assembly.contacts.touched[i]) continue;
+    paths[i].velocity.linear = 0.5 * (bodies[i].velocity.linear + paths[i].velocity.linear);
+    paths[i].velocity.angular = 0.5 * (bodies[i].velocity.angular + paths[i].velocity.angular);
+  }
+  std::vector<ContactRow> rows = assembly.contacts.rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].impulse.setZero();
+    rows[i].lowest_speed = pathSpeed(assembly.sources[i].gap_m, pairs[assembly.sources[i].pair].window, step_s);
+  }
+  solveContacts(rows, paths, {kPathSweeps, 1e-9, false});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!assembly.contacts.touched[i]) continue;
+    bodies[i].travel = Travel::kCarried;
+    bodies[i].momentum_velocity = assembly.contacts.bodies[i].velocity;
+    bodies[i].path.velocity = paths[i].velocity.linear;
+    bodies[i].path.spin = paths[i].velocity.angular;
+    bodies[i].path.acceleration.setZero();
+  }
+}
+
+void remember(const Assembly& assembly, std::vector<ShapePair>& pairs) {
+  for (std::size_t i = 0; i < assembly.contacts.rows.size(); ++i) {
+    ShapePair& pair = pairs[assembly.sources[i].pair];
+    const ContactRow& row = assembly.contacts.rows[i];
+    pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, rowImpulse(row, row.impulse)};
+  }
+}
+
+}  // namespace
+
+void wake(Body& body) {
+  body.resting = false;
+  body.rest_island = -1;
+  body.still_s = 0.0;
+}
+
+void wakeIsland(std::vector<Body>& bodies, int island) {
+  for (Body& body : bodies)
+    if (body.resting && body.rest_island == island) wake(body);
+}
+
+void wakeTouched(std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s) {
+  for (bool changed = true; changed;) {  // every pass wakes an island, so this ends
+    changed = false;
+    for (const ShapePair& pair : pairs) {
+      const Body& a = bodies[at(pair.body_a)];
+      const Body& b = bodies[at(pair.body_b)];
+      if (!(a.resting && b.moves()) && !(b.resting && a.moves())) continue;
+      if (!isLasting(pair, step_s)) continue;
+      wakeIsland(bodies, a.resting ? a.rest_island : b.rest_island);
+      changed = true;
+    }
+  }
+}
+
+bool isLasting(const ShapePair& pair, double step_s) {
+  return pair.closest.distance_m <= pair.window.ceiling + pair.collision_speed_mps * step_s;
+}
+
+Friction combinedFriction(const Material& a, const Material& b) {
+  return {std::sqrt(a.static_friction * b.static_friction), std::sqrt(a.dynamic_friction * b.dynamic_friction)};
+}
+
+double combinedRestitution(const Material& a, const Material& b) { return std::max(a.restitution, b.restitution); }
+
+double pathSpeed(double gap_m, const CollisionWindow& window, double dt_s) {
+  const double missing = window.rest - gap_m;
+  if (missing <= 0.0) return missing / dt_s;
+  return std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed);
+}
+
+LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
+                                     const WorldSettings& settings, StepCounters& counters) {
+  Assembly assembly = assemble(bodies, shapes, pairs, settings);
+  LastingContacts& contacts = assembly.contacts;
+  giveGravity(contacts, bodies, settings);
+  for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
+  const double residual = tolerance::kSolverResidual * settings.gravity.norm() * settings.step_s;
+  solveContacts(contacts.rows, contacts.bodies, {tolerance::kSolverSweeps, residual, true});
+  for (const ContactRow& row : contacts.rows) {
+    if (row.impulse.isZero(0.0)) continue;
+    contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].moves()) contacts.touched[i] = 0;
+  setPaths(assembly, bodies, pairs, settings.step_s);
+  remember(assembly, pairs);
+  counters.contact_points = static_cast<int>(contacts.rows.size());
+  return std::move(assembly.contacts);
+}
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+#pragma once
+// Lasting contact (paper §2.4): bodies close together that approach slowly get gravity once per step and an impulse at
+// every point of contact, solved together; their paths for the step follow. Faster approaches are left to the time of
+// impact, which gives them their restitution. Internal to the simulation floor.
+// Tested through tests/engine/simulation/ and tests/physics/.
+
+#include <vector>
+
+#include "engine/response/contact_solver.h"
+#include "engine/simulation/pair_table.h"
+
+namespace carom {
+
+/// The contact rows of a step with where they came from; kept for the modes.
+struct LastingContacts {
+  std::vector<ContactRow> rows;
+  std::vector<ImpulseBody> bodies;  ///< One per body of the world, velocities after the solve.
+  std::vector<char> touched;        ///< Bodies that some row pressed.
+};
+
+/// Wakes the resting islands that a moving body is about to touch.
+void wakeTouched(std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s);
+
+/// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
+bool isLasting(const ShapePair& pair, double step_s);
+
+/// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must come with
+/// ballistic paths that start at the beginning of the step.
+LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
+                                     const WorldSettings& settings, StepCounters& counters);
+
+/// Makes a body that rested move again.
+void wake(Body& body);
+/// Wakes everything that came to rest together with a body.
+void wakeIsland(std::vector<Body>& bodies, int island);
+
+/// The contact coefficients of two materials: friction is the geometric mean, restitution the larger.
+Friction combinedFriction(const Material& a, const Material& b);
+double combinedRestitution(const Material& a, const Material& b);
+
+/// The separating speed at which a gap's path may run: reopening when it is below the rest gap, closing no further
+/// than to the rest gap when above.
+double pathSpeed(double gap_m, const CollisionWindow& window, double dt_s);
+
+}  // namespace carom

@@ -1,0 +1,154 @@
+#include "engine/simulation/pair_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/foundation/contract.h"
+
+namespace carom {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// The bounds of a part in a pose.
+Bounds boundsAt(const ConvexPart& part, const Pose& X) {
+  const Mat3 to_body = X.rotation.conjugate().toRotationMatrix();
+  Bounds bounds;
+  int v = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Vec3 direction = to_body.col(axis);
+    v = part.core.support(direction, v);
+    bounds.high[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] + part.radius_m;
+    v = part.core.support(-direction, v);
+    bounds.low[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] - part.radius_m;
+  }
+  return bounds;
+}
+
+// Everything the part can touch along its path: its bounds moved along the parabola and grown by what rotation can do.
+Bounds sweptBounds(const Shape& shape, const Trajectory& path, double end_s) {
+  Bounds bounds = boundsAt(*shape.part, path.X_WB);
+  const double dt = end_s - path.start_s;
+  const Vec3 travel = path.at(end_s).position - path.X_WB.position;
+  const double sag = 0.125 * path.acceleration.norm() * dt * dt;
+  const double turn = std::min(path.spin.norm() * dt, 2.0) * shape.reach_m;
+  const double margin = turn + sag;
+  bounds.low = bounds.low + travel.cwiseMin(0.0) - Vec3::Constant(margin);
+  bounds.high = bounds.high + travel.cwiseMax(0.0) + Vec3::Constant(margin);
+  return bounds;
+}
+
+// Room for the collision window, and for what contacts may do to the velocity within the step.
+Bounds widened(Bounds bounds, double margin) {
+  bounds.low.array() -= margin;
+  bounds.high.array() += margin;
+  return bounds;
+}
+
+double pairingMargin(const Shape& shape) {
+  return 2.0 * tolerance::kManifoldHeight * std::min(shape.part->width(), tolerance::kWindowLargestScale);
+}
+
+}  // namespace
+
+void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) {
+  const bool first = proxies_.size() != shapes.size();
+  proxies_.resize(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Body& body = bodies[at(shapes[i].body)];
+    proxies_[i].group = shapes[i].body;
+    const bool moves = body.moves();
+    if (first || moves || proxies_[i].moves)
+      proxies_[i].bounds = widened(sweptBounds(shapes[i], body.path, end_s), pairingMargin(shapes[i]));
+    proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that their contacts are remembered
+  }
+}
+
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&, const std::vector<Shape>& shapes,
+                              const Vec3& gravity) const {
+  ShapePair pair;
+  pair.shapes = shapes_of_pair;
+  const Shape& a = shapes[at(shapes_of_pair.a)];
+  const Shape& b = shapes[at(shapes_of_pair.b)];
+  pair.body_a = a.body;
+  pair.body_b = b.body;
+  pair.window = collisionWindow(*a.part, *b.part);
+  // What gravity gives a body that falls through the window: slower approaches are lasting contact.
+  pair.collision_speed_mps = std::sqrt(2.0 * gravity.norm() * pair.window.ceiling);
+  return pair;
+}
+
+void PairTable::link(std::size_t pair) {
+  of_body_[at(pairs_[pair].body_a)].push_back(static_cast<int>(pair));
+  of_body_[at(pairs_[pair].body_b)].push_back(static_cast<int>(pair));
+}
+
+void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity,
+                        StepCounters& counters) {
+  std::sort(pairs_.begin(), pairs_.end(), [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
+  std::vector<ShapePair> fresh;
+  auto old = pairs_.begin();
+  for (const IndexPair& shapes_of_pair : candidatePairs(proxies_)) {
+    while (old != pairs_.end() && old->shapes < shapes_of_pair) ++old;
+    if (old != pairs_.end() && old->shapes == shapes_of_pair) {
+      fresh.push_back(*old);
+      continue;
+    }
+    ShapePair pair = makePair(shapes_of_pair, bodies, shapes, gravity);
+    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
+                                   *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
+    ++counters.distance_queries;
+    counters.iteration_limits += pair.closest.reached_limit;
+    fresh.push_back(pair);
+  }
+  pairs_ = std::move(fresh);
+  of_body_.assign(bodies.size(), {});
+  for (std::size_t i = 0; i < pairs_.size(); ++i) link(i);
+  counters.candidate_pairs = static_cast<int>(pairs_.size());
+}
+
+std::size_t PairTable::extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
+                              const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters) {
+  const std::size_t first_new = pairs_.size();
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].body != body) continue;
+    const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, end_s);
+    if (proxies_[i].bounds.contains(swept)) continue;
+    proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+    for (std::size_t j = 0; j < shapes.size(); ++j) {
+      if (!canPair(proxies_[i], proxies_[j])) continue;
+      const int low = static_cast<int>(std::min(i, j));
+      const int high = static_cast<int>(std::max(i, j));
+      const std::vector<int>& known = of_body_[at(body)];
+      if (std::any_of(known.begin(), known.end(), [&](int p) { return pairs_[at(p)].shapes == IndexPair{low, high}; })) continue;
+      ShapePair pair = makePair({low, high}, bodies, shapes, gravity);
+      pair.closest = closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
+                                     *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
+      ++counters.distance_queries;
+      pairs_.push_back(pair);
+      link(pairs_.size() - 1);
+    }
+  }
+  return first_new;
+}
+
+bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) const {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Body& body = bodies[at(shapes[i].body)];
+    if (body.moves() && !proxies_[i].bounds.contains(sweptBounds(shapes[i], body.path, end_s))) return true;
+  }
+  return false;
+}
+
+void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, StepCounters& counters) {
+  for (ShapePair& pair : pairs_) {
+    const Body& a = bodies[at(pair.body_a)];
+    const Body& b = bodies[at(pair.body_b)];
+    if (!a.moves() && !b.moves()) continue;
+    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part, b.X_WB, pair.tracked);
+    ++counters.distance_queries;
+    counters.iteration_limits += pair.closest.reached_limit;
+  }
+}
+
+}  // namespace carom

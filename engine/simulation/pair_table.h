@@ -1,0 +1,64 @@
+#pragma once
+// The candidate pairs of shapes and what is remembered of each from step to step: tracked features, the closest
+// features at the current time, and the impulses of its contact points. Internal to the simulation floor.
+// Tested through tests/engine/simulation/.
+
+#include <array>
+#include <vector>
+
+#include "engine/broad_phase/candidate_pairs.h"
+#include "engine/contact/contact_manifold.h"
+#include "engine/contact/time_of_impact.h"
+#include "engine/simulation/body.h"
+
+namespace carom {
+
+struct RememberedImpulse {
+  std::uint64_t id = 0;
+  Vec3 impulse_W = Vec3::Zero();  ///< N s on B.
+};
+
+struct ShapePair {
+  IndexPair shapes;
+  int body_a = -1;
+  int body_b = -1;
+  CollisionWindow window;
+  double collision_speed_mps = 0.0;
+  FeaturePair tracked;
+  ClosestFeatures closest;  ///< At the end of the last step.
+  int remembered_count = 0;
+  std::array<RememberedImpulse, ContactManifold::kMaxPoints> remembered;
+};
+
+class PairTable {
+ public:
+  /// The bounds each shape sweeps from its path's start to `end_s`, with a margin of the collision window.
+  void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s);
+  /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the bodies'
+  /// poses of the last finished step.
+  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters);
+  /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
+  /// Returns the index of the first new pair.
+  std::size_t extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters);
+  /// Whether some body's path leaves the bounds it was paired by.
+  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) const;
+  /// Queries the closest features again where a body moved.
+  void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, StepCounters& counters);
+
+  std::vector<ShapePair>& pairs() { return pairs_; }
+  const std::vector<ShapePair>& pairs() const { return pairs_; }
+  /// The pairs of a body, by index.
+  const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
+
+ private:
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                     const Vec3& gravity) const;
+  void link(std::size_t pair);
+
+  std::vector<Proxy> proxies_;
+  std::vector<ShapePair> pairs_;  ///< Ascending by shapes, but for those added within a step.
+  std::vector<std::vector<int>> of_body_;
+};
+
+}  // namespace carom

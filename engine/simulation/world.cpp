@@ -1,0 +1,313 @@
+#include "engine/simulation/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/environment/gravity.h"
+#include "engine/foundation/contract.h"
+#include "engine/foundation/tolerances.h"
+#include "engine/modes/islands.h"
+#include "engine/modes/resting.h"
+#include "engine/modes/sliding.h"
+#include "engine/simulation/event_loop.h"
+#include "engine/simulation/lasting_contact.h"
+#include "engine/simulation/pair_table.h"
+#include "engine/simulation/start_poses.h"
+#include "engine/simulation/state_hash.h"
+
+namespace carom {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+void requireDescription(const BodyDescription& d, std::size_t solids) {
+  REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
+  REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9, d.X_WB.rotation.norm());
+  REQUIRE(d.linear_velocity.allFinite() && d.angular_velocity.allFinite());
+  REQUIRE(d.is_static || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
+  REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
+  REQUIRE(d.material.static_friction >= 0.0 && d.material.dynamic_friction >= 0.0);
+}
+
+}  // namespace
+
+const char* modeName(Mode mode) {
+  switch (mode) {
+    case Mode::kStatic: return "static";
+    case Mode::kFree: return "free";
+    case Mode::kColliding: return "colliding";
+    case Mode::kSliding: return "sliding";
+    case Mode::kContact: return "contact";
+    case Mode::kResting: return "resting";
+  }
+  return "?";
+}
+
+struct World::Impl {
+  WorldSettings settings;
+  std::vector<Solid> solids;
+  std::vector<BodyDescription> descriptions;
+  std::vector<Body> bodies;
+  std::vector<Shape> shapes;
+  std::vector<BodyState> states;
+  PairTable table;
+  StepCounters counters;
+  int steps = 0;
+  bool started = false;
+
+  void makeShapes();
+  void planFlight();
+  void finishStep();
+  void updateModes(const LastingContacts& contacts);
+  void accumulateStillness();
+  Islands joinPressing(const LastingContacts& contacts) const;
+  void restIslands(const LastingContacts& contacts);
+  bool islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) const;
+  void publish();
+};
+
+// Parts are referred to by address, so shapes are made once no solid is added any more.
+void World::Impl::makeShapes() {
+  shapes.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (const ConvexPart& part : solids[at(descriptions[i].solid)].parts())
+      shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero())});
+}
+
+// Every body starts the step as if it were in flight: the exact parabola, torque-free rotation.
+void World::Impl::planFlight() {
+  for (Body& body : bodies) {
+    body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    body.momentum_velocity = body.velocity;
+    body.events = 0;
+    body.collided = false;
+    body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
+    if (!body.moves()) continue;
+    body.path.velocity = body.velocity.linear;
+    body.path.acceleration = settings.gravity;
+    body.path.spin = torqueFreeSpin(body.inertia, body.X_WB.rotation, body.velocity.angular, settings.step_s);
+  }
+}
+
+void World::Impl::finishStep() {
+  for (Body& body : bodies) {
+    if (!body.moves()) continue;
+    body.velocity = body.velocityAt(settings.step_s);
+    body.X_WB = body.path.at(settings.step_s);
+    REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() && body.velocity.angular.allFinite());
+  }
+}
+
+void World::Impl::accumulateStillness() {
+  for (Body& body : bodies) {
+    if (!body.moves()) continue;
+    body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + settings.step_s : 0.0;
+  }
+}
+
+Islands World::Impl::joinPressing(const LastingContacts& contacts) const {
+  Islands islands(static_cast<int>(bodies.size()));
+  for (const ContactRow& row : contacts.rows)
+    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static) islands.join(row.a, row.b);
+  return islands;
+}
+
+bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) const {
+  std::vector<int> local(bodies.size(), -1);
+  std::vector<ImpulseBody> island_bodies;
+  std::vector<double> radii;
+  for (int m : members) {
+    local[at(m)] = static_cast<int>(island_bodies.size());
+    island_bodies.push_back(contacts.bodies[at(m)]);
+    radii.push_back(bodies[at(m)].radius_m);
+  }
+  // All supports that do not belong to the island are one body that cannot move.
+  const int ground = static_cast<int>(island_bodies.size());
+  island_bodies.push_back({});
+  radii.push_back(0.0);
+  std::vector<ContactRow> rows;
+  for (ContactRow row : contacts.rows) {
+    const bool in_a = local[at(row.a)] >= 0;
+    const bool in_b = local[at(row.b)] >= 0;
+    if (!in_a && !in_b) continue;
+    if (!in_a) row.r_a += contacts.bodies[at(row.a)].center;
+    if (!in_b) row.r_b += contacts.bodies[at(row.b)].center;
+    row.a = in_a ? local[at(row.a)] : ground;
+    row.b = in_b ? local[at(row.b)] : ground;
+    rows.push_back(row);
+  }
+  return canRest({rows, island_bodies, radii, settings.gravity, settings.step_s});
+}
+
+void World::Impl::restIslands(const LastingContacts& contacts) {
+  const Islands islands = joinPressing(contacts);
+  std::vector<std::vector<int>> members(bodies.size());
+  std::vector<double> still(bodies.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves()) continue;
+    const auto island = at(islands.of(static_cast<int>(i)));
+    members[island].push_back(static_cast<int>(i));
+    still[island] = std::min(still[island], bodies[i].still_s);
+  }
+  for (std::size_t island = 0; island < bodies.size(); ++island) {
+    if (members[island].empty() || still[island] < tolerance::kRestTime) continue;
+    const bool rests = islandCanRest(members[island], contacts);
+    for (int m : members[island]) {
+      Body& body = bodies[at(m)];
+      if (!rests) {
+        body.still_s = 0.0;  // ask again after it has lain still as long once more
+        continue;
+      }
+      body.resting = true;
+      body.rest_island = static_cast<int>(island);
+      body.velocity = {};
+    }
+  }
+}
+
+void World::Impl::updateModes(const LastingContacts& contacts) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (body.is_static) body.mode = Mode::kStatic;
+    else if (body.resting) body.mode = Mode::kResting;
+    else if (body.collided) body.mode = Mode::kColliding;
+    else body.mode = body.travel == Travel::kBallistic ? Mode::kFree : Mode::kContact;
+  }
+  for (const ContactRow& row : contacts.rows) {
+    if (!slides(row, contacts.bodies)) continue;
+    for (int i : {row.a, row.b})
+      if (bodies[at(i)].mode == Mode::kContact) bodies[at(i)].mode = Mode::kSliding;
+  }
+}
+
+void World::Impl::publish() {
+  states.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    states[i] = {bodies[i].X_WB, bodies[i].velocity.linear, bodies[i].velocity.angular, bodies[i].mode};
+}
+
+World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
+  REQUIRE(settings.step_s > 0.0 && std::isfinite(settings.step_s), settings.step_s);
+  REQUIRE(settings.gravity.allFinite());
+  impl_->settings = settings;
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+int World::addSolid(Solid solid) {
+  REQUIRE(!impl_->started);
+  impl_->solids.push_back(std::move(solid));
+  return static_cast<int>(impl_->solids.size()) - 1;
+}
+
+int World::addBody(const BodyDescription& description) {
+  REQUIRE(!impl_->started);
+  requireDescription(description, impl_->solids.size());
+  const Solid& solid = impl_->solids[at(description.solid)];
+  Body body;
+  body.is_static = description.is_static;
+  body.material = description.material;
+  body.radius_m = solid.radius();
+  if (!body.is_static) body.inertia = inertiaOf(description.material.density_kgpm3, solid.volume(), solid.unitInertia());
+  body.X_WB = description.X_WB;
+  body.mode = body.is_static ? Mode::kStatic : Mode::kFree;
+  if (!body.is_static) body.velocity = {description.linear_velocity, description.angular_velocity};
+  impl_->bodies.push_back(body);
+  impl_->descriptions.push_back(description);
+  impl_->publish();
+  return static_cast<int>(impl_->bodies.size()) - 1;
+}
+
+std::vector<Overlap> World::start() {
+  Impl& w = *impl_;
+  REQUIRE(!w.started);
+  w.started = true;
+  w.makeShapes();
+  w.planFlight();
+  w.table.updateBounds(w.bodies, w.shapes, w.settings.step_s);
+  w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
+  std::vector<Overlap> overlaps = separateTouching(w.bodies, w.shapes, w.table, w.settings.gravity);
+  w.publish();
+  return overlaps;
+}
+
+void World::step() {
+  Impl& w = *impl_;
+  REQUIRE(w.started);
+  w.counters = {};
+  const double dt = w.settings.step_s;
+
+  // External forces and candidate pairs, with the closest features that ended the last step.
+  w.planFlight();
+  w.table.updateBounds(w.bodies, w.shapes, dt);
+  w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
+
+  // Impulses of lasting contact.
+  wakeTouched(w.bodies, w.table.pairs(), dt);
+  w.planFlight();
+  const LastingContacts contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  if (w.table.pathsLeaveBounds(w.bodies, w.shapes, dt)) {
+    w.table.updateBounds(w.bodies, w.shapes, dt);
+    w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
+  }
+
+  // Advance from one time of impact to the next.
+  runEvents(w.bodies, w.shapes, w.table, w.settings, w.counters);
+  w.finishStep();
+  w.table.requery(w.bodies, w.shapes, w.counters);
+
+  // Modes.
+  w.accumulateStillness();
+  if (w.settings.resting_mode) w.restIslands(contacts);
+  w.updateModes(contacts);
+  w.publish();
+  ++w.steps;
+}
+
+double World::time() const { return impl_->steps * impl_->settings.step_s; }
+int World::stepCount() const { return impl_->steps; }
+const WorldSettings& World::settings() const { return impl_->settings; }
+std::span<const Solid> World::solids() const { return impl_->solids; }
+std::span<const BodyState> World::states() const { return impl_->states; }
+std::span<const BodyDescription> World::bodies() const { return impl_->descriptions; }
+double World::mass(int body) const {
+  const Body& b = impl_->bodies[at(body)];
+  return b.is_static ? std::numeric_limits<double>::infinity() : b.inertia.mass_kg;
+}
+
+Audit World::audit() const {
+  const Impl& w = *impl_;
+  Audit audit;
+  audit.time_s = time();
+  audit.last_step = w.counters;
+  audit.smallest_gap_m = std::numeric_limits<double>::infinity();
+  for (const ShapePair& pair : w.table.pairs()) audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
+  for (const Body& body : w.bodies) {
+    if (body.is_static) continue;
+    const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;
+    audit.kinetic_energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
+    audit.potential_energy_J += gravityPotential(body.inertia, w.settings.gravity, body.X_WB.position);
+    audit.linear_momentum += momentum;
+    audit.angular_momentum += body.X_WB.position.cross(momentum) +
+                              angularMomentum(body.inertia, body.X_WB.rotation, body.velocity.angular);
+    audit.resting_bodies += body.resting;
+  }
+  return audit;
+}
+
+std::uint64_t World::stateHash() const {
+  StateHash hash;
+  hash.add(time());
+  for (const BodyState& state : impl_->states) {
+    hash.add(state.X_WB.position);
+    hash.add(state.X_WB.rotation);
+    hash.add(state.linear_velocity);
+    hash.add(state.angular_velocity);
+    hash.add(static_cast<std::uint64_t>(state.mode));
+  }
+  return hash.value();
+}
+
+}  // namespace carom

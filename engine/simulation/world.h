@@ -1,0 +1,120 @@
+#pragma once
+// The world: bodies that share solids, and the fixed step of the paper:
+//   external forces -> candidate pairs -> closest features -> impulses -> advance to the next time of impact -> modes
+// Invariant: after `start` has accepted the bodies, every pair keeps a gap > 0 at every instant (DESIGN: the
+// collision window). Deterministic: the same calls give the same bits. Nothing in here draws, prints or reads a clock.
+// Tested in tests/engine/simulation/ and tests/physics/.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/foundation/frames.h"
+#include "engine/solid/solid.h"
+
+namespace carom {
+
+struct Material {
+  double static_friction = 0.5;
+  double dynamic_friction = 0.5;
+  double restitution = 0.0;
+  double density_kgpm3 = 1000.0;
+};
+
+/// What a body does at the moment (paper §2.4, §2.5).
+enum class Mode : std::uint8_t {
+  kStatic,     ///< Never moves.
+  kFree,       ///< In flight: no lasting contact.
+  kColliding,  ///< Took a collision impulse in the last step.
+  kSliding,    ///< In lasting contact, moving along it.
+  kContact,    ///< In lasting contact without sliding: rolling, tipping, settling.
+  kResting     ///< Lies on others with exactly zero velocity.
+};
+const char* modeName(Mode mode);
+
+struct BodyDescription {
+  int solid = 0;  ///< Index returned by World::addSolid.
+  Pose X_WB;      ///< Pose of the solid's own frame (centre of mass).
+  Vec3 linear_velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Material material;
+  bool is_static = false;
+};
+
+/// What can be seen of a body at the end of a step.
+struct BodyState {
+  Pose X_WB;
+  Vec3 linear_velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Mode mode = Mode::kFree;
+};
+
+struct WorldSettings {
+  double step_s = 1.0 / 240.0;
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);
+  bool resting_mode = true;  ///< Off: bodies are simulated even when they lie still.
+};
+
+/// Two bodies that overlap at the start, and by how much.
+struct Overlap {
+  int body_a = -1;
+  int body_b = -1;
+  double depth_m = 0.0;
+};
+
+/// What happened in one step.
+struct StepCounters {
+  int candidate_pairs = 0;
+  int distance_queries = 0;
+  int contact_points = 0;
+  int events = 0;            ///< Times of impact resolved.
+  int stopped_bodies = 0;    ///< Held at their last safe time because an event budget was reached.
+  int iteration_limits = 0;  ///< Closest-feature walks that reached their bound.
+};
+
+/// Sums over the bodies that can move.
+struct Audit {
+  double time_s = 0.0;
+  double kinetic_energy_J = 0.0;
+  double potential_energy_J = 0.0;  ///< -m g . x, zero at the world's origin.
+  Vec3 linear_momentum = Vec3::Zero();
+  Vec3 angular_momentum = Vec3::Zero();  ///< About the world's origin.
+  double smallest_gap_m = 0.0;           ///< Over candidate pairs; +infinity when there is none.
+  int resting_bodies = 0;
+  StepCounters last_step;
+};
+
+class World {
+ public:
+  explicit World(const WorldSettings& settings);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  int addSolid(Solid solid);
+  int addBody(const BodyDescription& description);
+
+  /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest first;
+  /// when there are any the world must not be stepped.
+  std::vector<Overlap> start();
+  /// Advances by exactly one step.
+  void step();
+
+  double time() const;
+  int stepCount() const;
+  const WorldSettings& settings() const;
+  std::span<const Solid> solids() const;
+  std::span<const BodyState> states() const;
+  std::span<const BodyDescription> bodies() const;
+  double mass(int body) const;  ///< kg; infinite for a static body.
+  Audit audit() const;
+  /// FNV-1a over the bits of time, poses, velocities and modes.
+  std::uint64_t stateHash() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

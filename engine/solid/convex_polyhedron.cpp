@@ -1,0 +1,191 @@
+#include "engine/solid/convex_polyhedron.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/foundation/contract.h"
+
+namespace carom {
+namespace {
+
+// A face may be bent, and a neighbour stand out of its plane, by this much relative to the polyhedron's radius:
+// far above rounding (1e-15), far below the distances that matter (1e-9).
+constexpr double kPlanarity = 1e-9;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Newell's normal: robust for any planar polygon, whatever its first corner looks like.
+Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {
+  Vec3 normal = Vec3::Zero();
+  Vec3 center = Vec3::Zero();
+  for (int v : loop) center += vertices[at(v)];
+  center /= static_cast<double>(loop.size());
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3 a = vertices[at(loop[i])] - center;
+    const Vec3 b = vertices[at(loop[(i + 1) % loop.size()])] - center;
+    normal += a.cross(b);
+  }
+  const double twice_area = normal.norm();
+  if (!(twice_area > 0.0)) throw InputError("a face has no area");
+  normal /= twice_area;
+  return {normal, normal.dot(center)};
+}
+
+struct HalfEdge {
+  int low, high, face, slot;
+  bool forward;  // runs low to high in its face
+};
+
+}  // namespace
+
+ConvexPolyhedron ConvexPolyhedron::point(const Vec3& p) {
+  if (!p.allFinite()) throw InputError("a point has a coordinate that is not finite");
+  ConvexPolyhedron result;
+  result.vertices_ = {p};
+  result.buildVertexEdges();
+  return result;
+}
+
+ConvexPolyhedron ConvexPolyhedron::segment(const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  if (!d.allFinite() || !(d.norm() > 0.0)) throw InputError("a segment needs two distinct finite ends");
+  ConvexPolyhedron result;
+  result.vertices_ = {a, b};
+  Edge e;
+  e.tail = 0;
+  e.head = 1;
+  e.length_m = d.norm();
+  e.direction = d / e.length_m;
+  result.edges_ = {e};
+  result.buildVertexEdges();
+  return result;
+}
+
+ConvexPolyhedron ConvexPolyhedron::fromFaces(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& loops) {
+  if (vertices.size() < 4 || loops.size() < 4) throw InputError("a polyhedron needs at least 4 vertices and 4 faces");
+  for (const Vec3& v : vertices)
+    if (!v.allFinite()) throw InputError("a vertex has a coordinate that is not finite");
+  ConvexPolyhedron result;
+  result.vertices_ = std::move(vertices);
+  for (const std::vector<int>& loop : loops) {
+    if (loop.size() < 3) throw InputError("a face needs at least 3 vertices");
+    for (int v : loop)
+      if (v < 0 || v >= result.vertexCount()) throw InputError("a face names a vertex that does not exist");
+    result.planes_.push_back(fitPlane(result.vertices_, loop));
+    result.face_vertices_.insert(result.face_vertices_.end(), loop.begin(), loop.end());
+    result.face_begin_.push_back(static_cast<int>(result.face_vertices_.size()));
+  }
+  result.buildEdges(loops);
+  result.buildVertexEdges();
+  result.validate();
+  result.width_m_ = std::numeric_limits<double>::infinity();
+  int far = 0;
+  for (const Plane& plane : result.planes_) {
+    far = result.support(-plane.normal, far);
+    result.width_m_ = std::min(result.width_m_, -plane.signedDistance(result.vertex(far)));
+  }
+  return result;
+}
+
+void ConvexPolyhedron::buildEdges(const std::vector<std::vector<int>>& loops) {
+  std::vector<HalfEdge> halves;
+  int slot = 0;
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    for (std::size_t i = 0; i < loops[f].size(); ++i, ++slot) {
+      const int a = loops[f][i];
+      const int b = loops[f][(i + 1) % loops[f].size()];
+      halves.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), slot, a < b});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    return std::array{x.low, x.high, x.forward ? 0 : 1, x.face} < std::array{y.low, y.high, y.forward ? 0 : 1, y.face};
+  });
+  face_edges_.assign(face_vertices_.size(), -1);
+  if (halves.size() % 2 != 0) throw InputError("the surface is not closed");
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    const HalfEdge& left = halves[i];
+    const HalfEdge& right = halves[i + 1];
+    const bool paired = left.low == right.low && left.high == right.high && left.forward && !right.forward;
+    if (!paired || left.low == left.high) throw InputError("the surface is not closed, or its faces disagree in orientation");
+    Edge e;
+    e.tail = left.low;
+    e.head = left.high;
+    e.left = left.face;
+    e.right = right.face;
+    const Vec3 d = vertex(e.head) - vertex(e.tail);
+    e.length_m = d.norm();
+    if (!(e.length_m > 0.0)) throw InputError("an edge has no length");
+    e.direction = d / e.length_m;
+    e.into_left = plane(e.left).normal.cross(e.direction).normalized();
+    e.into_right = e.direction.cross(plane(e.right).normal).normalized();
+    face_edges_[at(left.slot)] = face_edges_[at(right.slot)] = edgeCount();
+    edges_.push_back(e);
+  }
+}
+
+void ConvexPolyhedron::buildVertexEdges() {
+  std::vector<std::vector<int>> star(vertices_.size());
+  for (int e = 0; e < edgeCount(); ++e) {
+    star[at(edge(e).tail)].push_back(e);
+    star[at(edge(e).head)].push_back(e);
+  }
+  for (const std::vector<int>& edges : star) {
+    vertex_edges_.insert(vertex_edges_.end(), edges.begin(), edges.end());
+    vertex_begin_.push_back(static_cast<int>(vertex_edges_.size()));
+  }
+}
+
+void ConvexPolyhedron::validate() const {
+  if (vertexCount() - edgeCount() + faceCount() != 2) throw InputError("the surface is not that of one convex body (Euler)");
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& v : vertices_) center += v;
+  center /= static_cast<double>(vertices_.size());
+  const double tolerance = kPlanarity * radiusAbout(center);
+  for (int f = 0; f < faceCount(); ++f) {
+    if (plane(f).signedDistance(center) >= 0.0) throw InputError("a face is turned inside out, or the solid is flat");
+    for (int v : faceVertices(f))
+      if (std::abs(plane(f).signedDistance(vertex(v))) > tolerance) throw InputError("a face is not planar");
+    // Local convexity at every edge makes a closed surface convex everywhere.
+    for (int e : faceEdges(f))
+      for (int v : faceVertices(faceAcross(e, f)))
+        if (plane(f).signedDistance(vertex(v)) > tolerance) throw InputError("the surface is not convex");
+  }
+  for (int v = 0; v < vertexCount(); ++v)
+    if (vertexEdges(v).size() < 3) throw InputError("a vertex has fewer than three edges");
+}
+
+int ConvexPolyhedron::support(const Vec3& direction, int start) const {
+  int best = start;
+  double best_height = direction.dot(vertex(best));
+  for (bool climbing = true; climbing;) {  // heights rise strictly, so this ends
+    climbing = false;
+    const int here = best;
+    for (int e : vertexEdges(here)) {
+      const int v = otherEnd(e, here);
+      const double height = direction.dot(vertex(v));
+      if (height > best_height) {
+        best = v;
+        best_height = height;
+        climbing = true;
+      }
+    }
+  }
+  return best;
+}
+
+double ConvexPolyhedron::radiusAbout(const Vec3& p) const {
+  double squared = 0.0;
+  for (const Vec3& v : vertices_) squared = std::max(squared, (v - p).squaredNorm());
+  return std::sqrt(squared);
+}
+
+ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
+  ConvexPolyhedron result = *this;
+  for (Vec3& v : result.vertices_) v += shift;
+  for (Plane& p : result.planes_) p.offset += p.normal.dot(shift);
+  return result;
+}
+
+}  // namespace carom

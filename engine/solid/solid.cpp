@@ -1,0 +1,53 @@
+#include "engine/solid/solid.h"
+
+#include <algorithm>
+
+#include "engine/foundation/contract.h"
+
+namespace carom {
+namespace {
+
+MassProperties partMass(const ConvexPart& part) {
+  const ConvexPolyhedron& core = part.core;
+  if (core.faceCount() > 0) {
+    if (part.radius_m != 0.0) throw InputError("a polyhedron part takes no rounding radius");
+    return polyhedronMass(core);
+  }
+  if (!(part.radius_m > 0.0)) throw InputError("a ball or capsule needs a positive radius");
+  if (core.vertexCount() == 1) return ballMass(core.vertex(0), part.radius_m);
+  return capsuleMass(core.vertex(0), core.vertex(1), part.radius_m);
+}
+
+}  // namespace
+
+Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
+  if (parts_.empty()) throw InputError("a solid needs at least one part");
+  mass_ = partMass(parts_[0]);
+  for (std::size_t i = 1; i < parts_.size(); ++i) mass_ = MassProperties::combined(mass_, partMass(parts_[i]));
+  if (!(mass_.mass > 0.0)) throw InputError("a solid needs a positive volume");
+  origin_B_ = -mass_.center;
+  for (ConvexPart& part : parts_) {
+    part.core = part.core.translated(origin_B_);
+    radius_m_ = std::max(radius_m_, part.core.radiusAbout(Vec3::Zero()) + part.radius_m);
+  }
+  mass_.center = Vec3::Zero();
+}
+
+Solid Solid::box(const Vec3& size_m) { return Solid({{boxPolyhedron(size_m), 0.0}}); }
+Solid Solid::ball(double radius_m) { return Solid({{ConvexPolyhedron::point(Vec3::Zero()), radius_m}}); }
+Solid Solid::capsule(double radius_m, double length_m) {
+  const Vec3 half(0.0, 0.0, 0.5 * length_m);
+  return Solid({{ConvexPolyhedron::segment(-half, half), radius_m}});
+}
+Solid Solid::polyhedron(ConvexPolyhedron p) { return Solid({{std::move(p), 0.0}}); }
+
+ConvexPolyhedron boxPolyhedron(const Vec3& size_m) {
+  if (!size_m.allFinite() || !(size_m.minCoeff() > 0.0)) throw InputError("a box needs three positive finite sizes");
+  std::vector<Vec3> vertices;
+  for (int i = 0; i < 8; ++i)
+    vertices.push_back(0.5 * Vec3((i & 1 ? 1 : -1) * size_m.x(), (i & 2 ? 1 : -1) * size_m.y(), (i & 4 ? 1 : -1) * size_m.z()));
+  return ConvexPolyhedron::fromFaces(
+      std::move(vertices), {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
+}
+
+}  // namespace carom

@@ -1,0 +1,55 @@
+#pragma once
+// A solid: one or more convex parts that move as one body. A part is a convex core grown by a rounding radius, so a
+// point is a ball and a segment a capsule for one and the same algorithm. The solid's own frame B has its origin in
+// the centre of mass; `origin_B()` remembers where the origin of the frame it was described in went.
+// Solids are immutable; bodies refer to them by index. Tested in tests/engine/solid/solid_test.cpp.
+
+#include <vector>
+
+#include "engine/solid/convex_polyhedron.h"
+#include "engine/solid/mass_properties.h"
+
+namespace carom {
+
+/// A convex core grown by `radius_m` >= 0.
+struct ConvexPart {
+  ConvexPolyhedron core;
+  double radius_m = 0.0;
+
+  /// The smallest width of the part, metres: the scale of its collision window.
+  double width() const { return core.width() + 2.0 * radius_m; }
+};
+
+class Solid {
+ public:
+  /// Builds a solid from parts given in one common frame, and moves it so that its centre of mass is the origin.
+  /// A part is a polyhedron without rounding, a point with a radius, or a segment with a radius.
+  /// Throws InputError when there is no part or the volume is not positive.
+  explicit Solid(std::vector<ConvexPart> parts);
+
+  static Solid box(const Vec3& size_m);
+  static Solid ball(double radius_m);
+  /// Along z; `length_m` is the distance between the centres of the caps.
+  static Solid capsule(double radius_m, double length_m);
+  static Solid polyhedron(ConvexPolyhedron p);
+
+  const std::vector<ConvexPart>& parts() const { return parts_; }
+  /// For unit density, about the origin of B (the centre of mass).
+  double volume() const { return mass_.mass; }
+  const Mat3& unitInertia() const { return mass_.inertia; }
+  /// Where the origin of the describing frame lies in B, metres.
+  const Vec3& origin_B() const { return origin_B_; }
+  /// The largest distance of any point of the solid from its centre of mass, metres.
+  double radius() const { return radius_m_; }
+
+ private:
+  std::vector<ConvexPart> parts_;
+  MassProperties mass_;
+  Vec3 origin_B_ = Vec3::Zero();
+  double radius_m_ = 0.0;
+};
+
+/// The vertices and outward faces of a box centred at the origin.
+ConvexPolyhedron boxPolyhedron(const Vec3& size_m);
+
+}  // namespace carom

@@ -1,0 +1,150 @@
+#include "renderer/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace carom::renderer {
+namespace {
+
+constexpr double kLevelTop = 0.9999;        // Cosine between a ground's own axis and the vertical.
+constexpr double kFarOverDistance = 4000.0;  // Far plane over the distance from eye to target.
+constexpr double kMinNearOverDistance = 1e-3;
+constexpr double kGroundDarkening = 0.7;    // Of a body's half height: how near the ground darkens it.
+
+// An instance placed relative to the eye.
+struct Placed {
+  int index = 0;
+  Vec3 center_E = Vec3::Zero();
+  double radius_m = 0.0;
+  double depth_m = 0.0;  // Of the centre, along the view.
+  int level = 0;
+};
+
+Placed place(int index, const Instance& instance, const SolidGeometry& solid, const Camera& camera,
+             const CameraAxes& axes, double focal_px) {
+  Placed placed;
+  placed.index = index;
+  placed.center_E = instance.X_WB * solid.extent.center - camera.eye;
+  placed.radius_m = solid.extent.half.norm();
+  placed.depth_m = placed.center_E.dot(axes.forward);
+  const double distance = std::max(placed.center_E.norm() - placed.radius_m, 1e-3 * placed.radius_m);
+  placed.level = detailLevel(focal_px * solid.extent.half.maxCoeff() / distance);
+  return placed;
+}
+
+// Whether the bounding ball reaches into the view's pyramid.
+bool inView(const Placed& placed, const CameraAxes& axes, double half_width, double half_height) {
+  if (placed.depth_m < -placed.radius_m) return false;
+  const double across = std::abs(placed.center_E.dot(axes.right)), up = std::abs(placed.center_E.dot(axes.up));
+  return across - half_width * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_width) &&
+         up - half_height * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_height);
+}
+
+float linearLight(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
+
+InstanceRecord record(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
+  const Mat3 rotation = instance.X_WB.rotation.toRotationMatrix();
+  const Vec3 position = instance.X_WB.position - camera.eye;
+  InstanceRecord r{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) r.rows[i][k] = static_cast<float>(rotation(i, k));
+    r.rows[i][3] = static_cast<float>(position[i]);
+  }
+  r.color[0] = linearLight(instance.color.r);
+  r.color[1] = linearLight(instance.color.g);
+  r.color[2] = linearLight(instance.color.b);
+  const double reach = kGroundDarkening * solid.extent.half.minCoeff();
+  r.color[3] = static_cast<float>(instance.checker ? -reach : reach);
+  return r;
+}
+
+// Appends groups of instances that share solid and level, nearest instance of a group first.
+std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instance> instances, const Camera& camera,
+                             const SceneGeometry& geometry, std::vector<InstanceRecord>& records) {
+  const auto solidOf = [&](const Placed& p) { return instances[static_cast<std::size_t>(p.index)].solid; };
+  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
+    return std::tuple(solidOf(a), a.level, a.depth_m, a.index) < std::tuple(solidOf(b), b.level, b.depth_m, b.index);
+  });
+  struct Ordered {
+    double nearest_m;
+    DrawGroup group;
+  };
+  std::vector<Ordered> ordered;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Placed& p = placed[i];
+    const bool starts = i == 0 || solidOf(p) != solidOf(placed[i - 1]) || p.level != placed[i - 1].level;
+    if (starts)
+      ordered.push_back({p.depth_m - p.radius_m,
+                         {geometry.solid(solidOf(p)).levels[static_cast<std::size_t>(p.level)],
+                          static_cast<int>(records.size()), 0}});
+    ++ordered.back().group.count;
+    records.push_back(record(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
+  }
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const Ordered& a, const Ordered& b) { return a.nearest_m < b.nearest_m; });
+  std::vector<DrawGroup> groups;
+  for (const Ordered& o : ordered) groups.push_back(o.group);
+  return groups;
+}
+
+// As far away as nothing visible allows, since precision in depth is lost in proportion to far over near.
+DepthRange depthRange(const std::vector<Placed>& visible, double distance_m, const DrawList& list) {
+  double near = distance_m, far = kFarOverDistance * distance_m;
+  for (const Placed& p : visible) {
+    near = std::min(near, 0.9 * (p.depth_m - p.radius_m));
+    far = std::max(far, 1.1 * (p.depth_m + p.radius_m));
+  }
+  if (list.ground) near = std::min(near, 0.3 * std::abs(list.ground_z_E));
+  return {std::max(near, kMinNearOverDistance * distance_m), far};
+}
+
+}  // namespace
+
+double topHeight(const Instance& instance, const SolidGeometry& solid) {
+  const Vec3 up_B = instance.X_WB.rotation.conjugate() * Vec3::UnitZ();
+  return (instance.X_WB * solid.extent.center).z() + up_B.cwiseAbs().dot(solid.extent.half);
+}
+
+std::optional<int> findGround(std::span<const Instance> instances, const SceneGeometry& geometry) {
+  std::optional<int> ground;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    if (!instance.checker || geometry.solid(instance.solid).is_round) continue;
+    const Vec3 up_B = instance.X_WB.rotation.conjugate() * Vec3::UnitZ();
+    if (up_B.cwiseAbs().maxCoeff() < kLevelTop) continue;
+    const double top = topHeight(instance, geometry.solid(instance.solid));
+    if (top < lowest) lowest = top, ground = static_cast<int>(i);
+  }
+  return ground;
+}
+
+DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
+                       const SceneGeometry& geometry) {
+  DrawList list;
+  const CameraAxes axes = cameraAxes(camera);
+  const double focal = focalLengthPixels(camera, settings.height);
+  const double half_height = 0.5 * settings.height / focal, half_width = 0.5 * settings.width / focal;
+  list.ground = findGround(instances, geometry);
+  if (list.ground) {
+    const Instance& ground = instances[static_cast<std::size_t>(*list.ground)];
+    list.ground_z_E = topHeight(ground, geometry.solid(ground.solid)) - camera.eye.z();
+  }
+  std::vector<Placed> visible, casting;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const int index = static_cast<int>(i);
+    if (list.ground == index) continue;
+    const SolidGeometry& solid = geometry.solid(instances[i].solid);
+    const Placed placed = place(index, instances[i], solid, camera, axes, focal);
+    if (inView(placed, axes, half_width, half_height)) visible.push_back(placed);
+    casting.push_back(placed);
+  }
+  list.depth = depthRange(visible, (camera.target - camera.eye).norm(), list);
+  list.visible = group(std::move(visible), instances, camera, geometry, list.records);
+  list.casting = group(std::move(casting), instances, camera, geometry, list.records);
+  return list;
+}
+
+}  // namespace carom::renderer

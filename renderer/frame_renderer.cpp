@@ -1,0 +1,284 @@
+#include "renderer/frame_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "engine/foundation/contract.h"
+#include "renderer/contact_occlusion.h"
+#include "renderer/draw_list.h"
+#include "renderer/edge_filter.h"
+#include "renderer/scene_geometry.h"
+#include "renderer/shader_program.h"
+#include "renderer/shaders.h"
+#include "renderer/shadow_fit.h"
+
+namespace carom::renderer {
+namespace {
+
+constexpr int kShadowTexels = 1280;
+constexpr double kShadowLift = 3.0;       // Texels along a grazed surface's normal: the reach of the softening.
+constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
+constexpr float kNoGround = -1e30f;
+
+Settings checked(const Settings& settings) {
+  const auto fits = [](int side) { return side >= 1 && side <= kMaxImageSide; };
+  if (!fits(settings.width) || !fits(settings.height)) {
+    std::ostringstream message;
+    message << "image size " << settings.width << "x" << settings.height << " is not within 1x1 and " << kMaxImageSide
+            << "x" << kMaxImageSide;
+    throw InputError(message.str());
+  }
+  if (!settings.to_light.allFinite() || !(settings.to_light.norm() > 0.0))
+    throw InputError("the direction to the light must be finite and not zero");
+  return settings;
+}
+
+// Squares of 1 m as long as the camera is at a distance where they help.
+double checkerSquare(double distance_m) {
+  constexpr double kSmallest = 2.5, kLargest = 100.0;  // Camera distances between which a square is 1 m.
+  double square = 1.0;
+  while (distance_m < kSmallest * square && square > 1e-6) square *= 0.1;
+  while (distance_m > kLargest * square && square < 1e6) square *= 10.0;
+  return square;
+}
+
+void copy(float (&to)[4], const Vec3& v, double w) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
+  to[3] = static_cast<float>(w);
+}
+
+}  // namespace
+
+struct FrameRenderer::Impl {
+  Impl(const Settings& wanted, std::span<const Solid> given)
+      : settings(checked(wanted)),
+        to_light(settings.to_light.normalized()),
+        solids(given.begin(), given.end()),
+        context(createOffscreenContext(settings.pixels)),
+        gl(context->gl()),
+        geometry(gl, solids),
+        filter(settings.width, settings.height) {
+    body_program = linkProgram(gl, {"body", kGlslHead, kBodyVertex, kGlslLight, kBodyFragment});
+    ground_program = linkProgram(gl, {"ground", kGlslHead, kGroundVertex, kGlslLight, kGroundFragment});
+    sky_program = linkProgram(gl, {"sky", kGlslHead, kSkyVertex, kGlslLight, kSkyFragment});
+    shadow_program = linkProgram(gl, {"shadow", kGlslHead, kShadowVertex, "", kShadowFragment});
+    occlusion_program = linkProgram(gl, {"occlusion", kGlslHead, kOcclusionVertex, "", kOcclusionFragment});
+    createTargets();
+    createOcclusionBuffer();
+    gl.GenBuffers(1, &frame_buffer);
+    gl.GenVertexArrays(1, &no_attributes);
+    pixels.resize(4 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
+  }
+
+  void createTargets();
+  void createOcclusionBuffer();
+  const Image& draw(std::span<const Instance> instances, const Camera& camera);
+  ShadowView shadowView(std::span<const Instance> instances, const Camera& camera, const DrawList& list) const;
+  void uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const;
+  void drawShadows(const DrawList& list, const ShadowView& shadow) const;
+  void drawScene(const DrawList& list) const;
+  void drawOcclusion(std::span<const Instance> instances, const Camera& camera, const DrawList& list) const;
+  void readBack();
+
+  Settings settings;
+  Vec3 to_light;
+  std::vector<Solid> solids;
+  std::unique_ptr<OffscreenContext> context;
+  const GlFunctions& gl;
+  SceneGeometry geometry;
+  EdgeFilter filter;
+  GLuint body_program = 0, ground_program = 0, sky_program = 0, shadow_program = 0, occlusion_program = 0;
+  GLuint scene_target = 0, shadow_target = 0;
+  GLuint frame_buffer = 0, no_attributes = 0, occlusion_array = 0, occlusion_buffer = 0;
+  std::vector<std::uint8_t> pixels;
+  Image image;
+};
+
+void FrameRenderer::Impl::createTargets() {
+  GLuint buffers[2], shadow_map = 0;
+  gl.GenRenderbuffers(2, buffers);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, settings.width, settings.height);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, settings.width, settings.height);
+  gl.GenFramebuffers(1, &scene_target);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, scene_target);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+  const bool scene_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+
+  gl.GenTextures(1, &shadow_map);
+  gl.BindTexture(GL_TEXTURE_2D, shadow_map);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowTexels, kShadowTexels, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  gl.GenFramebuffers(1, &shadow_target);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map, 0);
+  gl.DrawBuffer(GL_NONE);
+  const bool shadow_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  if (!scene_complete || !shadow_complete || gl.GetError() != GL_NO_ERROR) {
+    std::ostringstream message;
+    message << "the GL driver has no room for an image of " << settings.width << "x" << settings.height;
+    throw NoRenderer(message.str());
+  }
+}
+
+void FrameRenderer::Impl::createOcclusionBuffer() {
+  gl.GenBuffers(1, &occlusion_buffer);
+  gl.GenVertexArrays(1, &occlusion_array);
+  gl.BindVertexArray(occlusion_array);
+  gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
+  const GLint sizes[] = {3, 3, 3, 3, 2};
+  std::size_t at = 0;
+  for (GLuint i = 0; i < 5; ++i) {
+    gl.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex), reinterpret_cast<const void*>(at));
+    gl.EnableVertexAttribArray(i);
+    at += static_cast<std::size_t>(sizes[i]) * sizeof(float);
+  }
+}
+
+// The passes: shadow map, bodies, ground, sky, contact shadows; then the image leaves GL and its edges are smoothed.
+const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera) {
+  for (const Instance& instance : instances)
+    REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid, geometry.solidCount());
+  const DrawList list = buildDrawList(instances, camera, settings, geometry);
+  const ShadowView shadow = shadowView(instances, camera, list);
+  context->makeCurrent();
+  uploadFrame(camera, list, shadow);
+  geometry.uploadInstances(gl, list.records);
+  drawShadows(list, shadow);
+  drawScene(list);
+  drawOcclusion(instances, camera, list);
+  readBack();
+  return image;
+}
+
+ShadowView FrameRenderer::Impl::shadowView(std::span<const Instance> instances, const Camera& camera,
+                                           const DrawList& list) const {
+  std::vector<ShadowCaster> casters;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (list.ground == static_cast<int>(i)) continue;
+    const Extent& extent = geometry.solid(instances[i].solid).extent;
+    const Pose X_EB{instances[i].X_WB.rotation, instances[i].X_WB * extent.center - camera.eye};
+    casters.push_back({X_EB, extent.half});
+  }
+  return fitShadow({camera, static_cast<double>(settings.width) / settings.height, to_light, kShadowTexels}, casters);
+}
+
+void FrameRenderer::Impl::uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const {
+  const CameraAxes axes = cameraAxes(camera);
+  const double focal = focalLengthPixels(camera, settings.height);
+  const double distance = (camera.target - camera.eye).norm();
+  const double square = checkerSquare(distance);
+  FrameBlock block{};
+  const std::array<float, 16> clip = clipFromE(camera, settings.width, settings.height, list.depth);
+  std::copy(clip.begin(), clip.end(), block.clip_from_E);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) block.shadow_rows[r][c] = static_cast<float>(shadow.rows(r, c));
+  if (shadow.texel_m == 0.0) block.shadow_rows[0][3] = -1.0f;  // Outside the map everywhere: all is lit.
+  copy(block.to_light, to_light, kShadowLift * shadow.texel_m);
+  const Vec3 x = axes.right / focal, y = axes.up / focal;
+  copy(block.ray_corner, axes.forward - 0.5 * settings.width * x - 0.5 * settings.height * y,
+       1.0 / (kFogOverDistance * distance));
+  copy(block.ray_x, x, kShadowTexels);
+  copy(block.ray_y, y, 0.0);
+  block.ground[0] = list.ground ? static_cast<float>(list.ground_z_E) : kNoGround;
+  block.ground[1] = static_cast<float>(1.0 / square);
+  block.ground[2] = static_cast<float>(std::fmod(camera.eye.x() / square, 2.0));
+  block.ground[3] = static_cast<float>(std::fmod(camera.eye.y() / square, 2.0));
+  gl.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
+  gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
+}
+
+void FrameRenderer::Impl::drawShadows(const DrawList& list, const ShadowView& shadow) const {
+  if (shadow.texel_m == 0.0) return;
+  gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
+  gl.Viewport(0, 0, kShadowTexels, kShadowTexels);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LESS);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.Enable(GL_CULL_FACE);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.5f, 4.0f);
+  gl.UseProgram(shadow_program);
+  for (const DrawGroup& group : list.casting) geometry.draw(gl, group.range, group.first, group.count);
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void FrameRenderer::Impl::drawScene(const DrawList& list) const {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, scene_target);
+  gl.Viewport(0, 0, settings.width, settings.height);
+  gl.Enable(GL_FRAMEBUFFER_SRGB);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.Enable(GL_CULL_FACE);
+  gl.UseProgram(body_program);
+  for (const DrawGroup& group : list.visible) geometry.draw(gl, group.range, group.first, group.count);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindVertexArray(no_attributes);
+  if (list.ground && list.ground_z_E < 0.0) {
+    gl.UseProgram(ground_program);
+    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  gl.DepthMask(GL_FALSE);
+  gl.UseProgram(sky_program);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void FrameRenderer::Impl::drawOcclusion(std::span<const Instance> instances, const Camera& camera,
+                                        const DrawList& list) const {
+  std::vector<OcclusionBody> bodies;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    const Solid& solid = solids[static_cast<std::size_t>(instance.solid)];
+    const Pose X_EB{instance.X_WB.rotation, instance.X_WB.position - camera.eye};
+    bodies.push_back({&solid, geometry.solid(instance.solid).boxes, X_EB, solid.radius(),
+                      list.ground == static_cast<int>(i)});
+  }
+  const std::vector<OcclusionVertex> triangles =
+      contactOcclusion(bodies, focalLengthPixels(camera, settings.height));
+  if (triangles.empty()) return;
+  gl.BindVertexArray(occlusion_array);
+  gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(OcclusionVertex)), triangles.data(),
+                GL_STREAM_DRAW);
+  gl.Enable(GL_BLEND);
+  gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(-1.0f, -8.0f);
+  gl.UseProgram(occlusion_program);
+  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  gl.Disable(GL_BLEND);
+}
+
+void FrameRenderer::Impl::readBack() {
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl.ReadPixels(0, 0, settings.width, settings.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  filter.apply(pixels, image);
+}
+
+FrameRenderer::FrameRenderer(const Settings& settings, std::span<const Solid> solids)
+    : impl_(std::make_unique<Impl>(settings, solids)) {}
+FrameRenderer::~FrameRenderer() = default;
+
+const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera) {
+  return impl_->draw(instances, camera);
+}
+ContextInfo FrameRenderer::info() const { return impl_->context->info(); }
+
+}  // namespace carom::renderer

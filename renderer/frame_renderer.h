@@ -1,0 +1,65 @@
+#pragma once
+// Draws frames off screen from plain values. The public face of the renderer: it knows shapes, poses, colours and a
+// camera, nothing of physics. One sun with soft shadows, light from sky and ground, contact shadows, air between here
+// and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
+// Tested in tests/renderer/frame_renderer_test.cpp.
+
+#include <memory>
+#include <span>
+
+#include "engine/foundation/frames.h"
+#include "engine/solid/solid.h"
+#include "renderer/image.h"
+#include "renderer/offscreen_context.h"
+#include "renderer/projection.h"
+
+namespace carom::renderer {
+
+/// sRGB, each 0 to 1.
+struct Color {
+  float r = 0.8f;
+  float g = 0.8f;
+  float b = 0.8f;
+};
+
+/// One body to draw.
+struct Instance {
+  int solid = 0;  ///< Index into the solids given to the renderer.
+  Pose X_WB;
+  Color color;
+  /// Draw level faces with a checker board of the world's xy (grounds): squares of 1 m; of a power of ten metres where
+  /// the camera is so near or far that those would be useless. The lowest checker instance whose top is level is drawn
+  /// as an endless plane that fades into the horizon, whatever its own size; it casts no shadow.
+  bool checker = false;
+};
+
+/// The longest side of an image.
+inline constexpr int kMaxImageSide = 16384;
+
+struct Settings {
+  int width = 1280;
+  int height = 720;
+  Vec3 to_light = Vec3(0.55, -0.30, 0.95);  ///< World, any length: where the sun stands.
+  PixelPolicy pixels = PixelPolicy::kFast;  ///< kPortable for golden frames; the first renderer of a process decides.
+};
+
+class FrameRenderer {
+ public:
+  /// Creates the context and uploads the solids' geometry (kept by value; the span need not outlive the call).
+  /// Throws InputError for a size outside [1, kMaxImageSide] or no light direction, NoRenderer without a GL context.
+  FrameRenderer(const Settings& settings, std::span<const Solid> solids);
+  ~FrameRenderer();
+  FrameRenderer(const FrameRenderer&) = delete;
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+  /// Draws one frame; the image is valid until the next call. From any thread, one at a time.
+  /// Throws InputError when the camera is impossible (see `cameraAxes`).
+  const Image& draw(std::span<const Instance> instances, const Camera& camera);
+  ContextInfo info() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom::renderer

@@ -1,0 +1,20 @@
+#pragma once
+// An 8-bit sRGB image in memory, top row first.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom::renderer {
+
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  ///< width * height * 3, rows from top to bottom.
+
+  const std::uint8_t* pixel(int x, int y) const {
+    return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  }
+};
+
+}  // namespace carom::renderer

@@ -1,0 +1,58 @@
+#pragma once
+// The solids' triangles on the GPU's side, uploaded once: every solid at several levels of detail in one vertex and
+// one index buffer. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "renderer/gl_functions.h"
+#include "renderer/solid_extent.h"
+
+namespace carom::renderer {
+
+inline constexpr int kDetailLevels = 5;
+
+/// The level for a solid whose radius is `radius_px` on the image: bevels narrower than a pixel are left out, and the
+/// sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's 1000 pixels).
+int detailLevel(double radius_px);
+
+/// A range of the index buffer.
+struct MeshRange {
+  std::size_t first_byte = 0;
+  GLsizei count = 0;
+  GLint base_vertex = 0;
+};
+
+struct SolidGeometry {
+  std::array<MeshRange, kDetailLevels> levels;
+  Extent extent;
+  std::vector<RoundedBox> boxes;  ///< One a part.
+  bool is_round = false;          ///< Has a ball or capsule among its parts.
+};
+
+/// What changes per drawn body: the rows of X_EB and the colour (see the body shader).
+struct InstanceRecord {
+  float rows[3][4];
+  float color[4];
+};
+
+class SceneGeometry {
+ public:
+  SceneGeometry(const GlFunctions& gl, std::span<const Solid> solids);
+
+  const SolidGeometry& solid(int index) const { return solids_[static_cast<std::size_t>(index)]; }
+  int solidCount() const { return static_cast<int>(solids_.size()); }
+
+  /// Makes `records` the instances that draws refer to by index.
+  void uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const;
+  void draw(const GlFunctions& gl, const MeshRange& range, int first_instance, int count) const;
+
+ private:
+  std::vector<SolidGeometry> solids_;
+  GLuint vertex_array_ = 0;
+  GLuint instance_buffer_ = 0;
+};
+
+}  // namespace carom::renderer

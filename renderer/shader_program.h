@@ -1,0 +1,19 @@
+#pragma once
+// Compiles and links GLSL. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
+
+#include "renderer/gl_functions.h"
+
+namespace carom::renderer {
+
+struct ShaderSources {
+  const char* name;  ///< For the message when the driver rejects it.
+  const char* head;  ///< Put before both stages.
+  const char* vertex;
+  const char* fragment_head;  ///< Put before the fragment stage.
+  const char* fragment;
+};
+
+/// A program that lives as long as the current context. Throws NoRenderer with the first line of the driver's log.
+GLuint linkProgram(const GlFunctions& gl, const ShaderSources& sources);
+
+}  // namespace carom::renderer

@@ -1,0 +1,241 @@
+#pragma once
+// The GLSL of all passes, and the block of values they share. Frame E: the world's axes, origin at the eye; light is
+// linear until the sRGB framebuffer encodes it.
+
+namespace carom::renderer {
+
+/// Matches the GLSL block `Frame` below under std140.
+struct FrameBlock {
+  float clip_from_E[16];
+  float shadow_rows[3][4];  ///< Texture u, v and depth of a point.
+  float to_light[4];        ///< Unit; w: how far a point is lifted along its normal before its shadow is looked up.
+  float ray_corner[4];      ///< Direction through the lower left corner of the image; w: 1 / fog distance.
+  float ray_x[4];           ///< Added per pixel to the right; w: texels along a side of the shadow map.
+  float ray_y[4];           ///< Added per pixel upwards.
+  float ground[4];          ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
+};
+
+inline constexpr const char* kGlslHead = R"(#version 420 core
+layout(std140, binding = 0) uniform Frame {
+  mat4 clip_from_E;
+  vec4 shadow_rows[3];
+  vec4 to_light;
+  vec4 ray_corner;
+  vec4 ray_x;
+  vec4 ray_y;
+  vec4 ground;
+};
+// Texture coordinates in the shadow map of a point with normal n, lifted out of the reach of its own shadow.
+vec3 shadowCoordinates(vec3 p, vec3 n) {
+  float towards = dot(n, to_light.xyz);
+  float slope = sqrt(max(1.0 - towards * towards, 0.0));
+  vec4 q = vec4(p + to_light.w * (0.2 + 0.8 * slope) * n, 1.0);
+  return vec3(dot(shadow_rows[0], q), dot(shadow_rows[1], q), dot(shadow_rows[2], q));
+}
+)";
+
+// What lights a scene: sun, sky and bounced light, the air in between, and the film.
+inline constexpr const char* kGlslLight = R"(
+layout(binding = 0) uniform sampler2DShadow shadow_map;
+const vec3 kSun = vec3(1.50, 1.42, 1.30);
+const vec3 kSkyLight = vec3(0.31, 0.355, 0.43);
+const vec3 kGroundLight = vec3(0.10, 0.097, 0.095);
+
+// The sky as it appears on the image.
+const vec3 kHorizon = vec3(0.615, 0.665, 0.735);
+const vec3 kZenith = vec3(0.24, 0.37, 0.59);
+const vec3 kBelow = vec3(0.45, 0.47, 0.50);
+
+vec3 skyAt(float elevation) {
+  float up = clamp(elevation, 0.0, 1.0);
+  float high = 1.0 - (1.0 - up) * (1.0 - up);
+  float low = clamp(-elevation * 2.0, 0.0, 1.0);
+  return mix(mix(kHorizon, kZenith, high), kBelow, low);
+}
+
+// Shadow softened by a tent of six texels each way: 36 comparisons in nine fetches.
+float lit(vec3 s) {
+  if (any(greaterThan(abs(s.xy - 0.5), vec2(0.497)))) return 1.0;
+  float size = ray_x.w;
+  vec2 t = s.xy * size - 0.5;
+  vec2 b = floor(t);
+  vec2 f = t - b;
+  vec2 wx[3] = vec2[3](vec2(1.0 - f.x, 2.0 - f.x), vec2(3.0 - f.x, 2.0 + f.x), vec2(1.0 + f.x, f.x));
+  vec2 wy[3] = vec2[3](vec2(1.0 - f.y, 2.0 - f.y), vec2(3.0 - f.y, 2.0 + f.y), vec2(1.0 + f.y, f.y));
+  float sum = 0.0;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) {
+      vec4 q = textureGather(shadow_map, (b + vec2(2 * i - 1, 2 * j - 1)) / size, s.z);
+      sum += dot(wx[i], q.wz) * wy[j].x + dot(wx[i], q.xy) * wy[j].y;
+    }
+  return sum / 81.0;
+}
+
+// Checker of the world's xy, each pixel the exact mean over its footprint.
+float checker(vec2 uv) {
+  vec2 w = 1.2 * max(abs(dFdx(uv)), abs(dFdy(uv))) + 1e-5;
+  vec2 a = abs(fract(0.5 * (uv - 0.5 * w)) - 0.5);
+  vec2 b = abs(fract(0.5 * (uv + 0.5 * w)) - 0.5);
+  vec2 mean = 2.0 * (a - b) / w;
+  return 0.5 - 0.5 * mean.x * mean.y;
+}
+const vec3 kLightSquare = vec3(0.56, 0.555, 0.54);
+const vec3 kDarkSquare = vec3(0.325, 0.335, 0.36);
+
+// A film's shoulder: straight for dim light, never quite white. Then the air in between, as bright as the horizon.
+vec3 film(vec3 light, float distance_m) {
+  vec3 image = light * inversesqrt(1.0 + light * light);
+  float q = distance_m * ray_corner.w;
+  return mix(kHorizon, image, exp(-q * q));
+}
+)";
+
+inline constexpr const char* kBodyVertex = R"(
+layout(location = 0) in vec3 p_B;
+layout(location = 1) in vec3 n_B;
+layout(location = 2) in vec4 row0;
+layout(location = 3) in vec4 row1;
+layout(location = 4) in vec4 row2;
+layout(location = 5) in vec4 color;
+out vec3 p_E;
+out vec3 n_E;
+out vec3 shadow;
+flat out vec4 albedo;
+void main() {
+  vec4 p = vec4(p_B, 1.0);
+  p_E = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
+  n_E = vec3(dot(row0.xyz, n_B), dot(row1.xyz, n_B), dot(row2.xyz, n_B));
+  shadow = shadowCoordinates(p_E, n_E);
+  albedo = color;
+  gl_Position = clip_from_E * vec4(p_E, 1.0);
+}
+)";
+
+// albedo.w: the distance from the ground within which it is darkened by it; negative marks a checker board.
+inline constexpr const char* kBodyFragment = R"(
+in vec3 p_E;
+in vec3 n_E;
+in vec3 shadow;
+flat in vec4 albedo;
+out vec4 pixel;
+void main() {
+  float distance_m = length(p_E);
+  vec3 v = p_E / -distance_m;
+  vec3 n = normalize(n_E);
+  vec3 base = albedo.rgb;
+  if (albedo.w < 0.0 && n.z > 0.5)
+    base = mix(kDarkSquare, kLightSquare, checker(p_E.xy * ground.y + ground.zw));
+  float towards = dot(n, to_light.xyz);
+  float sun = towards > 0.0 ? lit(shadow) : 0.0;
+
+  float near_ground = clamp(1.0 - (p_E.z - ground.x) / max(abs(albedo.w), 1e-6), 0.0, 1.0);
+  float open_below = 1.0 - 0.85 * near_ground * near_ground;
+  vec3 around = mix(kGroundLight * open_below, kSkyLight, 0.5 + 0.5 * n.z);
+  vec3 light = base * (kSun * (max(towards, 0.0) * sun) + around);
+
+  // A thin coat of lacquer: the sun's glint and the sky's reflection, stronger at grazing angles.
+  vec3 h = normalize(v + to_light.xyz);
+  float nh = max(dot(n, h), 0.0);
+  float nv = max(dot(n, v), 0.0);
+  float grazing = 1.0 - nv;
+  float fresnel = 0.04 + 0.5 * grazing * grazing * grazing * grazing * grazing;
+  float glint = exp2(-70.0 * (1.0 - nh)) * 0.42;
+  float up = clamp(2.0 * nv * n.z - v.z, -1.0, 1.0);
+  vec3 mirrored = mix(kGroundLight * open_below, mix(kHorizon, kZenith, max(up, 0.0)), clamp(0.5 + 2.0 * up, 0.0, 1.0));
+  light += kSun * (glint * sun) + fresnel * mirrored;
+  pixel = vec4(film(light, distance_m), 1.0);
+}
+)";
+
+inline constexpr const char* kGroundVertex = R"(
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
+  gl_Position = clip_from_E * vec4(corner * (400.0 / ray_corner.w), ground.x, 1.0);
+}
+)";
+
+// The point is where the pixel's ray meets the plane: exact however far the plane reaches.
+inline constexpr const char* kGroundFragment = R"(
+out vec4 pixel;
+void main() {
+  vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
+  vec3 p = ray * (ground.x / ray.z);
+  float distance_m = length(p);
+  vec3 base = mix(kDarkSquare, kLightSquare, checker(p.xy * ground.y + ground.zw));
+  float sun = to_light.z > 0.0 ? lit(shadowCoordinates(p, vec3(0.0, 0.0, 1.0))) : 0.0;
+  vec3 light = base * (kSun * (max(to_light.z, 0.0) * sun) + kSkyLight);
+  pixel = vec4(film(light, distance_m), 1.0);
+}
+)";
+
+inline constexpr const char* kSkyVertex = R"(
+void main() {
+  gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 1.0, 1.0);
+}
+)";
+
+inline constexpr const char* kSkyFragment = R"(
+out vec4 pixel;
+void main() {
+  vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
+  pixel = vec4(skyAt(ray.z * inversesqrt(dot(ray, ray))), 1.0);
+}
+)";
+
+inline constexpr const char* kShadowVertex = R"(
+layout(location = 0) in vec3 p_B;
+layout(location = 2) in vec4 row0;
+layout(location = 3) in vec4 row1;
+layout(location = 4) in vec4 row2;
+void main() {
+  vec4 p = vec4(p_B, 1.0);
+  vec3 p_E = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
+  gl_Position = vec4(2.0 * shadowCoordinates(p_E, vec3(0.0)) - 1.0, 1.0);
+}
+)";
+
+inline constexpr const char* kShadowFragment = R"(
+void main() {}
+)";
+
+inline constexpr const char* kOcclusionVertex = R"(
+layout(location = 0) in vec3 p_E;
+layout(location = 1) in vec3 p_R_in;
+layout(location = 2) in vec3 n_R_in;
+layout(location = 3) in vec3 half_in;
+layout(location = 4) in vec2 radius_reach;
+out vec3 p_R;
+out float distance_m;
+flat out vec3 n_R;
+flat out vec3 half_R;
+flat out vec2 radius_and_reach;
+void main() {
+  p_R = p_R_in;
+  n_R = n_R_in;
+  half_R = half_in;
+  radius_and_reach = radius_reach;
+  distance_m = length(p_E);
+  gl_Position = clip_from_E * vec4(p_E, 1.0);
+}
+)";
+
+// Darkens by nearness, most where the near surface lies straight above the face and half as much where it stands on it.
+inline constexpr const char* kOcclusionFragment = R"(
+in vec3 p_R;
+in float distance_m;
+flat in vec3 n_R;
+flat in vec3 half_R;
+flat in vec2 radius_and_reach;
+out vec4 pixel;
+void main() {
+  vec3 out_of_box = p_R - clamp(p_R, -half_R, half_R);
+  float d = length(out_of_box);
+  float nearness = clamp(1.0 - (d - radius_and_reach.x) / radius_and_reach.y, 0.0, 1.0);
+  float above = clamp(-dot(out_of_box, n_R) / max(d, 1e-6), 0.0, 1.0);
+  float q = distance_m * ray_corner.w;
+  float dark = 0.62 * (0.5 + 0.5 * above) * nearness * nearness * exp(-q * q);
+  pixel = vec4(vec3(1.0 - dark), 1.0);
+}
+)";
+
+}  // namespace carom::renderer

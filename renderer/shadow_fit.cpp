@@ -1,0 +1,101 @@
+#include "renderer/shadow_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace carom::renderer {
+namespace {
+
+constexpr double kReceiverReach = 1.6;  // Shadows are drawn up to this multiple of the farthest caster's distance.
+constexpr double kStepsPerDoubling = 4.0;
+constexpr int kBorderTexels = 6;        // Kept free around the casters: the filter's reach and the snapping.
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+  void cutTo(const Range& other) { low = std::max(low, other.low), high = std::min(high, other.high); }
+  double length() const { return high - low; }
+};
+
+struct LightAxes {
+  Vec3 axis[3];  // Across, across, towards the light.
+};
+
+// One side of the map runs along the view, where the visible region is longest.
+LightAxes lightAxes(const CameraAxes& camera, const Vec3& to_light) {
+  const Vec3 z = to_light.normalized();
+  Vec3 x = camera.forward - camera.forward.dot(z) * z;
+  if (x.norm() < 1e-3) x = camera.right - camera.right.dot(z) * z;
+  x.normalize();
+  return {{x, z.cross(x), z}};
+}
+
+Range casterRange(std::span<const ShadowCaster> casters, const Vec3& axis) {
+  Range range;
+  for (const ShadowCaster& c : casters) {
+    const double middle = axis.dot(c.X_EB.position);
+    const double half = (c.X_EB.rotation.conjugate() * axis).cwiseAbs().dot(c.half);
+    range.include(middle - half);
+    range.include(middle + half);
+  }
+  return range;
+}
+
+Range visibleRange(const ShadowRequest& request, const CameraAxes& camera, double reach_m, const Vec3& axis) {
+  const double up = std::tan(0.5 * request.camera.fov_degrees * std::numbers::pi / 180.0);
+  Range range;
+  range.include(0.0);
+  for (const double sx : {-1.0, 1.0})
+    for (const double sy : {-1.0, 1.0}) {
+      const Vec3 ray = camera.forward + sx * up * request.aspect * camera.right + sy * up * camera.up;
+      range.include(reach_m * axis.dot(ray));
+    }
+  return range;
+}
+
+// The next of the sizes 2^(k/4): small changes of the bounds leave the map as it is.
+double steppedUp(double length_m) {
+  return std::exp2(std::ceil(std::log2(length_m) * kStepsPerDoubling) / kStepsPerDoubling);
+}
+
+}  // namespace
+
+ShadowView fitShadow(const ShadowRequest& request, std::span<const ShadowCaster> casters) {
+  ShadowView view;
+  if (casters.empty()) return view;
+  const CameraAxes camera = cameraAxes(request.camera);
+  const LightAxes light = lightAxes(camera, request.to_light);
+  double reach = 0.0;
+  for (const ShadowCaster& c : casters) reach = std::max(reach, kReceiverReach * (c.X_EB.position.norm() + c.half.norm()));
+
+  Range across[2];
+  double side = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    across[i] = casterRange(casters, light.axis[i]);
+    across[i].cutTo(visibleRange(request, camera, reach, light.axis[i]));
+    if (!(across[i].length() > 0.0)) return view;  // No shadow can be seen.
+    side = std::max(side, across[i].length());
+  }
+  const Range depth = casterRange(casters, light.axis[2]);
+
+  const double size = steppedUp(side * request.texels / (request.texels - 2.0 * kBorderTexels));
+  view.texel_m = size / request.texels;
+  for (int i = 0; i < 2; ++i) {
+    // Snapped in the world, so that a moving camera does not make shadows crawl either.
+    const double eye = light.axis[i].dot(request.camera.eye);
+    const double low = 0.5 * (across[i].low + across[i].high - size);
+    const double snapped = std::floor((low + eye) / view.texel_m) * view.texel_m - eye;
+    view.rows.block<1, 3>(i, 0) = light.axis[i].transpose() / size;
+    view.rows(i, 3) = -snapped / size;
+  }
+  const double margin = 0.01 * depth.length() + view.texel_m;
+  const double length = depth.length() + 2.0 * margin;
+  view.rows.block<1, 3>(2, 0) = -light.axis[2].transpose() / length;
+  view.rows(2, 3) = (depth.high + margin) / length;
+  return view;
+}
+
+}  // namespace carom::renderer
