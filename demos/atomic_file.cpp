@@ -14,7 +14,9 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   std::error_code failed;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
   if (failed) fail(failed.message());
-  temporary_ = path.parent_path() / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".partial");
+  std::string name = ".";  // hidden, and of this process alone
+  name.append(path.filename().string()).append(".").append(std::to_string(::getpid())).append(".partial");
+  temporary_ = path.parent_path() / name;
   file_.reset(std::fopen(temporary_.c_str(), "wb"));
   if (!file_) fail(std::strerror(errno));
 }

@@ -1,9 +1,11 @@
 #pragma once
 // The program's exit codes, and the failures that lead to them and that the engine has no name for.
-// InputError (bad scene or asset) comes from engine/foundation, NoRenderer from renderer; main.cpp maps them all.
-// Tested in tests/demos/exit_code_test.cpp.
+// InputError (bad scene or asset) comes from engine/foundation, NoRenderer from renderer.
+// Tested in tests/demos/exit_code_test.cpp, and through the program in tests/demos/program_test.cpp.
 
+#include <exception>
 #include <stdexcept>
+#include <string>
 
 namespace carom::demos {
 
@@ -42,5 +44,13 @@ class Interrupted : public std::runtime_error {
   explicit Interrupted(int signal_number) : std::runtime_error("interrupted"), signal(signal_number) {}
   int signal;
 };
+
+/// How the program ends after an exception.
+struct Failure {
+  int code = 0;
+  std::string line;     ///< What to print.
+  bool is_bug = false;  ///< Nobody's input is at fault: end by abort.
+};
+Failure failureOf(const std::exception_ptr& thrown);
 
 }  // namespace carom::demos

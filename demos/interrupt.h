@@ -1,6 +1,6 @@
 #pragma once
 // SIGINT and SIGTERM as a flag that loops look at, so that destructors run and nothing half-written stays behind.
-// Tested through the program in tests/demos/exit_code_test.cpp.
+// Tested through the program in tests/demos/program_test.cpp.
 
 namespace carom::demos {
 

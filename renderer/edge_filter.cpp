@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <thread>
 
 #include "engine/foundation/contract.h"
 
@@ -96,12 +97,19 @@ int firstMarked(const std::uint8_t* edges, int begin, int end, std::uint8_t bit)
   return end;
 }
 
+template <typename First, typename Second>
+void inParallel(const First& first, const Second& second) {
+  std::thread other(first);
+  second();
+  other.join();
+}
+
 }  // namespace
 
 EdgeFilter::EdgeFilter(int width, int height) : width_(width), height_(height) {
   const auto cells = static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2);
   edges_.assign(cells, 0);
-  differs_.assign(2 * 4 * static_cast<std::size_t>(width), 0);
+  for (std::vector<std::uint8_t>& rows : differs_) rows.assign(2 * 4 * static_cast<std::size_t>(width), 0);
 }
 
 void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
@@ -110,23 +118,35 @@ void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
   image.width = width_;
   image.height = height_;
   image.rgb.resize(3 * pixels);
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* from = rgba.data() + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
-    std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
-    for (std::ptrdiff_t x = 0; x < width_; ++x)
-      for (std::ptrdiff_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
-    markRow(rgba.data(), y);
-  }
-  mixHorizontal(rgba.data(), image);
-  mixVertical(rgba.data(), image);
+  // What lies between the halves is mixed after both are done: it writes into either.
+  const std::uint8_t* source = rgba.data();
+  const int row = height_ / 2, column = width_ / 2;
+  inParallel([&] { takeRows(source, image, {0, row}, differs_[0]); },
+             [&] { takeRows(source, image, {row, height_}, differs_[1]); });
+  inParallel([&] { mixRowPairs(source, image, {0, row - 1}); }, [&] { mixRowPairs(source, image, {row, height_ - 1}); });
+  mixRowPairs(source, image, {std::max(row - 1, 0), row});
+  inParallel([&] { mixColumnPairs(source, image, {0, column - 1}); },
+             [&] { mixColumnPairs(source, image, {column, width_ - 1}); });
+  mixColumnPairs(source, image, {std::max(column - 1, 0), column});
 }
 
-void EdgeFilter::markRow(const std::uint8_t* rgba, int y) {
+void EdgeFilter::takeRows(const std::uint8_t* rgba, Image& image, Band rows, std::vector<std::uint8_t>& differs) {
+  for (int y = rows.begin; y < rows.end; ++y) {
+    const std::uint8_t* from = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
+    std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
+    // Four bytes at once; the fourth is overwritten by the next pixel, which the last one of a row has not.
+    for (std::ptrdiff_t x = 0; x + 1 < width_; ++x) std::memcpy(to + 3 * x, from + 4 * x, 4);
+    std::memcpy(to + 3 * (width_ - 1), from + 4 * (width_ - 1), 3);
+    markRow(rgba, y, differs);
+  }
+}
+
+void EdgeFilter::markRow(const std::uint8_t* rgba, int y, std::vector<std::uint8_t>& differs) {
   const std::ptrdiff_t stride = 4 * static_cast<std::ptrdiff_t>(width_);
   const std::uint8_t* row = rgba + stride * (height_ - 1 - y);
   const std::uint8_t* below = y + 1 < height_ ? row - stride : row;
-  std::uint8_t* below_flags = differs_.data();
-  std::uint8_t* right_flags = differs_.data() + stride;
+  std::uint8_t* below_flags = differs.data();
+  std::uint8_t* right_flags = differs.data() + stride;
   // Byte by byte and without branches, so that the compiler makes vectors of it.
   const auto flag = [](std::uint8_t a, std::uint8_t b, std::uint8_t bit) {
     const auto difference = static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
@@ -146,10 +166,10 @@ void EdgeFilter::markRow(const std::uint8_t* rgba, int y) {
 }
 
 // Runs along a row, between it (first side) and the row below.
-void EdgeFilter::mixHorizontal(const std::uint8_t* rgba, Image& image) {
+void EdgeFilter::mixRowPairs(const std::uint8_t* rgba, Image& image, Band first_rows) const {
   const Tables& t = tables();
   const std::ptrdiff_t pitch = width_ + 2;
-  for (int y = 0; y + 1 < height_; ++y) {
+  for (int y = first_rows.begin; y < first_rows.end; ++y) {
     const std::uint8_t* edges = edges_.data() + pitch * (y + 1) + 1;
     const std::uint8_t* source = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
     const std::uint8_t* source_below = source - 4 * static_cast<std::ptrdiff_t>(width_);
@@ -173,7 +193,7 @@ void EdgeFilter::mixHorizontal(const std::uint8_t* rgba, Image& image) {
 
 // Runs along a column, between it (first side) and the column to its right. All columns are walked together, row by
 // row, to stay within the cache.
-void EdgeFilter::mixVertical(const std::uint8_t* rgba, Image& image) {
+void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image, Band first_columns) const {
   const Tables& t = tables();
   const std::ptrdiff_t pitch = width_ + 2;
   const auto finish = [&](std::ptrdiff_t x, Run run) {
@@ -192,7 +212,8 @@ void EdgeFilter::mixVertical(const std::uint8_t* rgba, Image& image) {
   };
   for (int y = 0; y < height_; ++y) {
     const std::uint8_t* edges = edges_.data() + pitch * (y + 1) + 1;
-    for (int x = firstMarked(edges, 0, width_, kRight); x < width_; x = firstMarked(edges, x + 1, width_, kRight)) {
+    for (int x = firstMarked(edges, first_columns.begin, first_columns.end, kRight); x < first_columns.end;
+         x = firstMarked(edges, x + 1, first_columns.end, kRight)) {
       if ((edges[x + pitch] & kRight) != 0) continue;  // A run is handled where it ends.
       Run run{y, y + 1, 0.0f, 0.0f};
       while ((edges_[static_cast<std::size_t>(pitch * run.begin + x + 1)] & kRight) != 0) --run.begin;

@@ -17,9 +17,10 @@
 namespace carom::renderer {
 namespace {
 
-constexpr int kShadowTexels = 1280;
-constexpr double kShadowLift = 3.0;       // Texels along a grazed surface's normal: the reach of the softening.
+constexpr int kShadowTexels = 1024;
+constexpr double kShadowLift = 2.2;       // Texels along a grazed surface's normal: the reach of the softening.
 constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
+constexpr double kHorizonOverDistance = 2000.0;  // Of the same distance: where the ground ends, long since all air.
 constexpr float kNoGround = -1e30f;
 
 Settings checked(const Settings& settings) {
@@ -44,6 +45,32 @@ double checkerSquare(double distance_m) {
   return square;
 }
 
+// The parallelogram of the ground that the shadow map covers: the map's corners, followed along the light. A light so
+// low that this would reach beyond the horizon, and one from below, leave a small square instead.
+void placeShadowedGround(FrameBlock& block, const ShadowView& shadow, double ground_z, double horizon_m) {
+  constexpr double kCorners[4][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  Mat3 system;
+  system << shadow.rows.block<2, 3>(0, 0), 0.0, 0.0, 1.0;
+  const bool covers = shadow.texel_m > 0.0 && std::abs(system.determinant()) > 0.0;
+  Vec2 corners[4];
+  double longest = 0.0, shortest = horizon_m;
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 uv(kCorners[i][0], kCorners[i][1]);
+    const Vec2 square = 2.0 * uv - Vec2::Ones();
+    const Vec3 known(uv.x() - shadow.rows(0, 3), uv.y() - shadow.rows(1, 3), ground_z);
+    corners[i] = covers ? Vec2(system.inverse().operator*(known).head<2>()) : square;
+    longest = std::max(longest, corners[i].norm());
+  }
+  if (longest > 0.5 * horizon_m)
+    for (int i = 0; i < 4; ++i) corners[i] = Vec2(2.0 * kCorners[i][0] - 1.0, 2.0 * kCorners[i][1] - 1.0);
+  for (int i = 0; i < 4; ++i) {
+    shortest = std::min(shortest, (corners[i] - corners[(i + 1) % 4]).norm());
+    block.shadowed[i][0] = static_cast<float>(corners[i].x());
+    block.shadowed[i][1] = static_cast<float>(corners[i].y());
+  }
+  block.shadowed[0][2] = static_cast<float>(4.0 * horizon_m / shortest);
+}
+
 void copy(float (&to)[4], const Vec3& v, double w) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
   to[3] = static_cast<float>(w);
@@ -60,11 +87,7 @@ struct FrameRenderer::Impl {
         gl(context->gl()),
         geometry(gl, solids),
         filter(settings.width, settings.height) {
-    body_program = linkProgram(gl, {"body", kGlslHead, kBodyVertex, kGlslLight, kBodyFragment});
-    ground_program = linkProgram(gl, {"ground", kGlslHead, kGroundVertex, kGlslLight, kGroundFragment});
-    sky_program = linkProgram(gl, {"sky", kGlslHead, kSkyVertex, kGlslLight, kSkyFragment});
-    shadow_program = linkProgram(gl, {"shadow", kGlslHead, kShadowVertex, "", kShadowFragment});
-    occlusion_program = linkProgram(gl, {"occlusion", kGlslHead, kOcclusionVertex, "", kOcclusionFragment});
+    linkPrograms();
     createTargets();
     createOcclusionBuffer();
     gl.GenBuffers(1, &frame_buffer);
@@ -72,6 +95,7 @@ struct FrameRenderer::Impl {
     pixels.resize(4 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   }
 
+  void linkPrograms();
   void createTargets();
   void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera);
@@ -89,12 +113,25 @@ struct FrameRenderer::Impl {
   const GlFunctions& gl;
   SceneGeometry geometry;
   EdgeFilter filter;
-  GLuint body_program = 0, ground_program = 0, sky_program = 0, shadow_program = 0, occlusion_program = 0;
+  GLuint body_program = 0, shadowed_ground_program = 0, open_ground_program = 0, sky_program = 0;
+  GLuint shadow_program = 0, occlusion_program = 0;
   GLuint scene_target = 0, shadow_target = 0;
   GLuint frame_buffer = 0, no_attributes = 0, occlusion_array = 0, occlusion_buffer = 0;
   std::vector<std::uint8_t> pixels;
   Image image;
 };
+
+void FrameRenderer::Impl::linkPrograms() {
+  const auto link = [&](const char* name, const char* vertex, const char* light, const char* common, const char* fragment) {
+    return linkProgram(gl, {name, {kGlslHead, vertex}, {kGlslHead, light, common, fragment}});
+  };
+  body_program = link("body", kBodyVertex, kGlslLight, "", kBodyFragment);
+  shadowed_ground_program = link("shadowed ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
+  open_ground_program = link("open ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundOpenFragment);
+  sky_program = link("sky", kSkyVertex, kGlslLight, "", kSkyFragment);
+  shadow_program = link("shadow", kShadowVertex, "", "", kShadowFragment);
+  occlusion_program = link("occlusion", kOcclusionVertex, "", "", kOcclusionFragment);
+}
 
 void FrameRenderer::Impl::createTargets() {
   GLuint buffers[2], shadow_map = 0;
@@ -194,6 +231,7 @@ void FrameRenderer::Impl::uploadFrame(const Camera& camera, const DrawList& list
   block.ground[1] = static_cast<float>(1.0 / square);
   block.ground[2] = static_cast<float>(std::fmod(camera.eye.x() / square, 2.0));
   block.ground[3] = static_cast<float>(std::fmod(camera.eye.y() / square, 2.0));
+  placeShadowedGround(block, shadow, list.ground_z_E, kHorizonOverDistance * distance);
   gl.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
@@ -231,8 +269,10 @@ void FrameRenderer::Impl::drawScene(const DrawList& list) const {
   gl.Disable(GL_CULL_FACE);
   gl.BindVertexArray(no_attributes);
   if (list.ground && list.ground_z_E < 0.0) {
-    gl.UseProgram(ground_program);
+    gl.UseProgram(to_light.z() > 0.0 ? shadowed_ground_program : open_ground_program);
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    gl.UseProgram(open_ground_program);
+    gl.DrawArrays(GL_TRIANGLE_STRIP, 4, 10);
   }
   gl.DepthMask(GL_FALSE);
   gl.UseProgram(sky_program);

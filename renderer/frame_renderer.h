@@ -39,7 +39,7 @@ inline constexpr int kMaxImageSide = 16384;
 struct Settings {
   int width = 1280;
   int height = 720;
-  Vec3 to_light = Vec3(0.55, -0.30, 0.95);  ///< World, any length: where the sun stands.
+  Vec3 to_light = Vec3(0.50, -0.50, 0.85);  ///< World, any length: where the sun stands.
   PixelPolicy pixels = PixelPolicy::kFast;  ///< kPortable for golden frames; the first renderer of a process decides.
 };
 

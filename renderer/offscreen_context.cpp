@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace carom::renderer {
 namespace {
@@ -49,14 +50,16 @@ class OsmesaContext final : public OffscreenContext {
   }
 
  private:
+  // An older context than needed is taken as well: it can say which renderer it is, for the refusal in describe().
   static OSMesaContext create() {
-    const int wanted[] = {OSMESA_FORMAT,  OSMESA_RGBA,         OSMESA_DEPTH_BITS,            0,
-                          OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, kMajor,
-                          OSMESA_CONTEXT_MINOR_VERSION, kMinor, 0};
-    OSMesaContext context = OSMesaCreateContextAttribs(wanted, nullptr);
-    if (context == nullptr)
-      throw NoRenderer("OSMesa offers no OpenGL 4.2 core context here (needs libosmesa6 of Mesa 17 to 25.0 with llvmpipe)");
-    return context;
+    for (const auto& [major, minor] : {std::pair{kMajor, kMinor}, {3, 2}}) {
+      const int wanted[] = {OSMESA_FORMAT,  OSMESA_RGBA,         OSMESA_DEPTH_BITS,            0,
+                            OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, major,
+                            OSMESA_CONTEXT_MINOR_VERSION, minor, 0};
+      OSMesaContext context = OSMesaCreateContextAttribs(wanted, nullptr);
+      if (context != nullptr) return context;
+    }
+    throw NoRenderer("OSMesa offers no OpenGL core context here (needs libosmesa6 of Mesa 17 to 25.0, with llvmpipe)");
   }
 
   void loadFunctions() {
@@ -74,6 +77,11 @@ class OsmesaContext final : public OffscreenContext {
     if (info_.renderer.empty()) throw NoRenderer("OSMesa's context does not answer (another GL library in its place?)");
     if (info_.renderer.find("softpipe") != std::string::npos)
       throw NoRenderer("OSMesa draws with softpipe, which is far too slow; llvmpipe is needed (unset GALLIUM_DRIVER)");
+    GLint major = 0, minor = 0;
+    gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (std::pair(major, minor) < std::pair(kMajor, kMinor))
+      throw NoRenderer("OpenGL 4.2 is needed, but OSMesa offers " + info_.version + " with " + info_.renderer);
   }
 
   std::string text(GLenum name) const {

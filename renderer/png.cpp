@@ -158,12 +158,12 @@ std::vector<png_text> textChunks(const PngText& text) {
 }
 
 std::vector<std::uint8_t> readBytes(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw InputError("cannot read '" + path.string() + "': it is a folder");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad() || (bytes.empty() && std::filesystem::is_directory(path)))
-    throw InputError("cannot read '" + path.string() + "': not a readable file");
+  if (file.bad()) throw InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 #include "renderer/shader_program.h"
 
 #include <array>
+#include <span>
 #include <string>
 
 #include "renderer/offscreen_context.h"
@@ -13,10 +14,7 @@ namespace {
   throw NoRenderer(std::string("the GL driver does not ") + what + " shader '" + name + "': " + log);
 }
 
-GLuint compile(const GlFunctions& gl, GLenum stage, const ShaderSources& sources) {
-  const bool is_vertex = stage == GL_VERTEX_SHADER;
-  const std::array<const GLchar*, 3> texts = {sources.head, is_vertex ? "" : sources.fragment_head,
-                                              is_vertex ? sources.vertex : sources.fragment};
+GLuint compile(const GlFunctions& gl, GLenum stage, const char* name, std::span<const char* const> texts) {
   const GLuint shader = gl.CreateShader(stage);
   gl.ShaderSource(shader, static_cast<GLsizei>(texts.size()), texts.data(), nullptr);
   gl.CompileShader(shader);
@@ -25,7 +23,7 @@ GLuint compile(const GlFunctions& gl, GLenum stage, const ShaderSources& sources
   if (compiled != GL_TRUE) {
     std::array<char, 512> log{};
     gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    reject(sources.name, "compile", log.data());
+    reject(name, "compile", log.data());
   }
   return shader;
 }
@@ -33,8 +31,8 @@ GLuint compile(const GlFunctions& gl, GLenum stage, const ShaderSources& sources
 }  // namespace
 
 GLuint linkProgram(const GlFunctions& gl, const ShaderSources& sources) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, sources);
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, sources);
+  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, sources.name, sources.vertex);
+  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, sources.name, sources.fragment);
   const GLuint program = gl.CreateProgram();
   gl.AttachShader(program, vertex);
   gl.AttachShader(program, fragment);

@@ -1,16 +1,16 @@
 #pragma once
 // Compiles and links GLSL. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
 
+#include <array>
+
 #include "renderer/gl_functions.h"
 
 namespace carom::renderer {
 
 struct ShaderSources {
-  const char* name;  ///< For the message when the driver rejects it.
-  const char* head;  ///< Put before both stages.
-  const char* vertex;
-  const char* fragment_head;  ///< Put before the fragment stage.
-  const char* fragment;
+  const char* name;                         ///< For the message when the driver rejects it.
+  std::array<const char*, 2> vertex;        ///< The stage's text, in pieces.
+  std::array<const char*, 4> fragment;
 };
 
 /// A program that lives as long as the current context. Throws NoRenderer with the first line of the driver's log.

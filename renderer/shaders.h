@@ -13,6 +13,7 @@ struct FrameBlock {
   float ray_x[4];           ///< Added per pixel to the right; w: texels along a side of the shadow map.
   float ray_y[4];           ///< Added per pixel upwards.
   float ground[4];          ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
+  float shadowed[4][4];     ///< xy: corners, in order, of the ground's part that the shadow map covers.
 };
 
 inline constexpr const char* kGlslHead = R"(#version 420 core
@@ -24,6 +25,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 ray_x;
   vec4 ray_y;
   vec4 ground;
+  vec4 shadowed[4];
 };
 // Texture coordinates in the shadow map of a point with normal n, lifted out of the reach of its own shadow.
 vec3 shadowCoordinates(vec3 p, vec3 n) {
@@ -37,8 +39,8 @@ vec3 shadowCoordinates(vec3 p, vec3 n) {
 // What lights a scene: sun, sky and bounced light, the air in between, and the film.
 inline constexpr const char* kGlslLight = R"(
 layout(binding = 0) uniform sampler2DShadow shadow_map;
-const vec3 kSun = vec3(1.50, 1.42, 1.30);
-const vec3 kSkyLight = vec3(0.31, 0.355, 0.43);
+const vec3 kSun = vec3(1.76, 1.67, 1.53);
+const vec3 kSkyLight = vec3(0.32, 0.365, 0.44);
 const vec3 kGroundLight = vec3(0.10, 0.097, 0.095);
 
 // The sky as it appears on the image.
@@ -48,27 +50,29 @@ const vec3 kBelow = vec3(0.45, 0.47, 0.50);
 
 vec3 skyAt(float elevation) {
   float up = clamp(elevation, 0.0, 1.0);
-  float high = 1.0 - (1.0 - up) * (1.0 - up);
+  float high = 1.0 - (1.0 - up) * (1.0 - up) * (1.0 - up);
   float low = clamp(-elevation * 2.0, 0.0, 1.0);
   return mix(mix(kHorizon, kZenith, high), kBelow, low);
 }
 
-// Shadow softened by a tent of six texels each way: 36 comparisons in nine fetches.
+// Shadow softened by a tent of four texels each way: sixteen comparisons in four fetches.
 float lit(vec3 s) {
   if (any(greaterThan(abs(s.xy - 0.5), vec2(0.497)))) return 1.0;
   float size = ray_x.w;
   vec2 t = s.xy * size - 0.5;
   vec2 b = floor(t);
   vec2 f = t - b;
-  vec2 wx[3] = vec2[3](vec2(1.0 - f.x, 2.0 - f.x), vec2(3.0 - f.x, 2.0 + f.x), vec2(1.0 + f.x, f.x));
-  vec2 wy[3] = vec2[3](vec2(1.0 - f.y, 2.0 - f.y), vec2(3.0 - f.y, 2.0 + f.y), vec2(1.0 + f.y, f.y));
-  float sum = 0.0;
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) {
-      vec4 q = textureGather(shadow_map, (b + vec2(2 * i - 1, 2 * j - 1)) / size, s.z);
-      sum += dot(wx[i], q.wz) * wy[j].x + dot(wx[i], q.xy) * wy[j].y;
-    }
-  return sum / 81.0;
+  vec4 wx = vec4(1.0 - f.x, 2.0 - f.x, 1.0 + f.x, f.x);
+  vec4 wy = vec4(1.0 - f.y, 2.0 - f.y, 1.0 + f.y, f.y);
+  vec2 lower = b / size;
+  vec2 upper = (b + 2.0) / size;
+  vec4 q00 = textureGather(shadow_map, lower, s.z);
+  vec4 q10 = textureGather(shadow_map, vec2(upper.x, lower.y), s.z);
+  vec4 q01 = textureGather(shadow_map, vec2(lower.x, upper.y), s.z);
+  vec4 q11 = textureGather(shadow_map, upper, s.z);
+  vec4 rows = vec4(dot(wx, vec4(q00.wz, q10.wz)), dot(wx, vec4(q00.xy, q10.xy)), dot(wx, vec4(q01.wz, q11.wz)),
+                   dot(wx, vec4(q01.xy, q11.xy)));
+  return dot(wy, rows) / 16.0;
 }
 
 // Checker of the world's xy, each pixel the exact mean over its footprint.
@@ -79,8 +83,8 @@ float checker(vec2 uv) {
   vec2 mean = 2.0 * (a - b) / w;
   return 0.5 - 0.5 * mean.x * mean.y;
 }
-const vec3 kLightSquare = vec3(0.56, 0.555, 0.54);
-const vec3 kDarkSquare = vec3(0.325, 0.335, 0.36);
+const vec3 kLightSquare = vec3(0.52, 0.515, 0.50);
+const vec3 kDarkSquare = vec3(0.305, 0.315, 0.34);
 
 // A film's shoulder: straight for dim light, never quite white. Then the air in between, as bright as the horizon.
 vec3 film(vec3 light, float distance_m) {
@@ -147,24 +151,42 @@ void main() {
 }
 )";
 
+// Four vertices: the shadowed part of the ground. Ten more: the ring from there to beyond the horizon, which shares
+// the part's sides to the bit, so that no gap shows, and is spared the shadow look-up.
 inline constexpr const char* kGroundVertex = R"(
 void main() {
-  vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
-  gl_Position = clip_from_E * vec4(corner * (400.0 / ray_corner.w), ground.x, 1.0);
+  bool inner = gl_VertexID < 4 || (gl_VertexID & 1) == 0;
+  int strip = (gl_VertexID & 1) + (gl_VertexID & 2) * 1;
+  int corner = gl_VertexID < 4 ? strip ^ (strip >> 1) : ((gl_VertexID - 4) >> 1) & 3;
+  vec2 p = shadowed[corner].xy;
+  vec2 middle = 0.5 * (shadowed[0].xy + shadowed[2].xy);
+  if (!inner) p = middle + (p - middle) * shadowed[0].z;
+  gl_Position = clip_from_E * vec4(p, ground.x, 1.0);
 }
 )";
 
 // The point is where the pixel's ray meets the plane: exact however far the plane reaches.
-inline constexpr const char* kGroundFragment = R"(
+inline constexpr const char* kGroundCommon = R"(
 out vec4 pixel;
-void main() {
+vec3 groundPoint() {
   vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
-  vec3 p = ray * (ground.x / ray.z);
-  float distance_m = length(p);
+  return ray * (ground.x / ray.z);
+}
+vec4 groundPixel(vec3 p, float sun) {
   vec3 base = mix(kDarkSquare, kLightSquare, checker(p.xy * ground.y + ground.zw));
-  float sun = to_light.z > 0.0 ? lit(shadowCoordinates(p, vec3(0.0, 0.0, 1.0))) : 0.0;
   vec3 light = base * (kSun * (max(to_light.z, 0.0) * sun) + kSkyLight);
-  pixel = vec4(film(light, distance_m), 1.0);
+  return vec4(film(light, length(p)), 1.0);
+}
+)";
+inline constexpr const char* kGroundShadowedFragment = R"(
+void main() {
+  vec3 p = groundPoint();
+  pixel = groundPixel(p, lit(shadowCoordinates(p, vec3(0.0, 0.0, 1.0))));
+}
+)";
+inline constexpr const char* kGroundOpenFragment = R"(
+void main() {
+  pixel = groundPixel(groundPoint(), 1.0);
 }
 )";
 

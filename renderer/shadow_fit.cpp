@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace carom::renderer {
 namespace {
@@ -16,6 +17,8 @@ struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+  void include(const Range& other) { include(other.low), include(other.high); }
+  bool meets(const Range& other) const { return low <= other.high && other.low <= high; }
   void cutTo(const Range& other) { low = std::max(low, other.low), high = std::min(high, other.high); }
   double length() const { return high - low; }
 };
@@ -33,14 +36,12 @@ LightAxes lightAxes(const CameraAxes& camera, const Vec3& to_light) {
   return {{x, z.cross(x), z}};
 }
 
-Range casterRange(std::span<const ShadowCaster> casters, const Vec3& axis) {
+Range casterRange(const ShadowCaster& caster, const Vec3& axis) {
+  const double middle = axis.dot(caster.X_EB.position);
+  const double half = (caster.X_EB.rotation.conjugate() * axis).cwiseAbs().dot(caster.half);
   Range range;
-  for (const ShadowCaster& c : casters) {
-    const double middle = axis.dot(c.X_EB.position);
-    const double half = (c.X_EB.rotation.conjugate() * axis).cwiseAbs().dot(c.half);
-    range.include(middle - half);
-    range.include(middle + half);
-  }
+  range.include(middle - half);
+  range.include(middle + half);
   return range;
 }
 
@@ -56,6 +57,29 @@ Range visibleRange(const ShadowRequest& request, const CameraAxes& camera, doubl
   return range;
 }
 
+double reachOf(const std::vector<const ShadowCaster*>& casters) {
+  double reach = 0.0;
+  for (const ShadowCaster* c : casters)
+    reach = std::max(reach, kReceiverReach * (c->X_EB.position.norm() + c->half.norm()));
+  return reach;
+}
+
+// The casters whose shadows the camera may see. Those found first bound how far it has to look, which rules out more.
+std::vector<const ShadowCaster*> relevant(const ShadowRequest& request, const CameraAxes& camera, const LightAxes& light,
+                                          std::span<const ShadowCaster> casters) {
+  std::vector<const ShadowCaster*> kept;
+  for (const ShadowCaster& c : casters) kept.push_back(&c);
+  for (int round = 0; round < 3; ++round) {
+    const double reach = reachOf(kept);
+    const Range x = visibleRange(request, camera, reach, light.axis[0]);
+    const Range y = visibleRange(request, camera, reach, light.axis[1]);
+    std::erase_if(kept, [&](const ShadowCaster* c) {
+      return !casterRange(*c, light.axis[0]).meets(x) || !casterRange(*c, light.axis[1]).meets(y);
+    });
+  }
+  return kept;
+}
+
 // The next of the sizes 2^(k/4): small changes of the bounds leave the map as it is.
 double steppedUp(double length_m) {
   return std::exp2(std::ceil(std::log2(length_m) * kStepsPerDoubling) / kStepsPerDoubling);
@@ -65,21 +89,21 @@ double steppedUp(double length_m) {
 
 ShadowView fitShadow(const ShadowRequest& request, std::span<const ShadowCaster> casters) {
   ShadowView view;
-  if (casters.empty()) return view;
   const CameraAxes camera = cameraAxes(request.camera);
   const LightAxes light = lightAxes(camera, request.to_light);
-  double reach = 0.0;
-  for (const ShadowCaster& c : casters) reach = std::max(reach, kReceiverReach * (c.X_EB.position.norm() + c.half.norm()));
-
-  Range across[2];
+  const std::vector<const ShadowCaster*> kept = relevant(request, camera, light, casters);
+  if (kept.empty()) return view;  // No shadow can be seen.
+  Range across[3];
+  for (int i = 0; i < 3; ++i)
+    for (const ShadowCaster* c : kept) across[i].include(casterRange(*c, light.axis[i]));
+  const double reach = reachOf(kept);
   double side = 0.0;
   for (int i = 0; i < 2; ++i) {
-    across[i] = casterRange(casters, light.axis[i]);
     across[i].cutTo(visibleRange(request, camera, reach, light.axis[i]));
-    if (!(across[i].length() > 0.0)) return view;  // No shadow can be seen.
     side = std::max(side, across[i].length());
   }
-  const Range depth = casterRange(casters, light.axis[2]);
+  if (!(side > 0.0)) return view;
+  const Range& depth = across[2];
 
   const double size = steppedUp(side * request.texels / (request.texels - 2.0 * kBorderTexels));
   view.texel_m = size / request.texels;

@@ -16,7 +16,7 @@ struct ShadowCaster {
 };
 
 /// An orthographic view along the light. Texture coordinates (u, v, depth) of a point are rows * (p_E, 1), each within
-/// [0, 1] for what the map covers; depth grows away from the light.
+/// [0, 1] for what the map covers; depth grows away from the light. Without a shadow to see, `texel_m` is 0.
 struct ShadowView {
   Eigen::Matrix<double, 3, 4> rows = Eigen::Matrix<double, 3, 4>::Zero();
   double texel_m = 0.0;  ///< Side of a texel in the world.

@@ -10,7 +10,7 @@ namespace carom::renderer {
 namespace {
 
 constexpr double kBevelFraction = 0.03;     // Of the part's width.
-constexpr double kPullIn = 0.4;             // How far bevels recede from the sharp edge to the inscribed round.
+constexpr double kPullIn = 0.25;            // How far bevels recede from the sharp edge to the inscribed round.
 constexpr double kMaxVertexPull = 0.5;      // Of the bevel's width: needles are not blunted further.
 constexpr double kUsableEdge = 0.9;         // Of an edge's length, what the bevels at its two ends may take.
 constexpr int kMaxBevelledFaces = 400;      // A part with more faces is round by itself.
@@ -119,15 +119,19 @@ class BevelledPart {
     ridge_.push_back({append(mesh_, tail + shift, n), append(mesh_, head + shift, n)});
   }
 
-  // The peak recedes towards the ball that touches the faces around the vertex.
+  // The peak recedes towards the ball that touches the faces around the vertex, along the mean of its edges: unlike
+  // the mean of the normals that leads into the solid however pointed the vertex is.
   void addPeak(int v) {
     const Vec3 n = vertex_normal_[at(v)].normalized();
-    const std::span<const int> edges = core_.vertexEdges(v);
+    Vec3 inward = Vec3::Zero();
     double lean = 0.0;
-    for (const int e : edges) lean += n.dot(core_.plane(core_.edge(e).left).normal);
-    lean = std::clamp(lean / static_cast<double>(edges.size()), 0.1, 1.0);
+    for (const int e : core_.vertexEdges(v)) {
+      inward += (core_.edge(e).tail == v ? 1.0 : -1.0) * core_.edge(e).direction;
+      lean += n.dot(core_.plane(core_.edge(e).left).normal);
+    }
+    lean = std::clamp(lean / static_cast<double>(core_.vertexEdges(v).size()), 0.1, 1.0);
     const double depth = std::min(kMaxVertexPull, kPullIn * (1.0 / lean - 1.0)) * vertex_width_[at(v)];
-    peak_.push_back(append(mesh_, core_.vertex(v) - depth * n, n));
+    peak_.push_back(append(mesh_, core_.vertex(v) + depth * inward.normalized(), n));
   }
 
   void addFace(int f) {
@@ -171,7 +175,8 @@ void addRoundPart(TriangleMesh& mesh, const Vec3& a, const Vec3& b, double radiu
     std::vector<std::uint32_t> ring;
     for (int k = 0; k < segments; ++k) {
       const double c = std::cos(step * k), s = std::sin(step * k);
-      const Vec3 n = std::cos(latitude) * (c * basis.t1 + s * basis.t2) + std::sin(latitude) * axis;
+      const double level = i == 0 || i == 2 * quarter + 1 ? 0.0 : std::cos(latitude);  // Poles are single points.
+      const Vec3 n = level * (c * basis.t1 + s * basis.t2) + std::sin(latitude) * axis;
       ring.push_back(append(mesh, (upper ? b : a) + radius * n, n));
     }
     rings.push_back(ring);

@@ -39,4 +39,22 @@ std::optional<Feature> neighbourAcrossVRegion(const ConvexPolyhedron& polyhedron
   return neighbour;
 }
 
+bool pointsInward(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction) {
+  if (polyhedron.faceCount() == 0) return false;
+  const auto sinksBelow = [&](int face) { return polyhedron.plane(face).normal.dot(direction) <= 0.0; };
+  switch (feature.kind) {
+    case FeatureKind::kFace:
+      return sinksBelow(feature.index);
+    case FeatureKind::kEdge:
+      return sinksBelow(polyhedron.edge(feature.index).left) && sinksBelow(polyhedron.edge(feature.index).right);
+    case FeatureKind::kVertex:
+      break;
+  }
+  for (int e : polyhedron.vertexEdges(feature.index)) {
+    const Edge& edge = polyhedron.edge(e);
+    if (!sinksBelow(edge.tail == feature.index ? edge.left : edge.right)) return false;  // each face once
+  }
+  return true;
+}
+
 }  // namespace carom

@@ -15,4 +15,9 @@ namespace carom {
 /// steeply, or none when the direction lies in the feature's V-region. Cost: linear in the feature's neighbours.
 std::optional<Feature> neighbourAcrossVRegion(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction);
 
+/// Whether a direction that passes every plane of the feature's V-region leads into the body all the same. A flat edge
+/// (between coplanar faces) and a vertex among coplanar faces have V-planes that do not tell out from in; but out lies
+/// in the cone of the faces' normals, so it climbs over at least one of them. False on a point or segment.
+bool pointsInward(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction);
+
 }  // namespace carom

@@ -1,8 +1,10 @@
 #include "engine/closest_features/vclip.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cmath>
 #include <optional>
+#include <span>
 
 #include "engine/closest_features/feature_distance.h"
 #include "engine/closest_features/penetration.h"
@@ -16,6 +18,14 @@ namespace {
 constexpr double kNoDirection = 1e-9;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
+// A distance that may be wrong by more than this, relative to the size, is looked at again.
+constexpr double kSlack = 1e-12;
+// Features within this angle of level across the normal can hide a gain below rounding: the root of 1e-16 and room.
+constexpr double kLevelSine = 1e-6;
+// Edges that cross at a larger angle have a well-defined common perpendicular.
+constexpr double kCrossingSine = 1e-3;
+// Relative to the size: the direction between witnesses closer than this is blurred by rounding.
+constexpr double kShortDistance = 1e-6;
 
 // Vertices that face each other: far along the line between the bodies' first vertices.
 FeaturePair coldSeed(const PolyhedronPair& pair) {
@@ -25,16 +35,16 @@ FeaturePair coldSeed(const PolyhedronPair& pair) {
   return {vertexFeature(va), vertexFeature(vb)};
 }
 
-// A vertex v outside A (frame of A) whose closest point on one face lies behind it: the face through which the line
-// from v to that point enters A, or none when v is inside.
-std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& v, const Vec3& inside) {
+// A point outside A whose way to a point of A's surface begins inside A: the face through which that way enters A, or
+// none when the point is inside. Frame of A.
+std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& from, const Vec3& to) {
   std::optional<int> entry;
   double latest = -1.0;
   for (int f = 0; f < a.faceCount(); ++f) {
-    const double h_v = a.plane(f).signedDistance(v);
-    if (h_v <= 0.0) continue;
-    const double h_inside = std::min(a.plane(f).signedDistance(inside), 0.0);
-    const double t = h_v / (h_v - h_inside);
+    const double h_from = a.plane(f).signedDistance(from);
+    if (h_from <= 0.0) continue;
+    const double h_to = std::min(a.plane(f).signedDistance(to), 0.0);
+    const double t = h_from / (h_from - h_to);
     if (t > latest) {
       latest = t;
       entry = f;
@@ -43,45 +53,148 @@ std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& v, const Vec
   return entry;
 }
 
+// The feature and what of the body's surface touches it and is almost level across `n`: edges and faces at its
+// vertices. More of them than fit stay out; they only serve to find a shorter way.
+struct LevelNeighbours {
+  LevelNeighbours(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& n) {
+        const auto visitVertex = [&](int v) {
+      for (int e : polyhedron.vertexEdges(v)) {
+        const Edge& edge = polyhedron.edge(e);
+        if (std::abs(edge.direction.dot(n)) > kLevelSine) continue;
+        add(edgeFeature(e));
+        for (int f : {edge.left, edge.right})
+          if (f >= 0 && polyhedron.plane(f).normal.cross(n).norm() <= kLevelSine) add(faceFeature(f));
+      }
+    };
+    add(feature);
+    switch (feature.kind) {
+      case FeatureKind::kVertex:
+        visitVertex(feature.index);
+        break;
+      case FeatureKind::kEdge:
+        visitVertex(polyhedron.edge(feature.index).tail);
+        visitVertex(polyhedron.edge(feature.index).head);
+        break;
+      case FeatureKind::kFace:
+        for (int v : polyhedron.faceVertices(feature.index)) visitVertex(v);
+        break;
+    }
+  }
+
+  std::span<const Feature> all() const { return {features_.data(), count_}; }
+
+ private:
+  void add(Feature feature) {
+    const std::span<const Feature> known = all();
+    if (count_ < features_.size() && std::find(known.begin(), known.end(), feature) == known.end()) features_[count_++] = feature;
+  }
+
+  std::array<Feature, 16> features_;
+  std::size_t count_ = 0;
+};
+
+// The closed features' distance, of two faces too: those are closest at an edge of one of them.
+FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, Feature a, Feature b) {
+  if (a.kind != FeatureKind::kFace || b.kind != FeatureKind::kFace) return featureDistance(pair, {a, b});
+  FeatureDistance best = featureDistance(pair, {edgeFeature(pair.a.faceEdges(a.index)[0]), b});
+  const auto consider = [&](FeaturePair features) {
+    const FeatureDistance there = featureDistance(pair, features);
+    if (there.crossing || (!best.crossing && there.distance_m < best.distance_m)) best = there;
+  };
+  for (int e : pair.a.faceEdges(a.index)) consider({edgeFeature(e), b});
+  for (int e : pair.b.faceEdges(b.index)) consider({a, edgeFeature(e)});
+  return best;
+}
+
+// A vertex of the feature (of a face: any).
+int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
+  switch (feature.kind) {
+    case FeatureKind::kVertex: return feature.index;
+    case FeatureKind::kEdge: return polyhedron.edge(feature.index).tail;
+    default: return polyhedron.faceVertices(feature.index)[0];
+  }
+}
+
+// The unit normal from A to B of features that are apart. A face's normal and the common perpendicular of two edges
+// are exact; the direction between the witnesses is as good as the distance is long.
+Vec3 normalBetween(const PolyhedronPair& pair, const FeatureDistance& d) {
+  const auto [a, b] = d.features;
+  if (a.kind == FeatureKind::kFace) return pair.a.plane(a.index).normal;
+  if (b.kind == FeatureKind::kFace) return -(pair.R_AB * pair.b.plane(b.index).normal);
+  const Vec3 between = (d.p_b - d.p_a) / d.distance_m;
+  if (a.kind == FeatureKind::kEdge && b.kind == FeatureKind::kEdge) {
+    const Vec3 across = pair.a.edge(a.index).direction.cross(pair.R_AB * pair.b.edge(b.index).direction);
+    const double sine = across.norm();
+    if (sine > kCrossingSine) return (across.dot(between) > 0.0 ? 1.0 / sine : -1.0 / sine) * across;
+  }
+  return between;
+}
+
 enum class Move { kTaken, kStuck, kInside };
 
 class Walk {
  public:
-  Walk(const PolyhedronPair& pair, FeaturePair seed) : pair_(pair), here_(featureDistance(pair, seed)) {}
+  Walk(const PolyhedronPair& pair, FeaturePair seed, double scale_m)
+      : pair_(pair), scale_m_(scale_m), here_(anyFeatureDistance(pair, seed.a, seed.b)) {}
 
   Move next() {
     if (here_.crossing || here_.distance_m == 0.0) return Move::kInside;
-    if (here_.behind) return leaveBackOfFace();
-    const Vec3 n = here_.p_b - here_.p_a;
-    if (const auto up = neighbourAcrossVRegion(pair_.a, here_.features.a, n))
-      if (moveTo({*up, here_.features.b})) return Move::kTaken;
-    if (const auto up = neighbourAcrossVRegion(pair_.b, here_.features.b, -(pair_.R_AB.transpose() * n)))
-      if (moveTo({here_.features.a, *up})) return Move::kTaken;
-    return Move::kStuck;
+    if (here_.behind) return here_.features.a.kind == FeatureKind::kFace ? enterA() : enterB();
+    const Vec3 n = normalBetween(pair_, here_);
+    const Vec3 minus_n_B = -(pair_.R_AB.transpose() * n);
+    const auto up_a = neighbourAcrossVRegion(pair_.a, here_.features.a, n);
+    if (up_a && moveTo({*up_a, here_.features.b})) return Move::kTaken;
+    const auto up_b = neighbourAcrossVRegion(pair_.b, here_.features.b, minus_n_B);
+    if (up_b && moveTo({here_.features.a, *up_b})) return Move::kTaken;
+    if (pointsInward(pair_.a, here_.features.a, n)) return enterA();
+    if (pointsInward(pair_.b, here_.features.b, minus_n_B)) return enterB();
+    const bool doubtful = up_a || up_b || here_.distance_m < kShortDistance * scale_m_;
+    return doubtful && slack(n, minus_n_B) > kSlack * scale_m_ && moveAlongBoth(n, minus_n_B) ? Move::kTaken : Move::kStuck;
   }
 
   const FeatureDistance& here() const { return here_; }
 
  private:
   bool moveTo(FeaturePair features) {
-    const FeatureDistance there = featureDistance(pair_, features);
+    const FeatureDistance there = anyFeatureDistance(pair_, features.a, features.b);
     if (!there.crossing && !(there.distance_m < here_.distance_m)) return false;
     here_ = there;
     return true;
   }
 
-  Move leaveBackOfFace() {
-    const bool face_on_a = here_.features.a.kind == FeatureKind::kFace;
-    const std::optional<int> entry = face_on_a ? entryFace(pair_.a, here_.p_b, here_.p_a)
-                                               : entryFace(pair_.b, pair_.toB(here_.p_a), pair_.toB(here_.p_b));
+  // The way between the witnesses ends inside a body: the other witness is inside too, or the entry face is closer.
+  Move enterA() { return moveToEntry(entryFace(pair_.a, here_.p_b, here_.p_a), true); }
+  Move enterB() { return moveToEntry(entryFace(pair_.b, pair_.toB(here_.p_a), pair_.toB(here_.p_b)), false); }
+
+  Move moveToEntry(std::optional<int> entry, bool entered_a) {
     if (!entry) return Move::kInside;
-    const FeaturePair closer = face_on_a ? FeaturePair{faceFeature(*entry), here_.features.b}
-                                         : FeaturePair{here_.features.a, faceFeature(*entry)};
-    // Only rounding can deny the closer face: the vertex then is in the surface, and the axes decide.
-    return moveTo(closer) ? Move::kTaken : Move::kInside;
+    const Feature face = faceFeature(*entry);
+    const bool moved = moveTo(entered_a ? FeaturePair{face, here_.features.b} : FeaturePair{here_.features.a, face});
+    // Only rounding can deny the closer face: the witness then is in the surface, and the axes decide.
+    return moved ? Move::kTaken : Move::kInside;
+  }
+
+  // How much farther apart the witnesses are than the slab across n that is free of both bodies: the most by which
+  // the distance can be wrong.
+  double slack(const Vec3& n, const Vec3& minus_n_B) const {
+    const Vec3& far_a = pair_.a.vertex(pair_.a.support(n, vertexOf(pair_.a, here_.features.a)));
+    const Vec3 far_b = pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here_.features.b))));
+    return here_.distance_m - n.dot(far_b - far_a);
+  }
+
+  // Between almost parallel features a step on one body alone gains less than rounding (half the slope squared), a
+  // step on both together gains the slope itself.
+  bool moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
+    const LevelNeighbours on_a(pair_.a, here_.features.a, n);
+    const LevelNeighbours on_b(pair_.b, here_.features.b, minus_n_B);
+    bool moved = false;
+    for (const Feature a : on_a.all())
+      for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;
+    return moved;
   }
 
   const PolyhedronPair& pair_;
+  double scale_m_;
   FeatureDistance here_;
 };
 
@@ -116,17 +229,15 @@ struct CoreAnswer {
   FeaturePair features;
 };
 
-CoreAnswer fromAxes(const PolyhedronPair& pair) {
+// The axes give the normal, and the depth of cores that intersect. Cores that merely touch keep the witnesses that the
+// walk found: the foot of a support vertex may lie beside its face when several vertices are equally far.
+CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, bool inside, double touching_m) {
   const MinimumTranslation m = minimumTranslation(pair);
-  return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
-}
-
-// A face's own normal is exact; else the direction between the witnesses.
-CoreAnswer fromWitnesses(const PolyhedronPair& pair, const FeatureDistance& d) {
-  Vec3 normal = (d.p_b - d.p_a) / d.distance_m;
-  if (d.features.a.kind == FeatureKind::kFace) normal = pair.a.plane(d.features.a.index).normal;
-  if (d.features.b.kind == FeatureKind::kFace) normal = -(pair.R_AB * pair.b.plane(d.features.b.index).normal);
-  return {d.distance_m, normal, d.p_a, d.p_b, d.features};
+  if (m.gap_m < -touching_m) return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
+  if (!inside) return {found.distance_m, m.normal, found.p_a, found.p_b, found.features};
+  const bool b_is_behind_face = found.behind && found.features.b.kind == FeatureKind::kFace;
+  const Vec3 common = b_is_behind_face ? found.p_a : found.p_b;
+  return {m.gap_m, m.normal, common, common + m.gap_m * m.normal, m.features};
 }
 
 }  // namespace
@@ -138,8 +249,10 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours never needs.
   const int bound = 100 + 2 * (a.core.edgeCount() + b.core.edgeCount());
 
+  const double scale = pair.t_AB.norm() + a.core.width() + b.core.width();
+
   ClosestFeatures result;
-  Walk walk(pair, tracked);
+  Walk walk(pair, tracked, scale);
   Move move = Move::kTaken;
   for (result.states = 1; result.states < bound && (move = walk.next()) == Move::kTaken;) ++result.states;
   result.reached_limit = move == Move::kTaken;
@@ -150,9 +263,9 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
     inside = found.crossing;
   }
 
-  const double scale = pair.t_AB.norm() + a.core.width() + b.core.width();
   const bool directed = !inside && found.distance_m > kNoDirection * scale;
-  const CoreAnswer core = directed ? fromWitnesses(pair, found) : fromAxes(pair);
+  const CoreAnswer core = directed ? CoreAnswer{found.distance_m, normalBetween(pair, found), found.p_a, found.p_b, found.features}
+                                   : fromAxes(pair, found, inside, kNoDirection * scale);
   tracked = core.features;
   result.features = core.features;
   const Mat3 R_WA = X_WA.rotation.toRotationMatrix();

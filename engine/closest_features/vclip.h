@@ -4,9 +4,14 @@
 //
 // Why it ends, in floating point too: the distance of the two closed features is a pure function of the feature pair,
 // and a move is taken only if that number strictly falls; there are finitely many pairs. Where it ends is the answer:
-// a V-region violated by more than rounding always offers a strictly closer pair, and by convexity two points each in
-// the other's V-region are the closest points of the whole bodies. A witness behind a face (the classic local
-// minimum) is either inside, or the line from it to the face enters the body earlier, through a face that is closer.
+// by convexity two points each in the other's V-region are the closest points of the whole bodies, and a violated
+// V-region offers a closer pair. Three ways that rounding or degeneracy hide it are looked for at the end of a walk:
+// - the way between the witnesses runs inside a body (the classic local minimum behind a face; also at the flat edges
+//   of coplanar faces, whose V-planes do not tell out from in): the other witness is inside, or the way enters the
+//   body earlier, through a face that is closer;
+// - between almost parallel features a step on one body gains half the slope squared, below rounding, a step on both
+//   the slope itself: the free slab between the support planes bounds the error and asks for a step on both;
+// - witnesses too close together have no direction: the separating axes give it, and the depth if there is one.
 // A walk that reaches its bound all the same is counted and answered by exhaustive search.
 // Tested in tests/engine/closest_features/vclip_test.cpp.
 

@@ -9,6 +9,9 @@ namespace {
 
 using tolerance::kLyingSine;
 
+constexpr double kSameCosine = 1e-9;  // normals this close are one direction
+constexpr double kSameGap = 1e-3;     // of the window's floor: gaps this close are one gap
+
 struct Corner {
   Vec3 p_W;
   std::uint64_t id;
@@ -117,7 +120,7 @@ std::vector<ManifoldPoint> clipOverFace(const Placed& reference, int f, const Pl
   std::vector<ManifoldPoint> points;
   for (const Corner& c : polygon) {
     const double gap = height(c.p_W);
-    points.push_back({c.p_W - (incident.radius_m + 0.5 * gap) * normal, gap, c.id});
+    points.push_back({c.p_W - (incident.radius_m + 0.5 * gap) * normal, normal, gap, c.id});
   }
   return points;
 }
@@ -142,7 +145,7 @@ std::vector<ManifoldPoint> sharedStretch(const Placed& a, int ea, const Placed& 
     const Vec3 p_a = origin + t * along + a.radius_m * n;
     const double share = (t - t_tail) / (t_head - t_tail);
     const Vec3 p_b = b_tail + share * (b_head - b_tail) - b.radius_m * n;
-    points.push_back({0.5 * (p_a + p_b), n.dot(p_b - p_a), t == low ? 1ull : 2ull});
+    points.push_back({0.5 * (p_a + p_b), n, n.dot(p_b - p_a), t == low ? 1ull : 2ull});
   }
   return points;
 }
@@ -152,7 +155,7 @@ double triangleArea(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a
 // Keeps the deepest point, the farthest from it, the farthest from their line, and the one that adds most area on the
 // other side.
 void reduce(std::vector<ManifoldPoint>& points, const Vec3& n) {
-  if (points.size() <= ContactManifold::kMaxPoints) return;
+  if (points.size() <= ContactManifold::kFacePoints) return;
   std::vector<ManifoldPoint> kept;
   const auto take = [&](auto&& score) {
     std::size_t best = 0;
@@ -188,8 +191,6 @@ ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart
   const ContactPoint single = contactPoint(closest, a, X_WA, b, X_WB);
   const Placed on_a{a.core, X_WA, a.radius_m};
   const Placed on_b{b.core, X_WB, b.radius_m};
-  ContactManifold manifold;
-  manifold.n_W = single.n_W;
 
   // The reference is the face that comes nearest to the contact's normal.
   const int face_a = faceTowards(on_a, closest.features.a, single.n_W);
@@ -198,35 +199,32 @@ ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart
   const double c_b = face_b >= 0 ? -on_b.faceNormal(face_b).dot(single.n_W) : -1.0;
   std::vector<ManifoldPoint> points;
   std::uint64_t reference_id = 0;
-  Vec3 normal = single.n_W;
-  if (face_a >= 0 && c_a >= c_b - 1e-9) {
+  if (face_a >= 0 && c_a >= c_b - kSameCosine) {
     points = clipOverFace(on_a, face_a, on_b, closest.features.b, window.manifold);
-    normal = on_a.faceNormal(face_a);
     reference_id = 2 * static_cast<std::uint64_t>(face_a) + 2;
   } else if (face_b >= 0) {
     points = clipOverFace(on_b, face_b, on_a, closest.features.a, window.manifold);
-    normal = -on_b.faceNormal(face_b);
+    for (ManifoldPoint& p : points) p.n_W = -p.n_W;
     reference_id = 2 * static_cast<std::uint64_t>(face_b) + 3;
   } else if (closest.features.a.kind != FeatureKind::kFace && closest.features.b.kind != FeatureKind::kFace) {
     const int edge_a = edgeAcross(on_a, closest.features.a, single.n_W);
     const int edge_b = edgeAcross(on_b, closest.features.b, single.n_W);
     if (edge_a >= 0 && edge_b >= 0) points = sharedStretch(on_a, edge_a, on_b, edge_b, single.n_W);
   }
-  // A reference that lost the closest point (a corner just beyond the face's rim) does not describe this contact.
   double least = window.manifold;
   for (const ManifoldPoint& p : points) least = std::min(least, p.gap_m);
-  if (points.empty() || least > closest.distance_m + window.floor) {
-    manifold.count = 1;
-    manifold.points[0] = {single.p_W, single.gap_m, 0};
-    return manifold;
+  ContactManifold manifold;
+  if (!points.empty()) reduce(points, points[0].n_W);
+  for (const ManifoldPoint& p : points) {
+    ManifoldPoint& kept = manifold.points[static_cast<std::size_t>(manifold.count++)];
+    kept = p;
+    kept.id = combineIds(p.id, reference_id);
   }
-  manifold.n_W = normal;
-  reduce(points, normal);
-  manifold.count = static_cast<int>(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    manifold.points[i] = points[i];
-    manifold.points[i].id = combineIds(points[i].id, reference_id);
-  }
+  // A reference turned away from the contact's normal, or that lost the closest point beyond its rim, does not hold
+  // that point's motion; the point itself does.
+  const bool holds_closest = !points.empty() && points[0].n_W.dot(single.n_W) > 1.0 - kSameCosine &&
+                             least <= closest.distance_m + kSameGap * window.floor;
+  if (!holds_closest) manifold.points[static_cast<std::size_t>(manifold.count++)] = {single.p_W, single.n_W, single.gap_m, 0};
   return manifold;
 }
 

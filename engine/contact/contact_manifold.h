@@ -14,15 +14,17 @@
 namespace carom {
 
 struct ManifoldPoint {
-  Vec3 p_W = Vec3::Zero();  ///< Halfway across the gap.
+  Vec3 p_W = Vec3::Zero();   ///< Halfway across the gap.
+  Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
   double gap_m = 0.0;
   std::uint64_t id = 0;
 };
 
-/// One normal, up to four points: the deepest, and those that span the largest area with it.
+/// Up to four points with the normal of the reference face: the deepest, and those that span the largest area with it.
+/// The closest point with its own normal is always there; where it is none of the four, it is a fifth.
 struct ContactManifold {
-  static constexpr int kMaxPoints = 4;
-  Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
+  static constexpr int kMaxPoints = 5;
+  static constexpr int kFacePoints = 4;
   int count = 0;
   std::array<ManifoldPoint, kMaxPoints> points;
   std::span<const ManifoldPoint> view() const { return {points.data(), static_cast<std::size_t>(count)}; }

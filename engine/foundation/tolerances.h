@@ -8,6 +8,7 @@ namespace carom::tolerance {
 // The collision window (paper §2.3, fig. 7), lengths per metre: floor < rest gap < landing < ceiling.
 inline constexpr double kWindowFloor = 2.0e-4;    // epsilon1: no pair is ever closer
 inline constexpr double kRestGap = 1.0e-3;        // lasting contact is held here: 0.8 mm of slack for residuals
+inline constexpr double kRestBand = 0.1;         // of the rest gap, either way: gaps in this band are held as they are
 inline constexpr double kLandingGap = 1.5e-3;     // where a time of impact aims: between rest gap and ceiling
 inline constexpr double kWindowCeiling = 2.0e-3;  // epsilon2: closer than this, a collision is solved directly
 inline constexpr double kWindowLargestScale = 1.0;  // metres; larger bodies keep the window of a metre
@@ -23,8 +24,9 @@ inline constexpr int kSolverSweeps = 60;           // per step, warm started
 inline constexpr double kGapGain = 0.2;            // share of the missing gap reopened in a step
 inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopening
 
-// Events of one step and body before it is held at its last safe time.
-inline constexpr int kEventsPerBody = 64;
+// Events of one step and body.
+inline constexpr int kPairEvents = 8;      // up to here each event is solved between its two bodies
+inline constexpr int kEventsPerBody = 24;  // up to here together with all contacts around; then the body is held
 
 // Sliding mode (paper §2.4).
 inline constexpr double kSlidingSpeed = 1e-3;      // m/s along the contact; slower is holding or rolling

@@ -41,7 +41,7 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
 
 }  // namespace
 
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double restitution) {
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution) {
   CollisionReport report;
   std::vector<Vec3> before(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -52,14 +52,14 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
   const SolverSettings settings{kSweeps, kConverged * -report.approach_mps, true};
   solveContacts(rows, bodies, settings);
 
-  if (restitution > 0.0) {
+  if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
     std::vector<Vec3> compressed(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       compressed[i] = rows[i].impulse;
-      const double rebound = restitution * rows[i].impulse.x();
+      const double rebound = restitution[i] * rows[i].impulse.x();
       applyToRow(rows[i], Vec3(rebound, 0.0, 0.0), bodies);
       rows[i].impulse.x() += rebound;
-      rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution * std::min(before[i].x(), 0.0) : 0.0;
+      rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution[i] * std::min(before[i].x(), 0.0) : 0.0;
     }
     solveContacts(rows, bodies, settings);
     if (twiceEnergyGain(rows, before, bodies) > 0.0) {

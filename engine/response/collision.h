@@ -1,5 +1,5 @@
 #pragma once
-// A collision of two bodies at one or more points (paper §2.1 and §2.4) with restitution and Coulomb friction:
+// A collision at one or more points, of two bodies or more, (paper §2.1 and §2.4) with restitution and Coulomb friction:
 // compression to rest with friction, then every compressed point leaves with e times its approach speed, friction
 // acting on. For a single frictionless point this is the paper's j. Kinetic energy never grows: compression with
 // friction only dissipates, and restitution is cut back where it would return more than was there.
@@ -17,7 +17,7 @@ struct CollisionReport {
   bool restitution_cut = false;
 };
 
-/// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to.
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double restitution);
+/// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to. `restitution`: one a row.
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution);
 
 }  // namespace carom

@@ -11,10 +11,11 @@
 namespace carom {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr int kPathSweeps = 200;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
+constexpr int kClusterHops = 3;         // how far from the event contacts are solved together
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Event {
   double time_s = 0.0;
@@ -23,14 +24,17 @@ struct Event {
   TimeOfImpact impact;
 };
 
-// The points of contact of an event between bodies 0 and 1, and the gap at each.
-struct EventContacts {
-  std::vector<ContactRow> rows;
-  std::vector<double> gaps_m;
-};
-
 struct Later {
   bool operator()(const Event& x, const Event& y) const { return std::tie(x.time_s, x.pair) > std::tie(y.time_s, y.pair); }
+};
+
+// Bodies whose impulses are solved together at one instant, and the rows between them.
+struct Cluster {
+  std::vector<int> members;           ///< Bodies of the world; the solver's list is in the same order.
+  std::vector<ImpulseBody> bodies;
+  std::vector<SourcedRow> sources;
+  std::vector<ContactRow> rows;
+  bool opens_gaps = false;  ///< The paths reopen gaps for the rest of the step.
 };
 
 class EventLoop {
@@ -62,11 +66,7 @@ class EventLoop {
     const Shape& shape_a = shapes_[at(pair.shapes.a)];
     const Shape& shape_b = shapes_[at(pair.shapes.b)];
     const ImpactSearch search{pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s), settings_.step_s};
-    ClosestFeatures closest = pair.closest;
-    if (search.begin_s > 0.0) {
-      closest = closestFeatures(*shape_a.part, a.path.at(search.begin_s), *shape_b.part, b.path.at(search.begin_s), pair.tracked);
-      ++counters_.distance_queries;
-    }
+    const ClosestFeatures closest = search.begin_s > 0.0 ? closestAt(pair, search.begin_s) : pair.closest;
     Event event{0.0, index, version,
                 timeOfImpact({shape_a.part, &a.path, shape_a.reach_m}, {shape_b.part, &b.path, shape_b.reach_m}, search,
                              closest, pair.tracked)};
@@ -76,16 +76,27 @@ class EventLoop {
     events_.push(event);
   }
 
+  ClosestFeatures closestAt(ShapePair& pair, double time_s) {
+    ++counters_.distance_queries;
+    return closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
+                           *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s), pair.tracked);
+  }
+
   void resolve(const Event& event) {
-    const ShapePair pair = table_.pairs()[at(event.pair)];
-    for (int i : {pair.body_a, pair.body_b})
+    const ShapePair& pair = table_.pairs()[at(event.pair)];
+    const std::array<int, 2> both{pair.body_a, pair.body_b};
+    int spent = 0;
+    for (int i : both) {
       if (bodies_[at(i)].resting) wakeInStep(i);
-    const EventContacts contacts = contactsAt(pair, event);
-    for (int i : {pair.body_a, pair.body_b}) restartPath(bodies_[at(i)], event.time_s);
-    applyCollision(pair, contacts.rows);
-    if (event.impact.outcome == TimeOfImpact::Outcome::kStopped) openGap(pair, event.time_s, contacts);
-    for (int i : {pair.body_a, pair.body_b}) spendBudget(bodies_[at(i)]);
-    searchAgain(pair, event.time_s);
+      if (!bodies_[at(i)].is_static) spent = std::max(spent, ++bodies_[at(i)].events);
+    }
+    Cluster cluster = spent <= tolerance::kPairEvents ? pairCluster(event) : contactCluster(event);
+    cluster.opens_gaps = cluster.opens_gaps || event.impact.outcome == TimeOfImpact::Outcome::kStopped;
+    applyCollision(cluster);
+    setPaths(cluster, event.time_s);
+    for (int i : both)
+      if (bodies_[at(i)].events > tolerance::kEventsPerBody) hold(bodies_[at(i)]);
+    searchAgain(cluster, event.time_s);
   }
 
   void wakeInStep(int index) {
@@ -97,124 +108,169 @@ class EventLoop {
     }
   }
 
-  // The pair's contact points in the window at the time of the event; at least the closest one.
-  EventContacts contactsAt(const ShapePair& pair, const Event& event) const {
-    const Body& a = bodies_[at(pair.body_a)];
-    const Body& b = bodies_[at(pair.body_b)];
-    const Pose X_WA = a.path.at(event.time_s);
-    const Pose X_WB = b.path.at(event.time_s);
-    const ContactManifold manifold = contactManifold(event.impact.closest, *shapes_[at(pair.shapes.a)].part, X_WA,
-                                                     *shapes_[at(pair.shapes.b)].part, X_WB, pair.window);
-    double nearest = manifold.points[0].gap_m;
-    for (const ManifoldPoint& point : manifold.view()) nearest = std::min(nearest, point.gap_m);
-    EventContacts contacts;
-    for (const ManifoldPoint& point : manifold.view()) {
-      if (point.gap_m > std::max(nearest, pair.window.ceiling)) continue;
-      ContactRow row;
-      row.a = 0;
-      row.b = 1;
-      row.n = manifold.n_W;
-      row.r_a = point.p_W - X_WA.position;
-      row.r_b = point.p_W - X_WB.position;
-      row.friction = combinedFriction(a.material, b.material);
-      contacts.rows.push_back(row);
-      contacts.gaps_m.push_back(point.gap_m);
+  // The two bodies of the event alone.
+  Cluster pairCluster(const Event& event) {
+    Cluster cluster;
+    const ShapePair& pair = table_.pairs()[at(event.pair)];
+    addMember(cluster, pair.body_a, event.time_s);
+    addMember(cluster, pair.body_b, event.time_s);
+    addPair(cluster, event.pair, event.impact.closest, event.time_s);
+    return cluster;
+  }
+
+  // The event's bodies and what is in contact with them, over a few hops: two bodies at a time would pass an impulse
+  // to and fro between three that touch.
+  Cluster contactCluster(const Event& event) {
+    Cluster cluster;
+    cluster.opens_gaps = true;
+    const ShapePair& first = table_.pairs()[at(event.pair)];
+    addMember(cluster, first.body_a, event.time_s);
+    addMember(cluster, first.body_b, event.time_s);
+    addPair(cluster, event.pair, event.impact.closest, event.time_s);
+    std::vector<int> included{event.pair};
+    std::size_t begin = 0;
+    for (int hop = 0; hop < kClusterHops; ++hop) {
+      const std::size_t end = cluster.members.size();
+      for (std::size_t m = begin; m < end; ++m) {
+        const int body = cluster.members[m];
+        if (bodies_[at(body)].is_static) continue;
+        for (int p : table_.pairsOf(body)) {
+          if (std::find(included.begin(), included.end(), p) != included.end()) continue;
+          ShapePair& pair = table_.pairs()[at(p)];
+          const ClosestFeatures closest = closestAt(pair, event.time_s);
+          if (closest.distance_m > pair.window.ceiling) continue;
+          included.push_back(p);
+          for (int i : {pair.body_a, pair.body_b}) {
+            if (bodies_[at(i)].resting) wakeInStep(i);
+            addMember(cluster, i, event.time_s);
+          }
+          addPair(cluster, p, closest, event.time_s);
+        }
+      }
+      begin = end;
     }
-    return contacts;
+    return cluster;
   }
 
-  // A path from here on, with the velocity that impulses act on.
-  void restartPath(Body& body, double time_s) {
-    if (body.is_static) return;
-    const Velocity now = body.velocityAt(time_s);
-    body.path.X_WB = body.path.at(time_s);
-    body.path.start_s = time_s;
-    body.momentum_velocity = now;
-  }
-
-  void setPathFromMomentum(Body& body) {
-    if (body.is_static || body.travel == Travel::kHeld) return;
-    body.path.velocity = body.momentum_velocity.linear;
-    body.path.spin = body.momentum_velocity.angular;
-  }
-
-  void applyCollision(const ShapePair& pair, std::vector<ContactRow> rows) {
-    Body& a = bodies_[at(pair.body_a)];
-    Body& b = bodies_[at(pair.body_b)];
-    std::array<ImpulseBody, 2> colliding{a.impulseBody(a.path.X_WB, a.momentum_velocity), b.impulseBody(b.path.X_WB, b.momentum_velocity)};
-    double approach = 0.0;
-    for (ContactRow& row : rows) {
-      prepareRow(row, colliding);
-      approach = std::min(approach, rowVelocity(row, colliding).x());
+  // Brings a body to the time of the event, with the velocity that impulses act on.
+  void addMember(Cluster& cluster, int index, double time_s) {
+    if (std::find(cluster.members.begin(), cluster.members.end(), index) != cluster.members.end()) return;
+    Body& body = bodies_[at(index)];
+    if (!body.is_static) {
+      body.momentum_velocity = body.velocityAt(time_s);
+      const Pose X_WB = body.path.at(time_s);
+      body.path.velocity = body.path.velocityAt(time_s);
+      body.path.X_WB = X_WB;
+      body.path.start_s = time_s;
     }
-    if (approach >= 0.0) {
-      setPathFromMomentum(a);
-      setPathFromMomentum(b);
-      return;
-    }
-    const bool fast = approach < -pair.collision_speed_mps;
-    collide(rows, colliding, fast ? combinedRestitution(a.material, b.material) : 0.0);
-    a.momentum_velocity = colliding[0].velocity;
-    b.momentum_velocity = colliding[1].velocity;
-    setPathFromMomentum(a);
-    setPathFromMomentum(b);
-    a.collided = a.collided || fast;
-    b.collided = b.collided || fast;
+    cluster.members.push_back(index);
+    cluster.bodies.push_back(body.impulseBody(body.path.X_WB, body.momentum_velocity));
   }
 
-  // At the floor: the bodies are carried for the rest of the step, on paths that reopen the gap.
-  void openGap(const ShapePair& pair, double time_s, const EventContacts& contacts) {
+  void addPair(Cluster& cluster, int index, const ClosestFeatures& closest, double time_s) {
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const auto local = [&](int body) {
+      return static_cast<int>(std::find(cluster.members.begin(), cluster.members.end(), body) - cluster.members.begin());
+    };
+    std::vector<SourcedRow> rows;
+    appendRows({index, local(pair.body_a), local(pair.body_b), &closest, bodies_[at(pair.body_a)].path.at(time_s),
+                bodies_[at(pair.body_b)].path.at(time_s)},
+               pair, bodies_, shapes_, cluster.bodies, rows);
+    for (const SourcedRow& sourced : rows) {
+      if (sourced.gap_m > std::max(closest.distance_m, pair.window.ceiling)) continue;
+      cluster.sources.push_back(sourced);
+      cluster.rows.push_back(sourced.row);
+    }
+  }
+
+  void applyCollision(Cluster& cluster) {
+    std::vector<double> restitution(cluster.rows.size(), 0.0);
+    bool approaches = false;
+    for (std::size_t i = 0; i < cluster.rows.size(); ++i) {
+      const ShapePair& pair = table_.pairs()[at(cluster.sources[i].pair)];
+      const double speed = rowVelocity(cluster.rows[i], cluster.bodies).x();
+      approaches = approaches || speed < 0.0;
+      if (speed >= -pair.collision_speed_mps) continue;
+      Body& a = bodies_[at(pair.body_a)];
+      Body& b = bodies_[at(pair.body_b)];
+      restitution[i] = combinedRestitution(a.material, b.material);
+      a.collided = b.collided = true;
+    }
+    if (!approaches) return;
+    collide(cluster.rows, cluster.bodies, restitution);
+    for (std::size_t i = 0; i < cluster.members.size(); ++i)
+      if (!bodies_[at(cluster.members[i])].is_static) bodies_[at(cluster.members[i])].momentum_velocity = cluster.bodies[i].velocity;
+  }
+
+  // New paths with the velocities after the collision. Where gaps are to reopen, gravity is given for the rest of the
+  // step and the contacts bound the paths once more.
+  void setPaths(Cluster& cluster, double time_s) {
     const double rest_of_step = settings_.step_s - time_s;
-    std::array<ImpulseBody, 2> paths;
-    for (std::size_t i = 0; i < 2; ++i) {
-      Body& body = bodies_[at(i == 0 ? pair.body_a : pair.body_b)];
-      if (body.travel == Travel::kBallistic) {
-        body.momentum_velocity.linear += gravityImpulsePerMass(settings_.gravity, rest_of_step);
-        body.path.acceleration.setZero();
-        body.travel = Travel::kCarried;
-      }
-      paths[i] = body.impulseBody(body.path.X_WB, {body.path.velocity, body.path.spin});
-      if (body.travel == Travel::kHeld) {
-        paths[i].inverse_mass = 0.0;
-        paths[i].inverse_tensor.setZero();
-      }
+    for (std::size_t i = 0; i < cluster.members.size(); ++i) {
+      Body& body = bodies_[at(cluster.members[i])];
+      if (body.is_static || body.travel == Travel::kHeld) continue;  // held: momentum may change, the path may not
+      body.path.velocity = body.momentum_velocity.linear;
+      body.path.spin = body.momentum_velocity.angular;
+      if (!cluster.opens_gaps || body.travel != Travel::kBallistic) continue;
+      body.momentum_velocity.linear += gravityImpulsePerMass(settings_.gravity, rest_of_step);
+      body.path.acceleration.setZero();
+      body.travel = Travel::kCarried;
     }
-    if (paths[0].inverse_mass == 0.0 && paths[1].inverse_mass == 0.0) return;
-    std::vector<ContactRow> rows = contacts.rows;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i].lowest_speed = std::max(0.0, pathSpeed(contacts.gaps_m[i], pair.window, settings_.step_s));
-      prepareRow(rows[i], paths);
+    if (cluster.opens_gaps) openGaps(cluster);
+  }
+
+  void openGaps(Cluster& cluster) {
+    std::vector<ImpulseBody> paths = cluster.bodies;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const Body& body = bodies_[at(cluster.members[i])];
+      paths[i].velocity = {body.path.velocity, body.path.spin};
+      if (body.travel != Travel::kHeld) continue;
+      paths[i].inverse_mass = 0.0;
+      paths[i].inverse_tensor.setZero();
+    }
+    std::vector<ContactRow> rows;
+    for (std::size_t i = 0; i < cluster.rows.size(); ++i) {
+      ContactRow row = cluster.rows[i];
+      if (paths[at(row.a)].inverse_mass == 0.0 && paths[at(row.b)].inverse_mass == 0.0) continue;
+      const ShapePair& pair = table_.pairs()[at(cluster.sources[i].pair)];
+      row.lowest_speed = std::max(0.0, gapSpeeds(cluster.sources[i].gap_m, pair.window, settings_.step_s).path);
+      row.impulse.setZero();
+      prepareRow(row, paths);
+      rows.push_back(row);
     }
     solveContacts(rows, paths, {kPathSweeps, kPathResidual, false});
-    for (std::size_t i = 0; i < 2; ++i) {
-      Body& body = bodies_[at(i == 0 ? pair.body_a : pair.body_b)];
+    for (std::size_t i = 0; i < paths.size(); ++i) {
       if (paths[i].inverse_mass == 0.0) continue;
-      body.path.velocity = paths[i].velocity.linear;
-      body.path.spin = paths[i].velocity.angular;
+      bodies_[at(cluster.members[i])].path.velocity = paths[i].velocity.linear;
+      bodies_[at(cluster.members[i])].path.spin = paths[i].velocity.angular;
     }
   }
 
-  void spendBudget(Body& body) {
-    if (body.is_static || ++body.events <= tolerance::kEventsPerBody || body.travel == Travel::kHeld) return;
-    if (body.travel == Travel::kBallistic)
-      body.momentum_velocity.linear += gravityImpulsePerMass(settings_.gravity, settings_.step_s - body.path.start_s);
+  // Its momentum is lost with its path: what it would do is not known, and kept it would grow from step to step.
+  void hold(Body& body) {
+    if (body.is_static || body.travel == Travel::kHeld) return;
     body.travel = Travel::kHeld;
+    body.momentum_velocity = {};
     body.path.velocity.setZero();
     body.path.acceleration.setZero();
     body.path.spin.setZero();
     ++counters_.stopped_bodies;
   }
 
-  void searchAgain(const ShapePair& pair, double time_s) {
-    for (int body : {pair.body_a, pair.body_b}) {
+  // The pairs of every body that has a new path.
+  void searchAgain(const Cluster& cluster, double time_s) {
+    std::vector<int> changed;
+    for (int body : cluster.members) {
       if (bodies_[at(body)].is_static) continue;
       table_.extend(body, time_s, settings_.step_s, bodies_, shapes_, settings_.gravity, counters_);
     }
-    const std::vector<int> of_a = bodies_[at(pair.body_a)].is_static ? std::vector<int>{} : table_.pairsOf(pair.body_a);
-    const std::vector<int> of_b = bodies_[at(pair.body_b)].is_static ? std::vector<int>{} : table_.pairsOf(pair.body_b);
-    for (int p : of_a) predict(p);
-    for (int p : of_b)
-      if (std::find(of_a.begin(), of_a.end(), p) == of_a.end()) predict(p);
+    for (int body : cluster.members) {
+      if (bodies_[at(body)].is_static) continue;
+      changed.insert(changed.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
+    }
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (int pair : changed) predict(pair);
   }
 
   std::vector<Body>& bodies_;

@@ -1,9 +1,7 @@
 #include "engine/simulation/lasting_contact.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "engine/contact/approach.h"
 #include "engine/environment/gravity.h"
 
 namespace carom {
@@ -13,16 +11,10 @@ constexpr int kPathSweeps = 20;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Which row belongs to which pair's manifold point.
-struct RowSource {
-  std::size_t pair;
-  std::uint64_t id;
-  double gap_m;
-};
-
+// The rows of the step with where they came from, and what is kept of them.
 struct Assembly {
   LastingContacts contacts;
-  std::vector<RowSource> sources;
+  std::vector<SourcedRow> sources;
 };
 
 void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
@@ -34,40 +26,30 @@ void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
   }
 }
 
-void addRows(Assembly& assembly, std::size_t index, const ShapePair& pair, const std::vector<Body>& bodies,
-             const std::vector<Shape>& shapes, const WorldSettings& settings) {
-  const Body& a = bodies[at(pair.body_a)];
-  const Body& b = bodies[at(pair.body_b)];
-  const ContactManifold manifold = contactManifold(pair.closest, *shapes[at(pair.shapes.a)].part, a.X_WB,
-                                                   *shapes[at(pair.shapes.b)].part, b.X_WB, pair.window);
-  for (const ManifoldPoint& point : manifold.view()) {
+void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::vector<Body>& bodies,
+             const std::vector<Shape>& shapes, double step_s) {
+  std::vector<SourcedRow> rows;
+  appendRows({index, pair.body_a, pair.body_b, &pair.closest, bodies[at(pair.body_a)].X_WB, bodies[at(pair.body_b)].X_WB},
+             pair, bodies, shapes, assembly.contacts.bodies, rows);
+  for (SourcedRow& sourced : rows) {
+    ContactRow& row = sourced.row;
     // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution.
-    const double speed = separatingSpeed(a.velocity, a.X_WB.position, b.velocity, b.X_WB.position, point.p_W, manifold.n_W);
-    if (speed < -pair.collision_speed_mps) continue;
-    ContactRow row;
-    row.a = pair.body_a;
-    row.b = pair.body_b;
-    row.n = manifold.n_W;
-    row.r_a = point.p_W - a.X_WB.position;
-    row.r_b = point.p_W - b.X_WB.position;
-    row.friction = combinedFriction(a.material, b.material);
-    row.lowest_speed = std::min(0.0, (pair.window.rest - point.gap_m) / settings.step_s);
-    prepareRow(row, assembly.contacts.bodies);
-    warmStart(row, pair, point.id);
+    if (rowVelocity(row, assembly.contacts.bodies).x() < -pair.collision_speed_mps) continue;
+    row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s).momentum;
+    warmStart(row, pair, sourced.id);
     assembly.contacts.rows.push_back(row);
-    assembly.sources.push_back({index, point.id, point.gap_m});
+    assembly.sources.push_back(sourced);
   }
 }
 
-Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
-                  const WorldSettings& settings) {
+Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs, double step_s) {
   Assembly assembly;
   assembly.contacts.touched.assign(bodies.size(), 0);
   for (const Body& body : bodies) assembly.contacts.bodies.push_back(body.impulseBody(body.X_WB, body.velocity));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
     if (!moves) continue;  // what a resting pair remembers, it keeps
-    if (isLasting(pairs[i], settings.step_s)) addRows(assembly, i, pairs[i], bodies, shapes, settings);
+    if (isLasting(pairs[i], step_s)) addRows(assembly, static_cast<int>(i), pairs[i], bodies, shapes, step_s);
     pairs[i].remembered_count = 0;
   }
   return assembly;
@@ -90,7 +72,7 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
   std::vector<ContactRow> rows = assembly.contacts.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].impulse.setZero();
-    rows[i].lowest_speed = pathSpeed(assembly.sources[i].gap_m, pairs[assembly.sources[i].pair].window, step_s);
+    rows[i].lowest_speed = gapSpeeds(assembly.sources[i].gap_m, pairs[at(assembly.sources[i].pair)].window, step_s).path;
   }
   solveContacts(rows, paths, {kPathSweeps, 1e-9, false});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -105,7 +87,7 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
 
 void remember(const Assembly& assembly, std::vector<ShapePair>& pairs) {
   for (std::size_t i = 0; i < assembly.contacts.rows.size(); ++i) {
-    ShapePair& pair = pairs[assembly.sources[i].pair];
+    ShapePair& pair = pairs[at(assembly.sources[i].pair)];
     const ContactRow& row = assembly.contacts.rows[i];
     pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, rowImpulse(row, row.impulse)};
   }
@@ -142,21 +124,9 @@ bool isLasting(const ShapePair& pair, double step_s) {
   return pair.closest.distance_m <= pair.window.ceiling + pair.collision_speed_mps * step_s;
 }
 
-Friction combinedFriction(const Material& a, const Material& b) {
-  return {std::sqrt(a.static_friction * b.static_friction), std::sqrt(a.dynamic_friction * b.dynamic_friction)};
-}
-
-double combinedRestitution(const Material& a, const Material& b) { return std::max(a.restitution, b.restitution); }
-
-double pathSpeed(double gap_m, const CollisionWindow& window, double dt_s) {
-  const double missing = window.rest - gap_m;
-  if (missing <= 0.0) return missing / dt_s;
-  return std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed);
-}
-
 LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
                                      const WorldSettings& settings, StepCounters& counters) {
-  Assembly assembly = assemble(bodies, shapes, pairs, settings);
+  Assembly assembly = assemble(bodies, shapes, pairs, settings.step_s);
   LastingContacts& contacts = assembly.contacts;
   giveGravity(contacts, bodies, settings);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);

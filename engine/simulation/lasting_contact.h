@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/response/contact_solver.h"
-#include "engine/simulation/pair_table.h"
+#include "engine/simulation/contact_rows.h"
 
 namespace carom {
 
@@ -33,13 +33,5 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
 void wake(Body& body);
 /// Wakes everything that came to rest together with a body.
 void wakeIsland(std::vector<Body>& bodies, int island);
-
-/// The contact coefficients of two materials: friction is the geometric mean, restitution the larger.
-Friction combinedFriction(const Material& a, const Material& b);
-double combinedRestitution(const Material& a, const Material& b);
-
-/// The separating speed at which a gap's path may run: reopening when it is below the rest gap, closing no further
-/// than to the rest gap when above.
-double pathSpeed(double gap_m, const CollisionWindow& window, double dt_s);
 
 }  // namespace carom

@@ -14,6 +14,9 @@ namespace {
 // far above rounding (1e-15), far below the distances that matter (1e-9).
 constexpr double kPlanarity = 1e-9;
 
+// An edge climbs along a direction if its slope is above the rounding of the product of two unit vectors.
+constexpr double kLevelSlope = 1e-15;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Newell's normal: robust for any planar polygon, whatever its first corner looks like.
@@ -157,17 +160,20 @@ void ConvexPolyhedron::validate() const {
 }
 
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
+  // Slopes, not heights: along an edge much shorter than the solid the difference of two heights is all rounding.
+  // A slope above its own rounding means a truly higher vertex, so this ends.
+  const double level = kLevelSlope * direction.norm();
   int best = start;
-  double best_height = direction.dot(vertex(best));
-  for (bool climbing = true; climbing;) {  // heights rise strictly, so this ends
+  for (bool climbing = true; climbing;) {
     climbing = false;
+    double most = 0.0;
     const int here = best;
-    for (int e : vertexEdges(here)) {
-      const int v = otherEnd(e, here);
-      const double height = direction.dot(vertex(v));
-      if (height > best_height) {
-        best = v;
-        best_height = height;
+    for (int i : vertexEdges(here)) {
+      const Edge& e = edge(i);
+      const double slope = e.tail == here ? e.direction.dot(direction) : -e.direction.dot(direction);
+      if (slope > level && slope * e.length_m > most) {
+        most = slope * e.length_m;
+        best = e.tail == here ? e.head : e.tail;
         climbing = true;
       }
     }

@@ -24,7 +24,7 @@ Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
   if (parts_.empty()) throw InputError("a solid needs at least one part");
   mass_ = partMass(parts_[0]);
   for (std::size_t i = 1; i < parts_.size(); ++i) mass_ = MassProperties::combined(mass_, partMass(parts_[i]));
-  if (!(mass_.mass > 0.0)) throw InputError("a solid needs a positive volume");
+  if (!(mass_.mass > 0.0) || !mass_.inertia.allFinite()) throw InputError("a solid needs a positive finite volume");
   origin_B_ = -mass_.center;
   for (ConvexPart& part : parts_) {
     part.core = part.core.translated(origin_B_);

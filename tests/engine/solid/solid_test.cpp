@@ -43,7 +43,7 @@ TEST(Solid, Compound_CombinesPartsAboutTheirCommonCentre) {
   const double I_y = 1.0 / 6 + 16.0 / 9 + 2 * (5.0 / 12 + 4.0 / 9);
   const double I_z = 1.0 / 6 + 16.0 / 9 + 2 * (2.0 / 12 + 4.0 / 9);
   EXPECT_LT((solid.unitInertia() - Mat3(Vec3(I_x, I_y, I_z).asDiagonal())).norm(), 1e-13);
-  EXPECT_NEAR(solid.radius(), Vec3(7.0 / 6, 0.5, 1).norm(), 1e-14);
+  EXPECT_NEAR(solid.radius(), Vec3(11.0 / 6, 0.5, 0.5).norm(), 1e-14);
 }
 
 TEST(Solid, Compound_MayMixPolyhedraBallsAndCapsules) {
@@ -69,8 +69,9 @@ TEST(Solid, RefusesWhatHasNoVolume) {
   EXPECT_THROW(Solid({{boxPolyhedron({1, 1, 1}), 0.1}}), InputError);
 }
 
-TEST(Solid, RefusesAnInfiniteRadius) {
+TEST(Solid, RefusesAnInfiniteVolume) {
   EXPECT_THROW(Solid::ball(std::numeric_limits<double>::infinity()), InputError);
+  EXPECT_THROW(Solid::box({1e200, 1e200, 1e200}), InputError);
 }
 
 }  // namespace

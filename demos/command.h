@@ -1,0 +1,66 @@
+#pragma once
+// The commands of the program with their options as plain values; each lives in command_<name>.cpp. They write data to
+// stdout and everything else to stderr, and report failure by the exceptions that main.cpp maps to exit codes.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "demos/exit_code.h"
+#include "demos/scene.h"
+
+namespace carom::demos {
+
+/// What is chosen about a scene on the command line.
+struct SceneChoice {
+  std::string scene;
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::filesystem::path> mesh;
+};
+/// Reads the scene and puts the chosen seed and duration in.
+Scene chosenScene(const SceneChoice& choice);
+
+/// How much is told on stderr.
+struct Telling {
+  std::string progress = "auto";
+  bool quiet = false;
+  bool verbose = false;
+};
+
+struct ListOptions {
+  bool json = false;
+};
+ExitCode list(const ListOptions& options);
+
+struct RenderOptions {
+  SceneChoice choice;
+  std::string output;  ///< Empty: frames/<scene>/frame_%04d.png.
+  double fps = 30.0;
+  int width = 1280;
+  int height = 720;
+  std::string camera;  ///< Empty: "main", else the first.
+  Telling telling;
+  std::string command_line;  ///< As typed, for the manifest.
+};
+ExitCode render(const RenderOptions& options);
+
+struct SimulateOptions {
+  SceneChoice choice;
+  double fps = 30.0;  ///< Of the rows of `csv`.
+  std::filesystem::path csv;
+  std::filesystem::path audit;
+  std::string expected_hash;
+  Telling telling;
+};
+ExitCode simulate(const SimulateOptions& options);
+
+struct CheckOptions {
+  SceneChoice choice;  ///< `scene` may be a mesh file.
+};
+ExitCode check(const CheckOptions& options);
+
+ExitCode doctor();
+
+}  // namespace carom::demos

@@ -1,0 +1,59 @@
+// `carom check`: validates a scene or a mesh without drawing anything.
+#include "demos/command.h"
+
+#include <iostream>
+
+#include "demos/asset_path.h"
+#include "demos/content_hash.h"
+#include "demos/scene_file.h"
+#include "demos/scene_world.h"
+#include "demos/shape_solid.h"
+
+namespace carom::demos {
+namespace {
+
+void checkScene(const SceneChoice& choice) {
+  const Scene scene = chosenScene(choice);
+  const SceneWorld made = makeSceneWorld(scene, choice.mesh);
+  int moving = 0;
+  for (const BodyDescription& body : made.world.bodies()) moving += body.is_static ? 0 : 1;
+  std::cout << scene.file.string() << ": ok  " << made.world.bodies().size() << " bodies (" << moving << " move)  "
+            << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  " << scene.duration_s
+            << " s at " << scene.rate_hz << " steps/s  scene hash " << hexText(sceneHash(scene, choice.mesh)) << '\n';
+}
+
+void checkMesh(const std::filesystem::path& path) {
+  MeshSolid mesh = meshParts(path, 1.0, std::nullopt);
+  const int flat_parts = mesh.flat_parts;
+  int vertices = 0, faces = 0;
+  for (const ConvexPart& part : mesh.parts) {
+    vertices += part.core.vertexCount();
+    faces += part.core.faceCount();
+  }
+  const Solid solid(std::move(mesh.parts));
+  std::cout << path.string() << ": ok  " << solid.parts().size() << (solid.parts().size() == 1 ? " part  " : " parts  ")
+            << vertices << " vertices  " << faces << " faces  volume " << solid.volume() << "  radius "
+            << solid.radius() << "  centre of mass " << (-solid.origin_B()).transpose();
+  if (flat_parts > 0) std::cout << "  left out as flat: " << flat_parts;
+  std::cout << '\n';
+}
+
+/// A scene is a .json file or a shipped name; any other file is a mesh.
+bool isMesh(const std::string& what) {
+  std::error_code ignored;
+  const std::filesystem::path path(what);
+  return path.extension() != ".json" && (path.has_extension() || std::filesystem::exists(path, ignored));
+}
+
+}  // namespace
+
+ExitCode check(const CheckOptions& options) {
+  if (isMesh(options.choice.scene)) {
+    checkMesh(options.choice.scene);
+  } else {
+    checkScene(options.choice);
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,201 @@
+#include "demos/command_line.h"
+
+#include <iostream>
+#include <sstream>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "demos/build_info.h"
+#include "demos/command.h"
+#include "demos/nearest_name.h"
+
+namespace carom::demos {
+namespace {
+
+constexpr double kLongest_s = 3600.0;
+constexpr double kHighestFps = 1000.0;
+constexpr int kSmallestSide = 16;
+constexpr int kLargestSide = 8192;
+
+std::string quotedCommandLine(int argc, char** argv) {
+  std::string text = "carom";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_of(" \t\"'\\$&|;<>()*?#") == std::string::npos;
+    text += plain ? " " + word : " '" + word + "'";
+  }
+  return text;
+}
+
+void readSize(const std::string& text, RenderOptions& options) {
+  int width = 0, height = 0;
+  char cross = 0, rest = 0;
+  std::istringstream in(text);
+  const bool parsed = static_cast<bool>(in >> width >> cross >> height) && cross == 'x' && !(in >> rest);
+  const auto fits = [](int side) { return side >= kSmallestSide && side <= kLargestSide; };
+  if (!parsed || !fits(width) || !fits(height))
+    throw UsageError("--size " + text + ": accepted: WIDTHxHEIGHT such as 1280x720, each " + std::to_string(kSmallestSide) + " to " +
+                     std::to_string(kLargestSide));
+  options.width = width;
+  options.height = height;
+}
+
+/// Finite and within (0, most]: comparisons with NaN are false.
+void requireWithin(const char* option, double value, double most) {
+  if (value > 0.0 && value <= most) return;
+  std::ostringstream message;
+  message << option << ' ' << value << ": accepted: above 0, at most " << most;
+  throw UsageError(message.str());
+}
+
+void requireHash(const std::string& text) {
+  if (text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos) return;
+  throw UsageError("--expect-hash " + text + ": accepted: the 16 hexadecimal digits that simulate prints");
+}
+
+void addSceneOptions(CLI::App& command, SceneChoice& choice) {
+  command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")->required();
+  command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
+  command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
+  command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+}
+
+void addTellingOptions(CLI::App& command, Telling& telling) {
+  command.add_option("--progress", telling.progress, "json, none, or auto: redrawn on a terminal, else a line a second")
+      ->check(CLI::IsMember({"json", "none", "auto"}));
+  command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
+}
+
+/// Everything that can be asked for, with the places its values go.
+struct CommandLine {
+  CLI::App app{"Carom: impulse-based rigid bodies on V-Clip, drawn off screen to PNG frames.", "carom"};
+  ListOptions list_options;
+  RenderOptions render_options;
+  SimulateOptions simulate_options;
+  CheckOptions check_options;
+  std::string size;
+  CLI::App* list_command = nullptr;
+  CLI::App* render_command = nullptr;
+  CLI::App* simulate_command = nullptr;
+  CLI::App* check_command = nullptr;
+  CLI::App* doctor_command = nullptr;
+
+  CommandLine();
+  void addRender();
+  void addSimulate();
+};
+
+CommandLine::CommandLine() {
+  app.set_version_flag("--version", "carom " + programVersion() + " (" + buildName() + ")");
+  app.footer("Example: carom render sliding -o out/frame_%04d.png\n"
+             "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
+             "            5 simulation invalid, 6 no renderer, 128+n signal n");
+  list_command = app.add_subcommand("list", "The shipped scenes, one line each");
+  list_command->add_flag("--json", list_options.json, "As a JSON array");
+  list_command->footer("Example: carom list --json");
+  addRender();
+  addSimulate();
+  check_command = app.add_subcommand("check", "Validates a scene or a mesh file without rendering");
+  check_command->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")->required();
+  check_command->add_option("--mesh", check_options.choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+  check_command->footer("Example: carom check assets/meshes/gem.obj");
+  doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
+  doctor_command->footer("Example: carom doctor");
+  for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
+  app.allow_extras();
+  app.require_subcommand(0, 1);
+}
+
+void CommandLine::addRender() {
+  render_command = app.add_subcommand("render", "Simulates a scene and writes PNG frames");
+  addSceneOptions(*render_command, render_options.choice);
+  render_command->add_option("-o,--output", render_options.output, "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png)");
+  render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")->capture_default_str();
+  render_command->add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
+  render_command->add_option("--camera", render_options.camera, "One of the scene's cameras (main, or its first)");
+  addTellingOptions(*render_command, render_options.telling);
+  render_command->add_flag("-v,--verbose", render_options.telling.verbose, "Tell about scene and renderer first");
+  render_command->footer("Example: carom render drop-mesh --mesh part.stl --size 1920x1080 -o out/part_####.png");
+}
+
+void CommandLine::addSimulate() {
+  simulate_command = app.add_subcommand("simulate", "Simulates a scene; prints the final state hash and a line of facts");
+  addSceneOptions(*simulate_command, simulate_options.choice);
+  simulate_command->add_option("--csv", simulate_options.csv, "One row a body and frame: poses, velocities, modes");
+  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv")->capture_default_str();
+  simulate_command->add_option("--audit", simulate_options.audit, "One row a step: energy, momentum, gap, counters");
+  simulate_command->add_option("--expect-hash", simulate_options.expected_hash, "Exit 1 when the final state hash differs");
+  addTellingOptions(*simulate_command, simulate_options.telling);
+  simulate_command->footer("Example: carom simulate resting --csv run.csv --audit steps.csv");
+}
+
+std::vector<std::string> optionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// Words that nothing wanted: a misspelt command or option, or one argument too many.
+void refuseExtras(const CommandLine& line) {
+  const std::vector<CLI::App*> chosen = line.app.get_subcommands();
+  if (chosen.empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : line.app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+    const std::vector<std::string> extras = line.app.remaining();
+    if (extras.empty()) throw UsageError("a command is missing" + acceptedNames("", names));
+    if (extras[0][0] == '-') throw UsageError("unknown option " + extras[0] + acceptedNames(extras[0], optionNames(line.app)));
+    throw UsageError("unknown command \"" + extras[0] + "\"" + acceptedNames(extras[0], names));
+  }
+  const std::vector<std::string> extras = line.app.remaining(true);
+  if (extras.empty()) return;
+  const std::string word = extras[0].substr(0, extras[0].find('='));
+  const std::string name = chosen[0]->get_name();
+  if (word[0] == '-') throw UsageError(name + ": unknown option " + word + acceptedNames(word, optionNames(*chosen[0])));
+  throw UsageError(name + ": unexpected argument \"" + word + "\"");
+}
+
+void checkValues(CommandLine& line) {
+  for (const SceneChoice* choice : {&line.render_options.choice, &line.simulate_options.choice})
+    if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
+  requireWithin("--fps", line.render_options.fps, kHighestFps);
+  requireWithin("--fps", line.simulate_options.fps, kHighestFps);
+  if (!line.size.empty()) readSize(line.size, line.render_options);
+  if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
+}
+
+std::string oneLine(std::string text) {
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  return text;
+}
+
+}  // namespace
+
+ExitCode runCommandLine(int argc, char** argv) {
+  CommandLine line;
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const std::vector<CLI::App*> chosen = line.app.get_subcommands();
+    std::cout << (chosen.empty() ? line.app.help() : chosen[0]->help("carom " + chosen[0]->get_name()));
+    return ExitCode::kOk;
+  } catch (const CLI::CallForVersion& version) {
+    std::cout << version.what() << '\n';
+    return ExitCode::kOk;
+  } catch (const CLI::ParseError& error) {
+    refuseExtras(line);  // a misspelt word is the better reason when there is one
+    throw UsageError(oneLine(error.what()));
+  }
+  refuseExtras(line);
+  checkValues(line);
+  line.render_options.command_line = quotedCommandLine(argc, argv);
+  if (line.list_command->parsed()) return list(line.list_options);
+  if (line.render_command->parsed()) return render(line.render_options);
+  if (line.simulate_command->parsed()) return simulate(line.simulate_options);
+  if (line.check_command->parsed()) return check(line.check_options);
+  return doctor();
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,120 @@
+// `carom simulate`: physics without pictures; trajectory and audit as CSV, the final state hash on stdout.
+#include "demos/command.h"
+
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "demos/atomic_file.h"
+#include "demos/content_hash.h"
+#include "demos/frame_clock.h"
+#include "demos/frame_states.h"
+#include "demos/interrupt.h"
+#include "demos/progress.h"
+#include "demos/scene_world.h"
+#include "demos/simulation_check.h"
+
+namespace carom::demos {
+namespace {
+
+/// A CSV file that is written while the simulation runs, or nothing when no path is given.
+class CsvFile {
+ public:
+  CsvFile(const std::filesystem::path& path, const char* header) {
+    if (path.empty()) return;
+    file_.emplace(path);
+    file_->write(std::string(header) + "\n");
+  }
+  explicit operator bool() const { return file_.has_value(); }
+  void row(const std::ostringstream& row) { file_->write(row.str() + "\n"); }
+  void commit() {
+    if (file_) file_->commit();
+  }
+
+ private:
+  std::optional<AtomicFile> file_;
+};
+
+/// Seventeen digits give the same bits when read back.
+std::ostringstream exactRow() {
+  std::ostringstream row;
+  row.precision(17);
+  return row;
+}
+
+void writeTrajectory(CsvFile& csv, int frame, double time_s, std::span<const std::string> names, std::span<const BodyState> states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& s = states[i];
+    const Vec3& p = s.X_WB.position;
+    const Quat& q = s.X_WB.rotation;
+    const Vec3& v = s.linear_velocity;
+    const Vec3& w = s.angular_velocity;
+    std::ostringstream row = exactRow();
+    row << frame << ',' << time_s << ",\"" << names[i] << "\"," << p.x() << ',' << p.y() << ',' << p.z() << ',' << q.w()
+        << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ',' << v.y() << ',' << v.z() << ',' << w.x()
+        << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
+    csv.row(row);
+  }
+}
+
+void writeAudit(CsvFile& csv, int step, const Audit& audit) {
+  const Vec3& p = audit.linear_momentum;
+  const Vec3& l = audit.angular_momentum;
+  const StepCounters& c = audit.last_step;
+  std::ostringstream row = exactRow();
+  row << step << ',' << audit.time_s << ',' << audit.kinetic_energy_J << ',' << audit.potential_energy_J << ',' << p.x()
+      << ',' << p.y() << ',' << p.z() << ',' << l.x() << ',' << l.y() << ',' << l.z() << ',' << audit.smallest_gap_m << ','
+      << audit.resting_bodies << ',' << c.candidate_pairs << ',' << c.distance_queries << ',' << c.contact_points << ','
+      << c.events << ',' << c.stopped_bodies << ',' << c.iteration_limits;
+  csv.row(row);
+}
+
+void printFacts(const World& world, const RunFacts& facts) {
+  const Audit audit = world.audit();
+  std::cout << hexText(world.stateHash()) << '\n'
+            << "steps=" << world.stepCount() << " time_s=" << world.time() << " bodies=" << world.bodies().size()
+            << " resting=" << audit.resting_bodies << " kinetic_J=" << audit.kinetic_energy_J
+            << " potential_J=" << audit.potential_energy_J << " smallest_gap_m=" << facts.smallest_gap_m
+            << " events=" << facts.events << " stopped_bodies=" << facts.stopped_bodies
+            << " iteration_limits=" << facts.iteration_limits << '\n';
+}
+
+}  // namespace
+
+ExitCode simulate(const SimulateOptions& options) {
+  const Scene scene = chosenScene(options.choice);
+  SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
+  const FrameClock clock({options.fps, scene.rate_hz});
+  const int steps = clock.stepCount(scene.duration_s);
+  if (steps < 1) throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no step");
+
+  CsvFile trajectory(options.csv, "frame,time_s,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode");
+  CsvFile audits(options.audit,
+                 "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
+                 "distance_queries,contact_points,events,stopped_bodies,iteration_limits");
+  RunFacts facts;
+  const ProgressStyle style = options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+  {
+    Progress progress({"step", steps}, style, std::cerr, steadySeconds);
+    FrameStates states(made.world, clock, [&](const World& world) {
+      throwIfInterrupted();
+      const Audit audit = world.audit();
+      checkStep(world, audit, made.names, facts);
+      if (audits) writeAudit(audits, world.stepCount(), audit);
+      progress.done(world.stepCount());
+    });
+    if (trajectory)
+      for (int frame = 0; frame < clock.frameCount(scene.duration_s); ++frame)
+        writeTrajectory(trajectory, frame, clock.time(frame), made.names, states.advanceTo(frame));
+    states.stepTo(steps);
+  }
+  trajectory.commit();
+  audits.commit();
+  printFacts(made.world, facts);
+  const std::string hash = hexText(made.world.stateHash());
+  if (options.expected_hash.empty() || options.expected_hash == hash) return ExitCode::kOk;
+  std::cerr << "carom: state hash " << hash << " differs from the expected " << options.expected_hash << '\n';
+  return ExitCode::kNo;
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,55 @@
+#pragma once
+// Encodes frames and writes their files in a thread of its own, so that the next frame is simulated and drawn
+// meanwhile. Frames are written in the order they are handed in. Tested in tests/demos/frame_writer_test.cpp.
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "demos/manifest.h"
+#include "renderer/image.h"
+#include "renderer/png.h"
+
+namespace carom::demos {
+
+struct FrameToWrite {
+  renderer::Image image;
+  std::filesystem::path path;
+  FrameRecord record;
+  renderer::PngText text;
+};
+
+class FrameWriter {
+ public:
+  FrameWriter();
+  /// Writes what was handed in, then ends; use `finish` to learn of failures.
+  ~FrameWriter();
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
+
+  /// Waits while `kMostWaiting` frames are queued. Throws what writing an earlier frame threw.
+  void submit(FrameToWrite frame);
+  /// Waits for all frames. Throws what writing one threw; else the records, completed, of all that were written.
+  std::vector<FrameRecord> finish();
+  /// The records of the frames written so far.
+  std::vector<FrameRecord> written() const;
+
+  static constexpr std::size_t kMostWaiting = 2;
+
+ private:
+  void work();
+  void end();
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<FrameToWrite> waiting_;
+  std::vector<FrameRecord> written_;
+  std::exception_ptr failure_;
+  bool ending_ = false;
+  std::thread thread_;  // last: it starts once everything above exists
+};
+
+}  // namespace carom::demos

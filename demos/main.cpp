@@ -1,0 +1,42 @@
+// carom: carries out the command line; what it throws becomes one line on stderr and an exit code.
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include <unistd.h>
+
+#include "demos/command_line.h"
+#include "demos/exit_code.h"
+#include "demos/interrupt.h"
+
+namespace {
+
+using namespace carom::demos;
+
+int run(int argc, char** argv) {
+  const ExitCode code = runCommandLine(argc, argv);
+  if (!std::cout.flush()) throw CannotWrite("cannot write to standard output");
+  return static_cast<int>(code);
+}
+
+/// Red on a terminal, unless NO_COLOR asks for none (no-color.org).
+void tell(const std::string& message) {
+  const char* no_color = std::getenv("NO_COLOR");
+  const bool colored = ::isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
+  std::cerr << (colored ? "\033[31mcarom:\033[0m " : "carom: ") << message << std::endl;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catchInterrupts();
+  try {
+    return run(argc, argv);
+  } catch (...) {
+    const Failure failure = failureOf(std::current_exception());
+    tell(failure.line);
+    if (failure.is_bug) std::abort();
+    return failure.code;
+  }
+}

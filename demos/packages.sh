@@ -1,0 +1,46 @@
+# What the build needs on Debian 12, in one place: sourced by demos/run.sh and tests/run.sh.
+# install_missing_packages installs what is missing (root or sudo); without the right to, one line says what is missing.
+
+carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libassimp-dev libpng-dev libqhull-dev
+  libcli11-dev nlohmann-json3-dev libgtest-dev)
+
+install_missing_packages() {
+  local missing=() package as_root=()
+  for package in "${carom_packages[@]}"; do
+    [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    # sudo counts when it asks for nothing, or when there is a person to answer.
+    if ! command -v sudo >/dev/null || { [ ! -t 0 ] && ! sudo -n true 2>/dev/null; }; then
+      echo "missing packages, and no right to install them: apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "installing ${missing[*]}"
+  local log
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update -qq &&
+         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } \
+       >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    rm -f "$log"
+    echo "could not install: ${missing[*]}" >&2
+    return 1
+  fi
+  rm -f "$log"
+}
+
+# build_release TARGET...: configures the release preset and builds the targets, in the checkout's root. Speaks only of
+# phases unless something fails.
+build_release() {
+  local log
+  log=$(mktemp)
+  echo "configuring build/release"
+  cmake --preset release >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
+  echo "building $* with $(nproc) jobs"
+  cmake --build --preset release -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
+    { grep -vE '^\[[0-9]+/[0-9]+\]' "$log" | head -n 60 >&2; rm -f "$log"; echo "building failed" >&2; return 1; }
+  rm -f "$log"
+}

@@ -1,0 +1,46 @@
+#pragma once
+// The rows that a pair of shapes gives the contact solver: one for each point of its manifold.
+// Internal to the simulation floor. Tested through tests/engine/simulation/.
+
+#include <vector>
+
+#include "engine/response/contact_solver.h"
+#include "engine/simulation/pair_table.h"
+
+namespace carom {
+
+/// A row with where it came from.
+struct SourcedRow {
+  ContactRow row;
+  int pair = -1;
+  std::uint64_t id = 0;
+  double gap_m = 0.0;
+};
+
+/// What of one pair to make rows of.
+struct RowRequest {
+  int pair = -1;
+  int row_a = -1;  ///< Indices of the two bodies in the solver's list.
+  int row_b = -1;
+  const ClosestFeatures* closest = nullptr;
+  Pose X_WA;
+  Pose X_WB;
+};
+
+/// Appends the rows of a pair; the solver's `bodies` prepare them.
+void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
+                const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies, std::vector<SourcedRow>& rows);
+
+/// The contact coefficients of two materials: friction is the geometric mean, restitution the larger.
+Friction combinedFriction(const Material& a, const Material& b);
+double combinedRestitution(const Material& a, const Material& b);
+
+/// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more contacts than it
+/// needs can lie still on all of them; above the band it may close to the rest gap.
+struct GapSpeeds {
+  double momentum = 0.0;  ///< The separating speed must not be below this.
+  double path = 0.0;      ///< The same for the path, which also reopens gaps below the band; that gives no energy.
+};
+GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s);
+
+}  // namespace carom

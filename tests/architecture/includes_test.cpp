@@ -1,0 +1,128 @@
+// The tree keeps its floors: no include points up or sideways, and each library is named by one file.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "tests/architecture/include_rules.h"
+
+namespace carom::architecture {
+namespace {
+
+std::vector<Source> sourcesOfTheTree() {
+  namespace fs = std::filesystem;
+  const fs::path root = CAROM_SOURCE_DIR;
+  std::vector<Source> sources;
+  for (const char* folder : {"engine", "renderer", "demos"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (!entry.is_regular_file() || (extension != ".h" && extension != ".cpp")) continue;
+      std::ifstream in(entry.path());
+      std::ostringstream text;
+      text << in.rdbuf();
+      sources.push_back({fs::relative(entry.path(), root).generic_string(), text.str()});
+    }
+  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.path < b.path; });
+  return sources;
+}
+
+TEST(Tree, NoIncludePointsUpOrSideways) {
+  const std::vector<Source> sources = sourcesOfTheTree();
+  ASSERT_GT(sources.size(), 20u) << "the tree was not found";
+  for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
+}
+
+TEST(Tree, EveryFolderOfTheEngineIsAKnownFloor) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAROM_SOURCE_DIR) + "/engine"))
+    EXPECT_TRUE(!entry.is_directory() || floorHeights().contains(entry.path().filename().string())) << entry.path();
+}
+
+TEST(Tree, EveryHeaderIsIncludedOnce) {
+  for (const auto& [path, text] : sourcesOfTheTree())
+    EXPECT_TRUE(!path.ends_with(".h") || text.find("#pragma once") != std::string::npos) << path;
+}
+
+// The checker itself: each wrong include is found, each right one is let through.
+
+struct Case {
+  const char* path;
+  const char* include;
+  const char* reason;  // empty: allowed
+};
+
+void expectJudged(const Case& c) {
+  const std::vector<std::string> found = violations({{c.path, c.include}});
+  const bool allowed = std::string_view(c.reason).empty();
+  ASSERT_EQ(found.size(), allowed ? 0u : 1u) << c.path << " " << c.include;
+  if (!allowed) {
+    EXPECT_NE(found[0].find(c.reason), std::string::npos) << found[0];
+  }
+}
+
+TEST(IncludeRules, JudgeEachArrow) {
+  const Case cases[] = {
+      {"engine/solid/solid.h", R"(#include "engine/foundation/frames.h")", ""},
+      {"engine/solid/solid.h", R"(#include "engine/solid/convex_hull.h")", ""},
+      {"engine/solid/solid.h", R"(#include "engine/contact/approach.h")", "points up"},
+      {"engine/foundation/frames.h", R"(#include "engine/solid/solid.h")", "points up"},
+      {"engine/motion/rigid_body.h", R"(#include "engine/closest_features/vclip.h")", "points sideways"},
+      {"engine/contact/approach.h", R"(#include "engine/environment/gravity.h")", "points sideways"},
+      {"engine/environment/gravity.h", R"(#include "engine/contact/approach.h")", "points sideways"},
+      {"engine/response/impulse.h", R"(#include "engine/environment/gravity.h")", ""},
+      {"engine/modes/resting.h", R"(#include "engine/simulation/world.h")", "points up"},
+      {"engine/simulation/world.cpp", R"(  #  include "engine/modes/resting.h"  // why)", ""},
+      {"engine/simulation/world.cpp", R"(#include "renderer/image.h")", "must not see the renderer"},
+      {"engine/simulation/world.cpp", R"(#include "demos/scene.h")", "only demos"},
+      {"engine/simulation/world.cpp", R"(#include "world.h")", "by its path from the root"},
+      {"engine/simulation/world.cpp", R"(#include "../modes/resting.h")", "by its path from the root"},
+      {"engine/simulation/world.cpp", R"(#include "engine/shortcuts/all.h")", "no known floor"},
+      {"engine/shortcuts/all.h", R"(#include "engine/foundation/frames.h")", "no known floor"},
+      {"renderer/solid_mesh.cpp", R"(#include "engine/solid/solid.h")", ""},
+      {"renderer/solid_mesh.cpp", R"(#include "renderer/image.h")", ""},
+      {"renderer/frame_renderer.cpp", R"(#include "engine/simulation/world.h")", "foundation and solid only"},
+      {"renderer/frame_renderer.cpp", R"(#include "engine/motion/rigid_body.h")", "foundation and solid only"},
+      {"renderer/frame_renderer.cpp", R"(#include "demos/scene.h")", "only demos"},
+      {"demos/main.cpp", R"(#include "engine/simulation/world.h")", ""},
+      {"demos/main.cpp", R"(#include "renderer/image.h")", ""},
+      {"demos/main.cpp", R"(// #include "world.h")", ""},
+  };
+  for (const Case& c : cases) expectJudged(c);
+}
+
+TEST(IncludeRules, JudgeEachLibrary) {
+  const Case cases[] = {
+      {"renderer/offscreen_context.cpp", "#include <GL/osmesa.h>", ""},
+      {"renderer/offscreen_context.h", "#include <GL/osmesa.h>", ""},
+      {"renderer/frame_renderer.cpp", "#include <GL/osmesa.h>", "may name OSMesa"},
+      {"renderer/png.cpp", "#include <png.h>", ""},
+      {"demos/main.cpp", "#include <png.h>", "may name libpng"},
+      {"demos/mesh_import.cpp", "#include <assimp/scene.h>", ""},
+      {"demos/scene.cpp", "#include <assimp/scene.h>", "may name assimp"},
+      {"engine/solid/convex_hull.cpp", "#include <libqhull_r/qhull_ra.h>", ""},
+      {"engine/solid/solid.cpp", "#include <libqhull_r/qhull_ra.h>", "may name qhull"},
+      {"demos/scene_file.cpp", "#include <nlohmann/json.hpp>", ""},
+      {"renderer/png.cpp", "#include <nlohmann/json.hpp>", "only the demos read JSON"},
+      {"engine/solid/solid.cpp", "#include <boost/graph.hpp>", "Eigen and the standard library"},
+      {"engine/solid/solid.cpp", "#include <unistd.h>", "Eigen and the standard library"},
+      {"engine/solid/solid.cpp", "#include <Eigen/LU>", ""},
+      {"engine/solid/solid.cpp", "#include <vector>", ""},
+  };
+  for (const Case& c : cases) expectJudged(c);
+}
+
+TEST(IncludeRules, LetOneFileNameTheJsonLibrary) {
+  const std::string json = "#include <nlohmann/json.hpp>\n#include <nlohmann/json_fwd.hpp>\n";
+  EXPECT_TRUE(violations({{"demos/scene_file.cpp", json}}).empty());
+  EXPECT_EQ(violations({{"demos/scene_file.cpp", json}, {"demos/manifest.cpp", json}}).size(), 1u);
+}
+
+TEST(IncludeRules, ReportTheLine) {
+  const std::vector<std::string> found = violations({{"engine/solid/solid.h", "// head\n\n#include \"engine/modes/resting.h\"\n"}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "engine/solid/solid.h:3: engine/modes/resting.h: points up");
+}
+
+}  // namespace
+}  // namespace carom::architecture

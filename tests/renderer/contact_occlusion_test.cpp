@@ -1,0 +1,92 @@
+#include "renderer/contact_occlusion.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace carom::renderer {
+namespace {
+
+constexpr double kFocal = 1000.0;
+const Vec3 kEye(0.0, -6.0, 4.0);
+
+// Bodies of a scene with what they refer to.
+struct Stage {
+  std::vector<Solid> solids;
+  std::vector<std::vector<RoundedBox>> boxes;
+  std::vector<Pose> poses;
+  std::vector<bool> endless;
+
+  void add(const Solid& solid, const Pose& X_WB, bool endless_ground = false) {
+    solids.push_back(solid);
+    boxes.push_back({});
+    for (const ConvexPart& part : solid.parts()) boxes.back().push_back(roundedBox(part));
+    poses.push_back({X_WB.rotation, X_WB.position - kEye});
+    endless.push_back(endless_ground);
+  }
+  std::vector<OcclusionVertex> occlusion() const {
+    std::vector<OcclusionBody> bodies;
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      bodies.push_back({&solids[i], boxes[i], poses[i], solids[i].radius(), endless[i]});
+    return contactOcclusion(bodies, kFocal);
+  }
+};
+
+Pose at(double x, double y, double z) { return {Quat::Identity(), Vec3(x, y, z)}; }
+
+double worldZ(const OcclusionVertex& v) { return v.p_E[2] + kEye.z(); }
+
+TEST(ContactOcclusion, ABallOnTheGroundDarkensTheGroundUnderIt) {
+  Stage stage;
+  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5), true);
+  stage.add(Solid::ball(0.5), at(3.0, 1.0, 0.5));  // Beyond the box: the ground is endless.
+  const std::vector<OcclusionVertex> triangles = stage.occlusion();
+  ASSERT_EQ(triangles.size(), 6u);
+  for (const OcclusionVertex& v : triangles) {
+    EXPECT_NEAR(worldZ(v), 0.0, 1e-6);
+    EXPECT_LT(std::abs(v.p_E[0] + kEye.x() - 3.0), 0.5 + v.reach + 1e-6);
+    EXPECT_NEAR(v.radius, 0.5, 1e-6);
+    EXPECT_NEAR(v.p_R[2], -0.5, 1e-6);
+  }
+}
+
+TEST(ContactOcclusion, PolygonsEndWhereTheFaceEnds) {
+  Stage stage;
+  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5));
+  stage.add(Solid::ball(0.5), at(0.9, 0.2, 0.501));
+  double highest = -1e9;
+  for (const OcclusionVertex& v : stage.occlusion()) highest = std::max(highest, v.p_E[0] + kEye.x());
+  EXPECT_NEAR(highest, 1.0, 1e-6);
+}
+
+TEST(ContactOcclusion, StackedBoxesDarkenEachOther) {
+  Stage stage;
+  stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
+  stage.add(Solid::box(Vec3(0.4, 0.4, 0.4)), at(0.1, 0.0, 1.201));
+  const std::vector<OcclusionVertex> triangles = stage.occlusion();
+  ASSERT_FALSE(triangles.empty());
+  for (const OcclusionVertex& v : triangles) EXPECT_NEAR(worldZ(v), 1.0, 1e-6);  // The upper one's lower face is hidden.
+}
+
+TEST(ContactOcclusion, DistantAndHiddenNeighboursChangeNothing) {
+  Stage apart;
+  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
+  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(4.0, 0, 0.5));
+  EXPECT_TRUE(apart.occlusion().empty());
+  Stage high;
+  high.add(Solid::box(Vec3(20.0, 20.0, 1.0)), at(0, 0, -0.5), true);
+  high.add(Solid::ball(0.5), at(0, 0, 5.0));
+  EXPECT_TRUE(high.occlusion().empty());
+}
+
+TEST(ContactOcclusion, TheOrderOfBodiesDoesNotMatterToHowMuchIsDrawn) {
+  Stage one, other;
+  one.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
+  one.add(Solid::ball(0.3), at(0.82, 0.1, 0.4));
+  other.add(Solid::ball(0.3), at(0.82, 0.1, 0.4));
+  other.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
+  EXPECT_EQ(one.occlusion().size(), other.occlusion().size());
+}
+
+}  // namespace
+}  // namespace carom::renderer

@@ -1,0 +1,84 @@
+#include "renderer/draw_list.h"
+
+#include <gtest/gtest.h>
+
+namespace carom::renderer {
+namespace {
+
+const Camera kCamera{Vec3(1.0, -7.0, 3.0), Vec3(0.0, 0.0, 0.5), 40.0};
+enum : int { kFloor, kBall, kBox };
+
+Pose at(double x, double y, double z) { return {Quat::Identity(), Vec3(x, y, z)}; }
+
+class DrawListTest : public testing::Test {
+ protected:
+  DrawListTest()
+      : context_(createOffscreenContext(PixelPolicy::kFast)),
+        geometry_(context_->gl(), std::vector<Solid>{Solid::box(Vec3(40.0, 40.0, 1.0)), Solid::ball(0.5),
+                                                     Solid::box(Vec3(1.0, 1.0, 1.0))}) {}
+  DrawList list(const std::vector<Instance>& instances) const {
+    return buildDrawList(instances, kCamera, Settings{}, geometry_);
+  }
+  static int count(const std::vector<DrawGroup>& groups) {
+    int sum = 0;
+    for (const DrawGroup& g : groups) sum += g.count;
+    return sum;
+  }
+
+  std::unique_ptr<OffscreenContext> context_;
+  SceneGeometry geometry_;
+};
+
+TEST_F(DrawListTest, WhatTheCameraCannotSeeOnlyCastsShadows) {
+  const DrawList drawn = list({{kBox, at(0, 0, 0.5), {}}, {kBox, at(0, -20.0, 0.5), {}}, {kBall, at(60.0, 10.0, 0.5), {}}});
+  EXPECT_EQ(count(drawn.visible), 1);
+  EXPECT_EQ(count(drawn.casting), 3);
+  EXPECT_EQ(drawn.records.size(), 4u);
+}
+
+TEST_F(DrawListTest, ABodyHalfOutsideTheImageIsVisible) {
+  const CameraAxes axes = cameraAxes(kCamera);
+  const double rim = 0.5 * 1280 / focalLengthPixels(kCamera, 720);
+  const Vec3 on_rim = kCamera.eye + 5.0 * (axes.forward + rim * axes.right);
+  EXPECT_EQ(count(list({{kBall, {Quat::Identity(), on_rim}, {}}}).visible), 1);
+  EXPECT_EQ(count(list({{kBall, {Quat::Identity(), on_rim + 1.0 * axes.right}, {}}}).visible), 0);
+}
+
+TEST_F(DrawListTest, NearAndFarEncloseEveryVisibleBody) {
+  const CameraAxes axes = cameraAxes(kCamera);
+  const Vec3 near = kCamera.eye + 1.2 * axes.forward, far = kCamera.eye + 1e6 * axes.forward;
+  const DrawList drawn = list({{kBall, {Quat::Identity(), near}, {}}, {kBall, {Quat::Identity(), far}, {}}});
+  EXPECT_LT(drawn.depth.near_m, 0.7);
+  EXPECT_GT(drawn.depth.near_m, 0.3);
+  EXPECT_GT(drawn.depth.far_m, 1e6 + 0.5);
+}
+
+TEST_F(DrawListTest, TheLowestLevelCheckerIsTheGround) {
+  const Quat tilted(Eigen::AngleAxisd(0.2, Vec3::UnitX()));
+  const std::vector<Instance> instances = {{kBox, at(0, 0, 0.5), {}, true},
+                                           {kFloor, {tilted, Vec3(0, 0, -9.0)}, {}, true},
+                                           {kFloor, at(0, 0, -0.5), {}, true},
+                                           {kFloor, at(0, 0, -5.0), {}, false}};
+  EXPECT_EQ(findGround(instances, geometry_), 2);
+  EXPECT_NEAR(list(instances).ground_z_E, -kCamera.eye.z(), 1e-12);
+}
+
+TEST_F(DrawListTest, AFloorLyingOnItsSideIsStillLevel) {
+  const Quat turned(Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitX()));
+  const std::vector<Instance> instances = {{kBox, {turned, Vec3(0, 0, -0.5)}, {}, true}};
+  EXPECT_EQ(findGround(instances, geometry_), 0);
+}
+
+TEST_F(DrawListTest, LargerOnTheImageMeansMoreDetail) {
+  int last = 0;
+  for (double radius_px = 1.0; radius_px < 2000.0; radius_px *= 1.3) {
+    EXPECT_GE(detailLevel(radius_px), last);
+    last = detailLevel(radius_px);
+  }
+  EXPECT_EQ(detailLevel(1.0), 0);
+  EXPECT_EQ(last, kDetailLevels - 1);
+  EXPECT_LT(geometry_.solid(kBall).levels[0].count, geometry_.solid(kBall).levels[4].count);
+}
+
+}  // namespace
+}  // namespace carom::renderer

@@ -1,0 +1,114 @@
+#include "renderer/solid_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "engine/solid/convex_hull.h"
+
+namespace carom::renderer {
+namespace {
+
+Vec3 position(const TriangleMesh& mesh, std::size_t corner) {
+  const float* p = mesh.vertices[mesh.indices[corner]].position;
+  return Vec3(p[0], p[1], p[2]);
+}
+
+double volume(const TriangleMesh& mesh) {
+  double six = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    six += position(mesh, i).dot(position(mesh, i + 1).cross(position(mesh, i + 2)));
+  return six / 6.0;
+}
+
+// Every side of a triangle is some other triangle's side the other way round; sides are told apart by position.
+bool closed(const TriangleMesh& mesh) {
+  using Key = std::array<float, 3>;
+  std::map<std::pair<Key, Key>, int> sides;
+  const auto key = [&](std::size_t corner) {
+    const float* p = mesh.vertices[mesh.indices[corner]].position;
+    return Key{p[0], p[1], p[2]};
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++sides[{key(i + k), key(i + (k + 1) % 3)}];
+      --sides[{key(i + (k + 1) % 3), key(i + k)}];
+    }
+  for (const auto& [side, sum] : sides)
+    if (sum != 0) return false;
+  return true;
+}
+
+Solid randomHull(std::mt19937& random, int points) {
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> cloud;
+  for (int i = 0; i < points; ++i) cloud.push_back(Vec3(normal(random), normal(random), normal(random)));
+  return Solid::polyhedron(convexHull(cloud).polyhedron);
+}
+
+TEST(SolidMesh, SharpMeshesHaveTheSolidsVolume) {
+  std::mt19937 random(5);
+  for (const int points : {4, 6, 12, 60}) {
+    const Solid solid = randomHull(random, points);
+    const TriangleMesh mesh = buildMesh(solid, {0.0, 16});
+    EXPECT_NEAR(volume(mesh) / solid.volume(), 1.0, 1e-5) << points;
+    EXPECT_TRUE(closed(mesh)) << points;
+  }
+}
+
+TEST(SolidMesh, BevelledMeshesAreClosedAndStayJustInsideTheSolid) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 30; ++i) {
+    const Solid solid = randomHull(random, 4 + i);
+    const double bevel = bevelWidth(solid, 1e9);
+    const TriangleMesh mesh = buildMesh(solid, {bevel, 16});
+    EXPECT_TRUE(closed(mesh)) << i;
+    EXPECT_LT(volume(mesh), solid.volume()) << i;
+    EXPECT_GT(volume(mesh), 0.98 * solid.volume()) << i;
+    const double tolerance = 1e-6 * solid.radius();
+    for (std::size_t k = 0; k < mesh.indices.size(); ++k)
+      for (int f = 0; f < solid.parts()[0].core.faceCount(); ++f)
+        EXPECT_LT(solid.parts()[0].core.plane(f).signedDistance(position(mesh, k)), tolerance) << i;
+  }
+}
+
+TEST(SolidMesh, VerticesOfABoxRecedeByLessThanAHundredthOfItsWidth) {
+  const Solid box = Solid::box(Vec3(2.0, 2.0, 2.0));
+  double farthest = 0.0;
+  for (const MeshVertex& v : buildMesh(box, {bevelWidth(box, 1e9), 16}).vertices)
+    farthest = std::max<double>(farthest, std::hypot(v.position[0], v.position[1], v.position[2]));
+  EXPECT_LT(farthest, std::sqrt(3.0));
+  EXPECT_GT(farthest, std::sqrt(3.0) - 0.02);
+}
+
+TEST(SolidMesh, NormalsAreUnitAndFlatFacesKeepTheirs) {
+  const Solid box = Solid::box(Vec3(1.0, 2.0, 3.0));
+  int flat = 0;
+  for (const MeshVertex& v : buildMesh(box, {0.05, 16}).vertices) {
+    EXPECT_NEAR(std::hypot(v.normal[0], v.normal[1], v.normal[2]), 1.0, 1e-6);
+    if (std::max({std::abs(v.normal[0]), std::abs(v.normal[1]), std::abs(v.normal[2])}) > 0.999999f) ++flat;
+  }
+  EXPECT_EQ(flat, 24);
+}
+
+TEST(SolidMesh, BallsAndCapsulesAreClosedWithTheVolumeOfTheRealOnes) {
+  const double pi = std::numbers::pi;
+  const TriangleMesh ball = buildMesh(Solid::ball(0.7), {0.0, 64});
+  const TriangleMesh capsule = buildMesh(Solid::capsule(0.3, 0.8), {0.0, 64});
+  EXPECT_TRUE(closed(ball));
+  EXPECT_TRUE(closed(capsule));
+  EXPECT_NEAR(volume(ball) / (4.0 / 3.0 * pi * 0.343), 1.0, 0.005);
+  EXPECT_NEAR(volume(capsule) / (pi * 0.09 * 0.8 + 4.0 / 3.0 * pi * 0.027), 1.0, 0.005);
+}
+
+TEST(SolidMesh, TheBevelOfALargeGroundIsCapped) {
+  EXPECT_DOUBLE_EQ(bevelWidth(Solid::box(Vec3(40.0, 40.0, 10.0)), 0.004), 0.004);
+}
+
+}  // namespace
+}  // namespace carom::renderer

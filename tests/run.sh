@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything, runs the tests. Arguments go to ctest (for example: -R Frame).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source demos/packages.sh
+
+install_missing_packages
+build_release all
+ctest --preset release -j2 "$@"
