@@ -50,7 +50,8 @@ const vec3 kBelow = vec3(0.45, 0.47, 0.50);
 
 vec3 skyAt(float elevation) {
   float up = clamp(elevation, 0.0, 1.0);
-  float high = 1.0 - (1.0 - up) * (1.0 - up) * (1.0 - up);
+  float rest = (1.0 - up) * (1.0 - up);
+  float high = 1.0 - rest * rest;
   float low = clamp(-elevation * 2.0, 0.0, 1.0);
   return mix(mix(kHorizon, kZenith, high), kBelow, low);
 }

@@ -35,6 +35,6 @@ inline constexpr double kSlidingSpeed = 1e-3;      // m/s along the contact; slo
 inline constexpr double kRestSpeed = 0.02;        // m/s of any point: slower counts as lying still
 inline constexpr double kRestTime = 0.25;         // s of lying still before the test
 inline constexpr double kRestAcceleration = 1e-4; // of gravity: forces balanced better than this hold a body
-inline constexpr int kRestSweeps = 2000;          // of the solver in that test
+inline constexpr int kRestSweeps = 400;           // of the solver in that test
 
 }  // namespace carom::tolerance

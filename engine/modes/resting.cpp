@@ -12,6 +12,16 @@ namespace {
 // How far the effective force may pass beside the polygon, relative to the body's radius: contact points stand half a
 // gap beside the true ones. The balance of forces (2) is what decides; this spares it most hopeless cases.
 constexpr double kSupportSlack = 0.05;
+// The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold a body
+// whose centre is not above its contacts, and (2) alone decides.
+constexpr double kLevelSine = 0.05;
+
+bool standsOnLevelContacts(std::span<const BodyContact> contacts, const Vec3& weight) {
+  const Vec3 down = weight.normalized();
+  for (const BodyContact& c : contacts)
+    if (!c.force_N.isZero(0.0) && c.n_W.cross(down).norm() > kLevelSine) return false;
+  return true;
+}
 
 bool forcesPassThroughSupports(const RestQuestion& q) {
   std::vector<std::vector<BodyContact>> contacts(q.bodies.size());
@@ -25,7 +35,9 @@ bool forcesPassThroughSupports(const RestQuestion& q) {
   for (std::size_t i = 0; i < q.bodies.size(); ++i) {
     if (q.bodies[i].inverse_mass == 0.0) continue;
     const Vec3 weight = q.gravity / q.bodies[i].inverse_mass;
-    if (weight.isZero(0.0) || supportMiss(q.bodies[i].center, weight, contacts[i]) > kSupportSlack * q.radii[i]) return false;
+    if (weight.isZero(0.0)) return false;
+    if (!standsOnLevelContacts(contacts[i], weight)) continue;
+    if (supportMiss(q.bodies[i].center, weight, contacts[i]) > kSupportSlack * q.radii[i]) return false;
   }
   return true;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Resting mode (paper §2.5). An island that has lain still for a while rests when (1) the effective force on each of
-// its bodies passes through the body's support polygon, and (2) the contacts can balance gravity within their friction
-// cones. DEVIATES: the paper asks only for (1) and low kinetic energy, which would freeze a box on a steep incline.
+// its bodies that stand on level contacts passes through the body's support polygon, and (2) the contacts can balance
+// gravity within their friction cones. DEVIATES: the paper asks only for (1) and low kinetic energy, which would freeze a box on a steep incline.
 // (2) is asked of the contact solver itself: from zero velocity, one step's gravity must leave zero velocity.
 // Tested in tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp.
 

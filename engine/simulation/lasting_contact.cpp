@@ -3,18 +3,22 @@
 #include <algorithm>
 
 #include "engine/environment/gravity.h"
+#include "engine/modes/islands.h"
 
 namespace carom {
 namespace {
 
 constexpr int kPathSweeps = 20;
+constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// The rows of the step with where they came from, and what is kept of them.
+// The rows of the step with where they came from, and what is kept of them. Rows of one island stand together; each
+// island is solved on its own, so that one that converges slowly does not keep the others sweeping.
 struct Assembly {
   LastingContacts contacts;
   std::vector<SourcedRow> sources;
+  std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
 };
 
 void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
@@ -37,21 +41,49 @@ void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::ve
     if (rowVelocity(row, assembly.contacts.bodies).x() < -pair.collision_speed_mps) continue;
     row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s).momentum;
     warmStart(row, pair, sourced.id);
-    assembly.contacts.rows.push_back(row);
     assembly.sources.push_back(sourced);
   }
+}
+
+void sortByIsland(Assembly& assembly) {
+  const std::vector<ImpulseBody>& bodies = assembly.contacts.bodies;
+  Islands islands(static_cast<int>(bodies.size()));
+  const auto moves = [&](int i) { return bodies[at(i)].inverse_mass > 0.0; };
+  for (const SourcedRow& s : assembly.sources)
+    if (moves(s.row.a) && moves(s.row.b)) islands.join(s.row.a, s.row.b);
+  const auto islandOf = [&](const SourcedRow& s) { return islands.of(moves(s.row.a) ? s.row.a : s.row.b); };
+  std::stable_sort(assembly.sources.begin(), assembly.sources.end(),
+                   [&](const SourcedRow& x, const SourcedRow& y) { return islandOf(x) < islandOf(y); });
+  for (std::size_t i = 0; i < assembly.sources.size(); ++i) {
+    if (i == 0 || islandOf(assembly.sources[i]) != islandOf(assembly.sources[i - 1])) assembly.island_begin.push_back(i);
+    assembly.contacts.rows.push_back(assembly.sources[i].row);
+  }
+  assembly.island_begin.push_back(assembly.sources.size());
+}
+
+void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings) {
+  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i)
+    solveContacts(rows.subspan(assembly.island_begin[i], assembly.island_begin[i + 1] - assembly.island_begin[i]), bodies, settings);
 }
 
 Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs, double step_s) {
   Assembly assembly;
   assembly.contacts.touched.assign(bodies.size(), 0);
-  for (const Body& body : bodies) assembly.contacts.bodies.push_back(body.impulseBody(body.X_WB, body.velocity));
+  for (const Body& body : bodies) {
+    ImpulseBody seen = body.impulseBody(body.X_WB, body.velocity);
+    if (body.resting) {
+      seen.inverse_mass = 0.0;
+      seen.inverse_tensor.setZero();
+    }
+    assembly.contacts.bodies.push_back(seen);
+  }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
     if (!moves) continue;  // what a resting pair remembers, it keeps
     if (isLasting(pairs[i], step_s)) addRows(assembly, static_cast<int>(i), pairs[i], bodies, shapes, step_s);
     pairs[i].remembered_count = 0;
   }
+  sortByIsland(assembly);
   return assembly;
 }
 
@@ -74,7 +106,7 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
     rows[i].impulse.setZero();
     rows[i].lowest_speed = gapSpeeds(assembly.sources[i].gap_m, pairs[at(assembly.sources[i].pair)].window, step_s).path;
   }
-  solveContacts(rows, paths, {kPathSweeps, 1e-9, false});
+  solveIslands(assembly, rows, paths, {kPathSweeps, kPathResidual, false});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
     bodies[i].travel = Travel::kCarried;
@@ -106,18 +138,17 @@ void wakeIsland(std::vector<Body>& bodies, int island) {
     if (body.resting && body.rest_island == island) wake(body);
 }
 
-void wakeTouched(std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s) {
-  for (bool changed = true; changed;) {  // every pass wakes an island, so this ends
-    changed = false;
-    for (const ShapePair& pair : pairs) {
-      const Body& a = bodies[at(pair.body_a)];
-      const Body& b = bodies[at(pair.body_b)];
-      if (!(a.resting && b.moves()) && !(b.resting && a.moves())) continue;
-      if (!isLasting(pair, step_s)) continue;
-      wakeIsland(bodies, a.resting ? a.rest_island : b.rest_island);
-      changed = true;
+bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
+  bool woken = false;
+  for (const ContactRow& row : contacts.rows) {
+    if (!(row.impulse.x() > 0.0)) continue;
+    for (int i : {row.a, row.b}) {
+      if (!bodies[at(i)].resting) continue;
+      wakeIsland(bodies, bodies[at(i)].rest_island);
+      woken = true;
     }
   }
+  return woken;
 }
 
 bool isLasting(const ShapePair& pair, double step_s) {
@@ -131,7 +162,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   giveGravity(contacts, bodies, settings);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
   const double residual = tolerance::kSolverResidual * settings.gravity.norm() * settings.step_s;
-  solveContacts(contacts.rows, contacts.bodies, {tolerance::kSolverSweeps, residual, true});
+  solveIslands(assembly, contacts.rows, contacts.bodies, {tolerance::kSolverSweeps, residual, true});
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;
     contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;

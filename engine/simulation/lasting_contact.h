@@ -18,14 +18,14 @@ struct LastingContacts {
   std::vector<char> touched;        ///< Bodies that some row pressed.
 };
 
-/// Wakes the resting islands that a moving body is about to touch.
-void wakeTouched(std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s);
+/// Wakes the resting islands that a moving body presses on; whether there were any.
+bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts);
 
 /// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
 bool isLasting(const ShapePair& pair, double step_s);
 
 /// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must come with
-/// ballistic paths that start at the beginning of the step.
+/// ballistic paths that start at the beginning of the step; resting ones do not give way.
 LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
                                      const WorldSettings& settings, StepCounters& counters);
 

@@ -244,10 +244,12 @@ void World::step() {
   w.table.updateBounds(w.bodies, w.shapes, dt);
   w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
 
-  // Impulses of lasting contact.
-  wakeTouched(w.bodies, w.table.pairs(), dt);
-  w.planFlight();
-  const LastingContacts contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  // Impulses of lasting contact; what they press awake takes part in them.
+  LastingContacts contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  while (wakePressed(w.bodies, contacts)) {  // each time an island fewer rests
+    w.planFlight();
+    contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  }
   if (w.table.pathsLeaveBounds(w.bodies, w.shapes, dt)) {
     w.table.updateBounds(w.bodies, w.shapes, dt);
     w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);

@@ -41,7 +41,7 @@ TEST_F(DrawListTest, ABodyHalfOutsideTheImageIsVisible) {
   const double rim = 0.5 * 1280 / focalLengthPixels(kCamera, 720);
   const Vec3 on_rim = kCamera.eye + 5.0 * (axes.forward + rim * axes.right);
   EXPECT_EQ(count(list({{kBall, {Quat::Identity(), on_rim}, {}}}).visible), 1);
-  EXPECT_EQ(count(list({{kBall, {Quat::Identity(), on_rim + 1.0 * axes.right}, {}}}).visible), 0);
+  EXPECT_EQ(count(list({{kBall, {Quat::Identity(), on_rim + 1.5 * axes.right}, {}}}).visible), 0);
 }
 
 TEST_F(DrawListTest, NearAndFarEncloseEveryVisibleBody) {

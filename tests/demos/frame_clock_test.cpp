@@ -1,0 +1,60 @@
+#include "demos/frame_clock.h"
+
+#include <cmath>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace carom::demos {
+namespace {
+
+/// Steps of 1/240, 0.002, 0.005, 0.01 s against 24, 30, 60 frames a second. Rates are whole here, so whole-number
+/// arithmetic is the oracle: step = k * rate div fps, fraction = k * rate mod fps / fps.
+class FrameClockExactness : public testing::TestWithParam<std::tuple<int, int>> {};
+
+TEST_P(FrameClockExactness, FrameShowsExactlyKOverFps) {
+  const auto [rate, fps] = GetParam();
+  const FrameClock clock({static_cast<double>(fps), static_cast<double>(rate)});
+  for (int k = 0; k <= 100000; k += k < 1000 ? 1 : 997) {
+    const StepInstant instant = clock.instant(k);
+    const long long numerator = static_cast<long long>(k) * rate;
+    ASSERT_EQ(instant.step, numerator / fps) << k;
+    ASSERT_EQ(instant.fraction, static_cast<double>(numerator % fps) / fps) << k;
+    ASSERT_EQ(clock.time(k), static_cast<double>(k) / fps) << k;
+    ASSERT_EQ(instant.lastStepNeeded(), (numerator + fps - 1) / fps) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(StepsAndRates, FrameClockExactness,
+                         testing::Combine(testing::Values(240, 500, 200, 100), testing::Values(24, 30, 60)));
+
+TEST(FrameClock, HoldsRoundedDurationTimesFpsFrames) {
+  EXPECT_EQ(FrameClock({60.0, 240.0}).frameCount(5.0), 300);  // not 301
+  EXPECT_EQ(FrameClock({30.0, 240.0}).frameCount(0.1), 3);
+  EXPECT_EQ(FrameClock({24.0, 240.0}).frameCount(0.99), 24);
+  EXPECT_EQ(FrameClock({30.0, 500.0}).stepCount(0.1), 50);
+}
+
+TEST(FrameClock, KeepsABrokenFrameRateWithinRounding) {
+  const FrameClock clock({29.97, 240.0});
+  for (int k = 0; k < 10000; ++k) {
+    const StepInstant instant = clock.instant(k);
+    EXPECT_GE(instant.fraction, 0.0);
+    EXPECT_LT(instant.fraction, 1.0);
+    // step and fraction are each rounded once: 2 ulp of the step count.
+    EXPECT_NEAR(instant.step + instant.fraction, k * 240.0 / 29.97, 2.0 * 8e4 * 2.3e-16);
+  }
+}
+
+TEST(FrameClock, InterpolatesAlongTheLineAndTheShortestArc) {
+  const Pose a{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())), Vec3(1.0, 2.0, 3.0)};
+  const Quat quarter_on(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));
+  const Pose b{Quat(-quarter_on.coeffs()), Vec3(2.0, 0.0, 3.5)};  // the other sign of the same rotation
+  const Pose middle = interpolated(a, b, 0.25);
+  EXPECT_LT((middle.position - Vec3(1.25, 1.5, 3.125)).norm(), 1e-15);
+  EXPECT_LT(middle.rotation.angularDistance(Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))), 1e-14);
+  EXPECT_EQ(interpolated(a, b, 0.0).position, a.position);
+}
+
+}  // namespace
+}  // namespace carom::demos

@@ -1,0 +1,122 @@
+#include "demos/mesh_import.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "demos/shape_solid.h"
+#include "engine/foundation/contract.h"
+#include "temporary_folder.h"
+#include "thrown_message.h"
+
+namespace carom::demos {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double ringArea(int sides, double radius) { return 0.5 * sides * radius * radius * std::sin(2.0 * kPi / sides); }
+
+/// A frustum between two similar, parallel polygons.
+double frustum(double area_a, double area_b, double height) {
+  return height / 3.0 * (area_a + area_b + std::sqrt(area_a * area_b));
+}
+
+struct ShippedMesh {
+  const char* file;
+  double volume;
+  int parts;
+};
+void PrintTo(const ShippedMesh& mesh, std::ostream* out) { *out << mesh.file; }
+
+const double kRootFive = std::sqrt(5.0);
+const ShippedMesh kShipped[] = {
+    {"gem.obj", frustum(ringArea(8, 0.34), ringArea(8, 0.55), 0.19) + 0.06 * ringArea(8, 0.55) + 0.5 * ringArea(8, 0.55) / 3.0, 1},
+    {"hammer.obj", 1.2 * 0.14 * 0.14 + 0.3 * 0.7 * 0.3, 2},
+    {"wedge.stl", 0.5 * 1.0 * 0.5 * 0.6, 1},
+    {"pyramid.stl", 0.8 / 3.0, 1},
+    {"dodecahedron.ply", (15.0 + 7.0 * kRootFive) / 4.0 * std::pow(0.36, 3), 1},
+    {"prism.ply", 0.6 * ringArea(6, 0.45), 1},
+    {"icosahedron.off", 5.0 * (3.0 + kRootFive) / 12.0 * std::pow(0.55, 3), 1},
+    {"dumbbell.gltf", 0.8 * ringArea(8, 0.09) + 2.0 * 0.7 * 0.7 * 0.5 * 0.4 * ringArea(10, 0.5), 3},
+};
+
+std::filesystem::path shipped(const std::string& name) {
+  return std::filesystem::path(CAROM_SOURCE_DIR) / "assets/meshes" / name;
+}
+
+class ShippedMeshes : public testing::TestWithParam<ShippedMesh> {};
+
+TEST_P(ShippedMeshes, HaveTheVolumeOfTheirClosedForm) {
+  MeshSolid mesh = meshParts(shipped(GetParam().file), 1.0, std::nullopt);
+  EXPECT_EQ(static_cast<int>(mesh.parts.size()), GetParam().parts);
+  EXPECT_EQ(mesh.flat_parts, 0);
+  // Files and importer hold coordinates in single precision: 6e-8 each, three of them in a volume, and half as much
+  // again for the difference of sizes.
+  EXPECT_NEAR(Solid(std::move(mesh.parts)).volume() / GetParam().volume, 1.0, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedMeshes, testing::ValuesIn(kShipped), [](const testing::TestParamInfo<ShippedMesh>& mesh) {
+  const std::string file = mesh.param.file;
+  return file.substr(0, file.find('.')) + "_" + file.substr(file.find('.') + 1);
+});
+
+TEST(MeshImport, EveryShippedMeshIsInTheTable) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped(""))) files += entry.is_regular_file() ? 1 : 0;
+  EXPECT_EQ(files, std::size(kShipped));
+}
+
+TEST(MeshImport, AppliesTheTransformsOfNodes) {
+  const ImportedMesh mesh = importMesh(shipped("dumbbell.gltf"));
+  ASSERT_EQ(mesh.parts.size(), 3u);
+  double low = 0.0, high = 0.0;
+  for (const auto& part : mesh.parts)
+    for (const Vec3& p : part) {
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+    }
+  // Weights of 0.4 m, scaled by a half, stand at +-0.5 m.
+  EXPECT_NEAR(high, 0.6, 1e-6);
+  EXPECT_NEAR(low, -0.6, 1e-6);
+}
+
+TEST(MeshImport, FitsTheLongestSideAndCentres) {
+  const std::vector<ConvexPart> parts = meshParts(shipped("hammer.obj"), 1.0, 0.3).parts;
+  Eigen::AlignedBox3d bounds;
+  for (const ConvexPart& part : parts)
+    for (const Vec3& p : part.core.vertices()) bounds.extend(p);
+  EXPECT_NEAR(bounds.sizes().maxCoeff(), 0.3, 1e-12);
+  EXPECT_LT(bounds.center().norm(), 1e-12);
+}
+
+std::string refusal(const std::filesystem::path& path) {
+  const std::string message = thrownMessage<InputError>([&path] { meshParts(path, 1.0, std::nullopt); });
+  EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0u) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  return message.substr(std::min(message.size(), path.string().size() + 2));
+}
+
+TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal(folder.path() / "none.obj"), "no such mesh file");
+  EXPECT_EQ(refusal(folder.path()), "is no file; accepted: a mesh file");
+  EXPECT_EQ(refusal(folder.file("text.xyz", "hello")).rfind("cannot be read as a mesh: ", 0), 0u);
+  EXPECT_EQ(refusal(folder.file("empty.obj", "")).rfind("cannot be read as a mesh: ", 0), 0u);
+  EXPECT_EQ(refusal(folder.file("broken.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")).rfind("cannot be read as a mesh: ", 0), 0u);
+  EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("flat"), std::string::npos);
+  EXPECT_NE(refusal(folder.file("nan.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 nan\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")).find("not finite"),
+            std::string::npos);
+}
+
+TEST(MeshImport, LeavesOutFlatMeshesBesideSolidOnes) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("decal.obj",
+                                "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+                                "o decal\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 5 6 7\n");
+  MeshSolid mesh = meshParts(path, 1.0, std::nullopt);
+  EXPECT_EQ(mesh.flat_parts, 1);
+  EXPECT_NEAR(Solid(std::move(mesh.parts)).volume(), 1.0 / 6.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace carom::demos

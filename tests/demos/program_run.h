@@ -1,0 +1,75 @@
+#pragma once
+// Runs the built carom program as a person would, and holds what it said.
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "demos/asset_path.h"
+#include "temporary_folder.h"
+
+namespace carom::demos {
+
+struct ProgramEnd {
+  int code = 0;  ///< Exit code, or 128 + the signal that killed it.
+  std::string out;
+  std::string err;
+};
+
+class Program {
+ public:
+  /// Starts it in a folder of its own with `environment` ("NAME=value") added.
+  explicit Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
+    child_ = fork();
+    if (child_ < 0) throw std::runtime_error("cannot fork");
+    if (child_ == 0) exec(arguments, environment);
+  }
+
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  void signal(int number) const { kill(child_, number); }
+
+  ProgramEnd wait() const {
+    int status = 0;
+    if (waitpid(child_, &status, 0) != child_) throw std::runtime_error("cannot wait");
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {code, readTextFile(out()), readTextFile(err())};
+  }
+
+ private:
+  std::filesystem::path out() const { return streams_.path() / "out"; }
+  std::filesystem::path err() const { return streams_.path() / "err"; }
+
+  [[noreturn]] void exec(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) const {
+    for (const std::string& variable : environment) {
+      const std::size_t equals = variable.find('=');
+      setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
+    }
+    std::vector<std::string> words{CAROM_BINARY};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const int out_file = open(out().c_str(), O_CREAT | O_WRONLY, 0600);
+    const int err_file = open(err().c_str(), O_CREAT | O_WRONLY, 0600);
+    const bool ready = chdir(folder_.path().c_str()) == 0 && dup2(out_file, 1) == 1 && dup2(err_file, 2) == 2;
+    if (ready) execv(argv[0], argv.data());
+    _exit(127);
+  }
+
+  TemporaryFolder folder_, streams_;
+  pid_t child_ = -1;
+};
+
+inline ProgramEnd runCarom(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
+  return Program(arguments, environment).wait();
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,75 @@
+#include "demos/scene_world.h"
+
+#include <gtest/gtest.h>
+
+#include "demos/scene_file.h"
+#include "engine/foundation/contract.h"
+#include "thrown_message.h"
+
+namespace carom::demos {
+namespace {
+
+SceneWorld worldOf(const std::string& bodies, std::uint64_t seed = 1) {
+  Scene scene = parseScene("{ \"format\": 1, \"bodies\": [" + bodies + "] }", "s.json");
+  scene.seed = seed;
+  return makeSceneWorld(scene, std::nullopt);
+}
+
+const std::string kRepeated =
+    "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [10, 0, 0], \"color\": [\"#ff0000\", \"#00ff00\"],"
+    " \"repeat\": { \"count\": [2, 3, 4], \"step\": [2, 3, 4], \"jitter\": 0.05, \"jitterDegrees\": 20 } }";
+
+TEST(SceneWorld, LaysCopiesOutOnTheLattice) {
+  const SceneWorld made = worldOf(kRepeated);
+  ASSERT_EQ(made.names.size(), 24u);
+  EXPECT_EQ(made.world.solids().size(), 1u);
+  EXPECT_EQ(made.names[23], "crate[23]");
+  EXPECT_EQ(made.looks[22].color.r, 1.0f);
+  EXPECT_EQ(made.looks[23].color.g, 1.0f);
+  double farthest = 0.0;
+  for (int k = 0; k < 24; ++k) {
+    const Vec3 lattice(10.0 + 2.0 * (k % 2), 3.0 * (k / 2 % 3), 4.0 * (k / 6));
+    const Vec3 shift = made.world.states()[static_cast<std::size_t>(k)].X_WB.position - lattice;
+    farthest = std::max(farthest, shift.cwiseAbs().maxCoeff());
+  }
+  // 72 uniform numbers in [-0.05, 0.05): the largest is above 0.04 but for a chance of 0.8^72 = 1e-7.
+  EXPECT_LE(farthest, 0.05);
+  EXPECT_GT(farthest, 0.04);
+}
+
+TEST(SceneWorld, JitterFollowsTheSeedAndNothingElse) {
+  EXPECT_EQ(worldOf(kRepeated, 5).world.stateHash(), worldOf(kRepeated, 5).world.stateHash());
+  EXPECT_NE(worldOf(kRepeated, 5).world.stateHash(), worldOf(kRepeated, 6).world.stateHash());
+}
+
+TEST(SceneWorld, PositionIsThatOfTheDescribedFrame) {
+  // A tetrahedron whose centre of mass is (1/4, 1/4, 1/4) off its own origin, turned by 180 degrees about z.
+  const SceneWorld made = worldOf(
+      "{ \"name\": \"t\", \"shape\": { \"hull\": { \"points\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] } }, \"position\": [5, 6, 7],"
+      " \"rotation\": [0, 0, 0, 1] }");
+  EXPECT_LT((made.world.states()[0].X_WB.position - Vec3(4.75, 5.75, 7.25)).norm(), 1e-12);
+}
+
+TEST(SceneWorld, RefusesAnOverlapWithBothNamesAndTheDepth) {
+  const std::string message = thrownMessage<InputError>([] {
+    worldOf("{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": true },"
+            "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.25] }");
+  });
+  EXPECT_EQ(message, "s.json: \"floor\" and \"crate\" overlap at the start by 0.25 m; accepted: apart, or just touching");
+}
+
+TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
+  const SceneWorld made = worldOf(
+      "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": true },"
+      "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.5] }");
+  EXPECT_EQ(made.world.bodies().size(), 2u);
+}
+
+TEST(SceneWorld, TakesAMeshOnlyWhereOneCanBeReplaced) {
+  const Scene scene = parseScene("{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ] }", "s.json");
+  EXPECT_EQ(thrownMessage<InputError>([&] { makeSceneWorld(scene, "x.obj"); }),
+            "s.json: takes no --mesh: no hull in it says \"replaceable\": true");
+}
+
+}  // namespace
+}  // namespace carom::demos
