@@ -7,9 +7,9 @@
 namespace carom::renderer {
 namespace {
 
-constexpr double kReach = 1.3;        // Of the smaller half width of the near body.
-constexpr double kMinPixels = 1.5;    // Effects with a shorter reach on the image are left out.
-constexpr double kUpward = 0.999;     // z of a normal that counts as level.
+constexpr double kReach = 1.3;      // Of the smaller half width of the near body.
+constexpr double kMinPixels = 1.5;  // Effects with a shorter reach on the image are left out.
+constexpr double kUpward = 0.999;   // z of a normal that counts as level.
 
 struct Square {
   Vec3 center;
@@ -73,8 +73,8 @@ class Collector {
     }
   }
 
-  void darkenFace(const OcclusionBody& receiver, const ConvexPolyhedron& core, int f, const Vec3& n, double height,
-                  double reach, const Occluder& occluder) {
+  void darkenFace(const OcclusionBody& receiver, const ConvexPolyhedron& core, int f, const Vec3& n,
+                  double height, double reach, const Occluder& occluder) {
     const TangentBasis basis = tangentBasis(n);
     const Square square{occluder.X_ER.position - height * n, basis, occluder.extentAlong(basis.t1) + reach,
                         occluder.extentAlong(basis.t2) + reach};
@@ -92,8 +92,12 @@ class Collector {
     const Eigen::Vector3f p = p_E.cast<float>(), h = occluder.box->half.cast<float>();
     const Eigen::Vector3f q = (occluder.X_ER.inverse() * p_E).cast<float>();
     const Eigen::Vector3f n = (occluder.X_ER.rotation.conjugate() * n_E).cast<float>();
-    triangles_.push_back({{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z()}, {n.x(), n.y(), n.z()}, {h.x(), h.y(), h.z()},
-                          static_cast<float>(occluder.box->radius), static_cast<float>(reach)});
+    triangles_.push_back({{p.x(), p.y(), p.z()},
+                          {q.x(), q.y(), q.z()},
+                          {n.x(), n.y(), n.z()},
+                          {h.x(), h.y(), h.z()},
+                          static_cast<float>(occluder.box->radius),
+                          static_cast<float>(reach)});
   }
 
   double focal_px_;
@@ -117,10 +121,12 @@ bool nearEachOther(const OcclusionBody& a, const OcclusionBody& b) {
 
 std::vector<OcclusionVertex> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px) {
   const auto low = [&](std::size_t i) {
-    return bodies[i].endless_ground ? -1e30 : bodies[i].X_EB.position.x() - bodies[i].radius_m - outreach(bodies[i]);
+    return bodies[i].endless_ground ? -1e30
+                                    : bodies[i].X_EB.position.x() - bodies[i].radius_m - outreach(bodies[i]);
   };
   const auto high = [&](std::size_t i) {
-    return bodies[i].endless_ground ? 1e30 : bodies[i].X_EB.position.x() + bodies[i].radius_m + outreach(bodies[i]);
+    return bodies[i].endless_ground ? 1e30
+                                    : bodies[i].X_EB.position.x() + bodies[i].radius_m + outreach(bodies[i]);
   };
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

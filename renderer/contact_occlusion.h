@@ -1,7 +1,8 @@
 #pragma once
-// Contact shadows: where a body comes near a flat face of another, less light gets in between. For each such pair a
-// polygon in the face, cut to the reach of the effect, is darkened by the distance to the near body's rounded box.
-// Works alike for grounds, ramps, walls and piled bodies. Tested in tests/renderer/contact_occlusion_test.cpp.
+// Contact shadows: where a body comes near a flat face of another, less light gets in between. For each such
+// pair a polygon in the face, cut to the reach of the effect, is darkened by the distance to the near body's
+// rounded box. Works alike for grounds, ramps, walls and piled bodies. Tested in
+// tests/renderer/contact_occlusion_test.cpp.
 
 #include <span>
 #include <vector>
@@ -14,10 +15,10 @@ namespace carom::renderer {
 struct OcclusionVertex {
   float p_E[3];
   float p_R[3];
-  float n_R[3];     ///< The face's normal.
-  float half[3];    ///< Of the rounded box.
-  float radius;     ///< Of the rounded box, metres.
-  float reach;      ///< Distance at which the darkening ends, metres.
+  float n_R[3];   ///< The face's normal.
+  float half[3];  ///< Of the rounded box.
+  float radius;   ///< Of the rounded box, metres.
+  float reach;    ///< Distance at which the darkening ends, metres.
 };
 
 /// A body as seen by this pass.
@@ -29,8 +30,9 @@ struct OcclusionBody {
   bool endless_ground = false;        ///< Its upward faces count as unbounded; it darkens nothing itself.
 };
 
-/// Triangles (three vertices each) to draw over the scene. Only faces turned to the eye count, and only effects that
-/// are larger than a pixel at `focal_px`. Cost: bodies sorted along x, then pairs that overlap there.
+/// Triangles (three vertices each) to draw over the scene. Only faces turned to the eye count, and only
+/// effects that are larger than a pixel at `focal_px`. Cost: bodies sorted along x, then pairs that overlap
+/// there.
 std::vector<OcclusionVertex> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px);
 
 }  // namespace carom::renderer

@@ -8,10 +8,10 @@
 namespace carom::renderer {
 namespace {
 
-constexpr double kLevelTop = 0.9999;        // Cosine between a ground's own axis and the vertical.
+constexpr double kLevelTop = 0.9999;         // Cosine between a ground's own axis and the vertical.
 constexpr double kFarOverDistance = 4000.0;  // Far plane over the distance from eye to target.
 constexpr double kMinNearOverDistance = 1e-3;
-constexpr double kGroundDarkening = 0.7;    // Of a body's half height: how near the ground darkens it.
+constexpr double kGroundDarkening = 0.7;  // Of a body's half height: how near the ground darkens it.
 
 // An instance placed relative to the eye.
 struct Placed {
@@ -37,12 +37,15 @@ Placed place(int index, const Instance& instance, const SolidGeometry& solid, co
 // Whether the bounding ball reaches into the view's pyramid.
 bool inView(const Placed& placed, const CameraAxes& axes, double half_width, double half_height) {
   if (placed.depth_m < -placed.radius_m) return false;
-  const double across = std::abs(placed.center_E.dot(axes.right)), up = std::abs(placed.center_E.dot(axes.up));
+  const double across = std::abs(placed.center_E.dot(axes.right)),
+               up = std::abs(placed.center_E.dot(axes.up));
   return across - half_width * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_width) &&
          up - half_height * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_height);
 }
 
-float linearLight(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
+float linearLight(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
 
 InstanceRecord record(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
   const Mat3 rotation = instance.X_WB.rotation.toRotationMatrix();
@@ -61,11 +64,13 @@ InstanceRecord record(const Instance& instance, const SolidGeometry& solid, cons
 }
 
 // Appends groups of instances that share solid and level, nearest instance of a group first.
-std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instance> instances, const Camera& camera,
-                             const SceneGeometry& geometry, std::vector<InstanceRecord>& records) {
+std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instance> instances,
+                             const Camera& camera, const SceneGeometry& geometry,
+                             std::vector<InstanceRecord>& records) {
   const auto solidOf = [&](const Placed& p) { return instances[static_cast<std::size_t>(p.index)].solid; };
   std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
-    return std::tuple(solidOf(a), a.level, a.depth_m, a.index) < std::tuple(solidOf(b), b.level, b.depth_m, b.index);
+    return std::tuple(solidOf(a), a.level, a.depth_m, a.index) <
+           std::tuple(solidOf(b), b.level, b.depth_m, b.index);
   });
   struct Ordered {
     double nearest_m;
@@ -80,7 +85,8 @@ std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instanc
                          {geometry.solid(solidOf(p)).levels[static_cast<std::size_t>(p.level)],
                           static_cast<int>(records.size()), 0}});
     ++ordered.back().group.count;
-    records.push_back(record(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
+    records.push_back(
+        record(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Ordered& a, const Ordered& b) { return a.nearest_m < b.nearest_m; });

@@ -1,6 +1,6 @@
 #pragma once
-// What a frame draws, decided on the CPU: which instances the camera or the shadow map can see, at which level of
-// detail, in which order, which one is the endless ground, and how deep the view is. Tested in
+// What a frame draws, decided on the CPU: which instances the camera or the shadow map can see, at which
+// level of detail, in which order, which one is the endless ground, and how deep the view is. Tested in
 // tests/renderer/draw_list_test.cpp.
 
 #include <optional>
@@ -23,8 +23,8 @@ struct DrawList {
   std::vector<InstanceRecord> records;  ///< First those of `visible`, then those of `casting`.
   std::vector<DrawGroup> visible;       ///< Nearest group first.
   std::vector<DrawGroup> casting;
-  std::optional<int> ground;            ///< The instance drawn as an endless plane.
-  double ground_z_E = 0.0;              ///< Height of that plane above the eye.
+  std::optional<int> ground;  ///< The instance drawn as an endless plane.
+  double ground_z_E = 0.0;    ///< Height of that plane above the eye.
   DepthRange depth;
 };
 

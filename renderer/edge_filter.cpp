@@ -12,10 +12,12 @@
 namespace carom::renderer {
 namespace {
 
-constexpr std::uint8_t kThreshold = 13;  // Of 255, in the channel that differs most: smaller steps are not seen as stairs.
+constexpr std::uint8_t kThreshold =
+    13;  // Of 255, in the channel that differs most: smaller steps are not seen as stairs.
 constexpr std::uint8_t kBelow = 1, kRight = 2;
 
-// sRGB bytes to linear light in 15 bits, so that products with 12-bit weights fit an int, and back from 12 bits.
+// sRGB bytes to linear light in 15 bits, so that products with 12-bit weights fit an int, and back from 12
+// bits.
 struct Tables {
   std::array<std::uint16_t, 256> linear{};
   std::array<std::uint8_t, 4096> encoded{};
@@ -48,8 +50,9 @@ inline void mix(const Tables& t, std::uint8_t* pixel, const std::uint8_t* neighb
   }
 }
 
-// A straight run of edge pixels [begin, end) and the height at which the true edge enters and leaves it: +1/2 on the
-// first side (above, or left), -1/2 on the second, 0 where nothing tells. In between it falls to 0 at the middle.
+// A straight run of edge pixels [begin, end) and the height at which the true edge enters and leaves it: +1/2
+// on the first side (above, or left), -1/2 on the second, 0 where nothing tells. In between it falls to 0 at
+// the middle.
 struct Run {
   int begin = 0;
   int end = 0;
@@ -62,13 +65,15 @@ float endHeight(bool first_side, bool second_side) {
   return first_side ? 0.5f : -0.5f;
 }
 
-// The area below one half of the line, within pixel i; `t0`, `t1` measure from the run's middle, 1 at its end.
+// The area below one half of the line, within pixel i; `t0`, `t1` measure from the run's middle, 1 at its
+// end.
 float halfArea(float height, float t0, float t1, float half_length) {
   t0 = std::max(t0, 0.0f), t1 = std::min(t1, 1.0f);
   return t1 <= t0 ? 0.0f : 0.5f * height * (t0 + t1) * (t1 - t0) * half_length;
 }
 
-// Signed areas that the line cuts off pixel i: of the first side where positive, of the second where negative.
+// Signed areas that the line cuts off pixel i: of the first side where positive, of the second where
+// negative.
 struct Cut {
   float first = 0.0f;
   float second = 0.0f;
@@ -76,12 +81,15 @@ struct Cut {
 Cut cutOff(const Run& run, int i) {
   const float half = 0.5f * static_cast<float>(run.end - run.begin);
   const float from_begin = static_cast<float>(i - run.begin);
-  const float before = halfArea(run.enters, (half - from_begin - 1.0f) / half, (half - from_begin) / half, half);
-  const float after = halfArea(run.leaves, (from_begin - half) / half, (from_begin + 1.0f - half) / half, half);
+  const float before =
+      halfArea(run.enters, (half - from_begin - 1.0f) / half, (half - from_begin) / half, half);
+  const float after =
+      halfArea(run.leaves, (from_begin - half) / half, (from_begin + 1.0f - half) / half, half);
   return {std::max(before, 0.0f) + std::max(after, 0.0f), std::max(-before, 0.0f) + std::max(-after, 0.0f)};
 }
 
-// The first x in [begin, end) whose edge byte has `bit`, or `end`; eight pixels at a time where there are none.
+// The first x in [begin, end) whose edge byte has `bit`, or `end`; eight pixels at a time where there are
+// none.
 int firstMarked(const std::uint8_t* edges, int begin, int end, std::uint8_t bit) {
   const std::uint64_t everywhere = 0x0101010101010101u * bit;
   for (int x = begin; x < end;) {
@@ -121,16 +129,33 @@ void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
   // What lies between the halves is mixed after both are done: it writes into either.
   const std::uint8_t* source = rgba.data();
   const int row = height_ / 2, column = width_ / 2;
-  inParallel([&] { takeRows(source, image, {0, row}, differs_[0]); },
-             [&] { takeRows(source, image, {row, height_}, differs_[1]); });
-  inParallel([&] { mixRowPairs(source, image, {0, row - 1}); }, [&] { mixRowPairs(source, image, {row, height_ - 1}); });
+  inParallel(
+      [&] {
+        takeRows(source, image, {0, row}, differs_[0]);
+      },
+      [&] {
+        takeRows(source, image, {row, height_}, differs_[1]);
+      });
+  inParallel(
+      [&] {
+        mixRowPairs(source, image, {0, row - 1});
+      },
+      [&] {
+        mixRowPairs(source, image, {row, height_ - 1});
+      });
   mixRowPairs(source, image, {std::max(row - 1, 0), row});
-  inParallel([&] { mixColumnPairs(source, image, {0, column - 1}); },
-             [&] { mixColumnPairs(source, image, {column, width_ - 1}); });
+  inParallel(
+      [&] {
+        mixColumnPairs(source, image, {0, column - 1});
+      },
+      [&] {
+        mixColumnPairs(source, image, {column, width_ - 1});
+      });
   mixColumnPairs(source, image, {std::max(column - 1, 0), column});
 }
 
-void EdgeFilter::takeRows(const std::uint8_t* rgba, Image& image, Band rows, std::vector<std::uint8_t>& differs) {
+void EdgeFilter::takeRows(const std::uint8_t* rgba, Image& image, Band rows,
+                          std::vector<std::uint8_t>& differs) {
   for (int y = rows.begin; y < rows.end; ++y) {
     const std::uint8_t* from = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
     std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
@@ -175,11 +200,13 @@ void EdgeFilter::mixRowPairs(const std::uint8_t* rgba, Image& image, Band first_
     const std::uint8_t* source_below = source - 4 * static_cast<std::ptrdiff_t>(width_);
     std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
     std::uint8_t* out_below = out + 3 * static_cast<std::ptrdiff_t>(width_);
-    for (int x = firstMarked(edges, 0, width_, kBelow); x < width_; x = firstMarked(edges, x + 1, width_, kBelow)) {
+    for (int x = firstMarked(edges, 0, width_, kBelow); x < width_;
+         x = firstMarked(edges, x + 1, width_, kBelow)) {
       Run run{x, x, 0.0f, 0.0f};
       while (run.end < width_ && (edges[run.end] & kBelow) != 0) ++run.end;
       x = run.end;
-      run.enters = endHeight((edges[run.begin - 1] & kRight) != 0, (edges[run.begin - 1 + pitch] & kRight) != 0);
+      run.enters =
+          endHeight((edges[run.begin - 1] & kRight) != 0, (edges[run.begin - 1 + pitch] & kRight) != 0);
       run.leaves = endHeight((edges[run.end - 1] & kRight) != 0, (edges[run.end - 1 + pitch] & kRight) != 0);
       if (run.enters == 0.0f && run.leaves == 0.0f) continue;
       for (std::ptrdiff_t i = run.begin; i < run.end; ++i) {
@@ -191,13 +218,13 @@ void EdgeFilter::mixRowPairs(const std::uint8_t* rgba, Image& image, Band first_
   }
 }
 
-// Runs along a column, between it (first side) and the column to its right. All columns are walked together, row by
-// row, to stay within the cache.
+// Runs along a column, between it (first side) and the column to its right. All columns are walked together,
+// row by row, to stay within the cache.
 void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image, Band first_columns) const {
   const Tables& t = tables();
   const std::ptrdiff_t pitch = width_ + 2;
   const auto finish = [&](std::ptrdiff_t x, Run run) {
-    const std::uint8_t* top = edges_.data() + pitch * run.begin + x + 1;  // The row above the run.
+    const std::uint8_t* top = edges_.data() + pitch * run.begin + x + 1;   // The row above the run.
     const std::uint8_t* bottom = edges_.data() + pitch * run.end + x + 1;  // The run's last row.
     run.enters = endHeight((top[0] & kBelow) != 0, (top[1] & kBelow) != 0);
     run.leaves = endHeight((bottom[0] & kBelow) != 0, (bottom[1] & kBelow) != 0);

@@ -1,6 +1,7 @@
 #include "renderer/frame_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -18,17 +19,18 @@ namespace carom::renderer {
 namespace {
 
 constexpr int kShadowTexels = 1024;
-constexpr double kShadowLift = 2.2;       // Texels along a grazed surface's normal: the reach of the softening.
+constexpr double kShadowLift = 2.2;  // Texels along a grazed surface's normal: the reach of the softening.
 constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
-constexpr double kHorizonOverDistance = 2000.0;  // Of the same distance: where the ground ends, long since all air.
+constexpr double kHorizonOverDistance =
+    2000.0;  // Of the same distance: where the ground ends, long since all air.
 constexpr float kNoGround = -1e30f;
 
 Settings checked(const Settings& settings) {
   const auto fits = [](int side) { return side >= 1 && side <= kMaxImageSide; };
   if (!fits(settings.width) || !fits(settings.height)) {
     std::ostringstream message;
-    message << "image size " << settings.width << "x" << settings.height << " is not within 1x1 and " << kMaxImageSide
-            << "x" << kMaxImageSide;
+    message << "image size " << settings.width << "x" << settings.height << " is not within 1x1 and "
+            << kMaxImageSide << "x" << kMaxImageSide;
     throw InputError(message.str());
   }
   if (!settings.to_light.allFinite() || !(settings.to_light.norm() > 0.0))
@@ -45,25 +47,17 @@ double checkerSquare(double distance_m) {
   return square;
 }
 
-// The parallelogram of the ground that the shadow map covers: the map's corners, followed along the light. A light so
-// low that this would reach beyond the horizon, and one from below, leave a small square instead.
-void placeShadowedGround(FrameBlock& block, const ShadowView& shadow, double ground_z, double horizon_m) {
-  constexpr double kCorners[4][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
-  Mat3 system;
-  system << shadow.rows.block<2, 3>(0, 0), 0.0, 0.0, 1.0;
-  const bool covers = shadow.texel_m > 0.0 && std::abs(system.determinant()) > 0.0;
-  Vec2 corners[4];
-  double longest = 0.0, shortest = horizon_m;
-  for (int i = 0; i < 4; ++i) {
-    const Vec2 uv(kCorners[i][0], kCorners[i][1]);
-    const Vec2 square = 2.0 * uv - Vec2::Ones();
-    const Vec3 known(uv.x() - shadow.rows(0, 3), uv.y() - shadow.rows(1, 3), ground_z);
-    corners[i] = covers ? Vec2(system.inverse().operator*(known).head<2>()) : square;
-    longest = std::max(longest, corners[i].norm());
+// The part of the ground that is drawn with shadows. Without a shadow map, and for a light so low that the
+// part would reach towards the horizon, a small square stands in for it.
+void placeShadowedGround(FrameBlock& block, const ShadowView& shadow, double ground_z_E, double horizon_m) {
+  std::array<Vec2, 4> corners = {Vec2(-1.0, -1.0), Vec2(1.0, -1.0), Vec2(1.0, 1.0), Vec2(-1.0, 1.0)};
+  if (shadow.texel_m > 0.0) {
+    const std::array<Vec2, 4> covered = coveredGround(shadow, ground_z_E);
+    const auto near = [&](const Vec2& p) { return p.allFinite() && p.norm() < 0.5 * horizon_m; };
+    if (std::all_of(covered.begin(), covered.end(), near)) corners = covered;
   }
-  if (longest > 0.5 * horizon_m)
-    for (int i = 0; i < 4; ++i) corners[i] = Vec2(2.0 * kCorners[i][0] - 1.0, 2.0 * kCorners[i][1] - 1.0);
-  for (int i = 0; i < 4; ++i) {
+  double shortest = horizon_m;
+  for (std::size_t i = 0; i < 4; ++i) {
     shortest = std::min(shortest, (corners[i] - corners[(i + 1) % 4]).norm());
     block.shadowed[i][0] = static_cast<float>(corners[i].x());
     block.shadowed[i][1] = static_cast<float>(corners[i].y());
@@ -99,7 +93,8 @@ struct FrameRenderer::Impl {
   void createTargets();
   void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera);
-  ShadowView shadowView(std::span<const Instance> instances, const Camera& camera, const DrawList& list) const;
+  ShadowView shadowView(std::span<const Instance> instances, const Camera& camera,
+                        const DrawList& list) const;
   void uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const;
   void drawShadows(const DrawList& list, const ShadowView& shadow) const;
   void drawScene(const DrawList& list) const;
@@ -122,11 +117,13 @@ struct FrameRenderer::Impl {
 };
 
 void FrameRenderer::Impl::linkPrograms() {
-  const auto link = [&](const char* name, const char* vertex, const char* light, const char* common, const char* fragment) {
+  const auto link = [&](const char* name, const char* vertex, const char* light, const char* common,
+                        const char* fragment) {
     return linkProgram(gl, {name, {kGlslHead, vertex}, {kGlslHead, light, common, fragment}});
   };
   body_program = link("body", kBodyVertex, kGlslLight, "", kBodyFragment);
-  shadowed_ground_program = link("shadowed ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
+  shadowed_ground_program =
+      link("shadowed ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
   open_ground_program = link("open ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundOpenFragment);
   sky_program = link("sky", kSkyVertex, kGlslLight, "", kSkyFragment);
   shadow_program = link("shadow", kShadowVertex, "", "", kShadowFragment);
@@ -148,8 +145,8 @@ void FrameRenderer::Impl::createTargets() {
 
   gl.GenTextures(1, &shadow_map);
   gl.BindTexture(GL_TEXTURE_2D, shadow_map);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowTexels, kShadowTexels, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowTexels, kShadowTexels, 0, GL_DEPTH_COMPONENT,
+                GL_FLOAT, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -176,16 +173,19 @@ void FrameRenderer::Impl::createOcclusionBuffer() {
   const GLint sizes[] = {3, 3, 3, 3, 2};
   std::size_t at = 0;
   for (GLuint i = 0; i < 5; ++i) {
-    gl.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex), reinterpret_cast<const void*>(at));
+    gl.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex),
+                           reinterpret_cast<const void*>(at));
     gl.EnableVertexAttribArray(i);
     at += static_cast<std::size_t>(sizes[i]) * sizeof(float);
   }
 }
 
-// The passes: shadow map, bodies, ground, sky, contact shadows; then the image leaves GL and its edges are smoothed.
+// The passes: shadow map, bodies, ground, sky, contact shadows; then the image leaves GL and its edges are
+// smoothed.
 const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera) {
   for (const Instance& instance : instances)
-    REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid, geometry.solidCount());
+    REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
+            geometry.solidCount());
   const DrawList list = buildDrawList(instances, camera, settings, geometry);
   const ShadowView shadow = shadowView(instances, camera, list);
   context->makeCurrent();
@@ -207,10 +207,12 @@ ShadowView FrameRenderer::Impl::shadowView(std::span<const Instance> instances, 
     const Pose X_EB{instances[i].X_WB.rotation, instances[i].X_WB * extent.center - camera.eye};
     casters.push_back({X_EB, extent.half});
   }
-  return fitShadow({camera, static_cast<double>(settings.width) / settings.height, to_light, kShadowTexels}, casters);
+  return fitShadow({camera, static_cast<double>(settings.width) / settings.height, to_light, kShadowTexels},
+                   casters);
 }
 
-void FrameRenderer::Impl::uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const {
+void FrameRenderer::Impl::uploadFrame(const Camera& camera, const DrawList& list,
+                                      const ShadowView& shadow) const {
   const CameraAxes axes = cameraAxes(camera);
   const double focal = focalLengthPixels(camera, settings.height);
   const double distance = (camera.target - camera.eye).norm();
@@ -294,8 +296,8 @@ void FrameRenderer::Impl::drawOcclusion(std::span<const Instance> instances, con
   if (triangles.empty()) return;
   gl.BindVertexArray(occlusion_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(OcclusionVertex)), triangles.data(),
-                GL_STREAM_DRAW);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(OcclusionVertex)),
+                triangles.data(), GL_STREAM_DRAW);
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
@@ -319,6 +321,8 @@ FrameRenderer::~FrameRenderer() = default;
 const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera) {
   return impl_->draw(instances, camera);
 }
-ContextInfo FrameRenderer::info() const { return impl_->context->info(); }
+ContextInfo FrameRenderer::info() const {
+  return impl_->context->info();
+}
 
 }  // namespace carom::renderer

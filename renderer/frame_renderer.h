@@ -1,7 +1,7 @@
 #pragma once
-// Draws frames off screen from plain values. The public face of the renderer: it knows shapes, poses, colours and a
-// camera, nothing of physics. One sun with soft shadows, light from sky and ground, contact shadows, air between here
-// and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
+// Draws frames off screen from plain values. The public face of the renderer: it knows shapes, poses, colours
+// and a camera, nothing of physics. One sun with soft shadows, light from sky and ground, contact shadows,
+// air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
 // Tested in tests/renderer/frame_renderer_test.cpp.
 
 #include <memory>
@@ -27,9 +27,10 @@ struct Instance {
   int solid = 0;  ///< Index into the solids given to the renderer.
   Pose X_WB;
   Color color;
-  /// Draw level faces with a checker board of the world's xy (grounds): squares of 1 m; of a power of ten metres where
-  /// the camera is so near or far that those would be useless. The lowest checker instance whose top is level is drawn
-  /// as an endless plane that fades into the horizon, whatever its own size; it casts no shadow.
+  /// Draw level faces with a checker board of the world's xy (grounds): squares of 1 m; of a power of ten
+  /// metres where the camera is so near or far that those would be useless. The lowest checker instance whose
+  /// top is level is drawn as an endless plane that fades into the horizon, whatever its own size; it casts
+  /// no shadow.
   bool checker = false;
 };
 
@@ -40,13 +41,15 @@ struct Settings {
   int width = 1280;
   int height = 720;
   Vec3 to_light = Vec3(0.50, -0.50, 0.85);  ///< World, any length: where the sun stands.
-  PixelPolicy pixels = PixelPolicy::kFast;  ///< kPortable for golden frames; the first renderer of a process decides.
+  PixelPolicy pixels =
+      PixelPolicy::kFast;  ///< kPortable for golden frames; the first renderer of a process decides.
 };
 
 class FrameRenderer {
  public:
-  /// Creates the context and uploads the solids' geometry (kept by value; the span need not outlive the call).
-  /// Throws InputError for a size outside [1, kMaxImageSide] or no light direction, NoRenderer without a GL context.
+  /// Creates the context and uploads the solids' geometry (kept by value; the span need not outlive the
+  /// call). Throws InputError for a size outside [1, kMaxImageSide] or no light direction, NoRenderer without
+  /// a GL context.
   FrameRenderer(const Settings& settings, std::span<const Solid> solids);
   ~FrameRenderer();
   FrameRenderer(const FrameRenderer&) = delete;

@@ -13,7 +13,8 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< width * height * 3, rows from top to bottom.
 
   const std::uint8_t* pixel(int x, int y) const {
-    return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return rgb.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }
 };
 

@@ -16,7 +16,9 @@
 #endif
 #ifdef CAROM_ADDRESS_SANITIZER
 // OSMesa 22.3 keeps some 150 bytes of every destroyed context; they are not ours to free.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libOSMesa";
+}
 #endif
 
 namespace carom::renderer {
@@ -24,11 +26,13 @@ namespace {
 
 constexpr int kMajor = 4, kMinor = 2;  // Instances with a base need 4.2; textureGather with comparison 4.0.
 
-void setUnlessSet(const char* name, const char* value) { setenv(name, value, 0); }
+void setUnlessSet(const char* name, const char* value) {
+  setenv(name, value, 0);
+}
 
 // Mesa keeps compiled shaders on disk keyed neither by CPU nor by vector width, so that a home shared between
-// machines can serve code this CPU cannot run: the cache is off unless somebody asked for it. It would save 0.2 s
-// a process.
+// machines can serve code this CPU cannot run: the cache is off unless somebody asked for it. It would save
+// 0.2 s a process.
 void setMesaEnvironment(PixelPolicy policy) {
   if (policy == PixelPolicy::kPortable) {
     setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 1);
@@ -62,21 +66,31 @@ class OsmesaContext final : public OffscreenContext {
   }
 
  private:
-  // An older context than needed is taken as well: it can say which renderer it is, for the refusal in describe().
+  // An older context than needed is taken as well: it can say which renderer it is, for the refusal in
+  // describe().
   static OSMesaContext create() {
     for (const auto& [major, minor] : {std::pair{kMajor, kMinor}, {3, 2}}) {
-      const int wanted[] = {OSMESA_FORMAT,  OSMESA_RGBA,         OSMESA_DEPTH_BITS,            0,
-                            OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, major,
-                            OSMESA_CONTEXT_MINOR_VERSION, minor, 0};
+      const int wanted[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            0,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            major,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            minor,
+                            0};
       OSMesaContext context = OSMesaCreateContextAttribs(wanted, nullptr);
       if (context != nullptr) return context;
     }
-    throw NoRenderer("OSMesa offers no OpenGL core context here (needs libosmesa6 of Mesa 17 to 25.0, with llvmpipe)");
+    throw NoRenderer(
+        "OSMesa offers no OpenGL core context here (needs libosmesa6 of Mesa 17 to 25.0, with llvmpipe)");
   }
 
   void loadFunctions() {
-#define CAROM_GL_LOAD(name, type)                                             \
-  gl_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name));        \
+#define CAROM_GL_LOAD(name, type)                                      \
+  gl_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
   if (gl_.name == nullptr) throw NoRenderer("OSMesa lacks gl" #name);
     CAROM_GL_FUNCTIONS(CAROM_GL_LOAD)
 #undef CAROM_GL_LOAD
@@ -86,14 +100,17 @@ class OsmesaContext final : public OffscreenContext {
     info_.renderer = text(GL_RENDERER);
     info_.version = text(GL_VERSION);
     gl_.GetIntegerv(GL_MAX_SAMPLES, &info_.max_samples);
-    if (info_.renderer.empty()) throw NoRenderer("OSMesa's context does not answer (another GL library in its place?)");
+    if (info_.renderer.empty())
+      throw NoRenderer("OSMesa's context does not answer (another GL library in its place?)");
     if (info_.renderer.find("softpipe") != std::string::npos)
-      throw NoRenderer("OSMesa draws with softpipe, which is far too slow; llvmpipe is needed (unset GALLIUM_DRIVER)");
+      throw NoRenderer(
+          "OSMesa draws with softpipe, which is far too slow; llvmpipe is needed (unset GALLIUM_DRIVER)");
     GLint major = 0, minor = 0;
     gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
     gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
     if (std::pair(major, minor) < std::pair(kMajor, kMinor))
-      throw NoRenderer("OpenGL 4.2 is needed, but OSMesa offers " + info_.version + " with " + info_.renderer);
+      throw NoRenderer("OpenGL 4.2 is needed, but OSMesa offers " + info_.version + " with " +
+                       info_.renderer);
   }
 
   std::string text(GLenum name) const {

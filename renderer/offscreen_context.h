@@ -1,7 +1,7 @@
 #pragma once
-// A GL context that needs no display. What creates it is known to offscreen_context.cpp alone (OSMesa today; a
-// surfaceless EGL context fits behind the same interface). The context owns every GL object made in it: they are
-// freed with it. Tested in tests/renderer/offscreen_context_test.cpp.
+// A GL context that needs no display. What creates it is known to offscreen_context.cpp alone (OSMesa today;
+// a surfaceless EGL context fits behind the same interface). The context owns every GL object made in it:
+// they are freed with it. Tested in tests/renderer/offscreen_context_test.cpp.
 
 #include <memory>
 #include <stdexcept>

@@ -16,8 +16,9 @@
 namespace carom::renderer {
 namespace {
 
-// libpng reports an error by calling us and expects not to return: we jump. So that no jump skips a destructor, the
-// functions between setjmp and libpng hold plain data only, and what needs a destructor lives in their callers.
+// libpng reports an error by calling us and expects not to return: we jump. So that no jump skips a
+// destructor, the functions between setjmp and libpng hold plain data only, and what needs a destructor lives
+// in their callers.
 struct ErrorText {
   std::array<char, 160> message{};
 };
@@ -31,7 +32,8 @@ struct ErrorText {
 void onWarning(png_structp, png_const_charp) {}
 
 struct Writer {
-  explicit Writer(ErrorText& error) : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning)) {
+  explicit Writer(ErrorText& error)
+      : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning)) {
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
       png_destroy_write_struct(&png, nullptr);
@@ -47,7 +49,8 @@ struct Writer {
 };
 
 struct Reader {
-  explicit Reader(ErrorText& error) : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning)) {
+  explicit Reader(ErrorText& error)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning)) {
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
       png_destroy_read_struct(&png, nullptr, nullptr);
@@ -86,8 +89,8 @@ void takeBytes(png_structp png, png_bytep bytes, png_size_t count) {
   source->at += count;
 }
 
-// Level 1, the sub filter and run lengths are what plain libpng does fastest: a fifth of its default time for a
-// quarter more bytes.
+// Level 1, the sub filter and run lengths are what plain libpng does fastest: a fifth of its default time for
+// a quarter more bytes.
 bool writeImage(png_structp png, png_infop info, const Image& image, png_textp text, int text_count) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_compression_level(png, 1);
@@ -109,7 +112,8 @@ struct Header {
   int passes = 1;
 };
 
-// Deflate packs at most 1032 to 1, so that a short file that claims a large image is refused before it is given memory.
+// Deflate packs at most 1032 to 1, so that a short file that claims a large image is refused before it is
+// given memory.
 constexpr std::size_t kMaxDeflateRatio = 1032;
 
 // Whatever the file holds becomes 8-bit RGB.
@@ -119,7 +123,8 @@ bool readHeader(png_structp png, png_infop info, std::size_t file_size, Header* 
   png_read_info(png, info);
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);
-  if (png_get_rowbytes(png, info) * header->height / kMaxDeflateRatio > file_size) png_error(png, "the file is truncated");
+  if (png_get_rowbytes(png, info) * header->height / kMaxDeflateRatio > file_size)
+    png_error(png, "the file is truncated");
   png_set_expand(png);
   png_set_scale_16(png);
   png_set_gray_to_rgb(png);
@@ -151,14 +156,14 @@ std::vector<png_text> textChunks(const PngText& text) {
     chunk.compression = isAscii(value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
     chunk.key = const_cast<png_charp>(keyword.c_str());
     chunk.text = const_cast<png_charp>(value.c_str());
-    chunk.text_length = value.size();
     chunks.push_back(chunk);
   }
   return chunks;
 }
 
 std::vector<std::uint8_t> readBytes(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw InputError("cannot read '" + path.string() + "': it is a folder");
+  if (std::filesystem::is_directory(path))
+    throw InputError("cannot read '" + path.string() + "': it is a folder");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError("cannot read '" + path.string() + "': " + std::strerror(errno));

@@ -17,8 +17,8 @@ inline constexpr int kMaxPngSide = 16384;
 /// (keyword, text) pairs for the file's text chunks.
 using PngText = std::vector<std::pair<std::string, std::string>>;
 
-/// The image as the bytes of a PNG file: 8-bit RGB, tagged sRGB, packed for speed rather than size. A keyword is 1 to 79
-/// ASCII characters; a text may be UTF-8.
+/// The image as the bytes of a PNG file: 8-bit RGB, tagged sRGB, packed for speed rather than size. A keyword
+/// is 1 to 79 ASCII characters; a text may be UTF-8.
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {});
 
 struct DecodedPng {

@@ -15,7 +15,8 @@ constexpr double kStraightDown = 1e-6;
 }  // namespace
 
 CameraAxes cameraAxes(const Camera& camera) {
-  if (!camera.eye.allFinite() || !camera.target.allFinite()) throw InputError("camera: eye and target must be finite");
+  if (!camera.eye.allFinite() || !camera.target.allFinite())
+    throw InputError("camera: eye and target must be finite");
   if (!(camera.fov_degrees > 0.0 && camera.fov_degrees < 180.0)) {
     std::ostringstream message;
     message << "camera: field of view " << camera.fov_degrees << " is not between 0 and 180 degrees";
@@ -49,10 +50,8 @@ std::array<float, 16> clipFromE(const Camera& camera, int width, int height, con
   const double focal = focalLengthPixels(camera, height);
   const double n = range.near_m, f = range.far_m;
   Eigen::Matrix4d m;
-  m << (2.0 * focal / width) * axes.right.transpose(), 0.0,
-      (2.0 * focal / height) * axes.up.transpose(), 0.0,
-      ((f + n) / (f - n)) * axes.forward.transpose(), -2.0 * f * n / (f - n),
-      axes.forward.transpose(), 0.0;
+  m << (2.0 * focal / width) * axes.right.transpose(), 0.0, (2.0 * focal / height) * axes.up.transpose(), 0.0,
+      ((f + n) / (f - n)) * axes.forward.transpose(), -2.0 * f * n / (f - n), axes.forward.transpose(), 0.0;
   std::array<float, 16> columns{};
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r) columns[static_cast<std::size_t>(4 * c + r)] = static_cast<float>(m(r, c));

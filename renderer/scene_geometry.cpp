@@ -19,7 +19,8 @@ constexpr std::array<Level, kDetailLevels> kLevels = {{{14.0, 12, false},
                                                        {350.0, 64, true},
                                                        {std::numeric_limits<double>::infinity(), 128, true}}};
 
-constexpr double kBevelCapFraction = 0.05;  // Of the typical solid's width: large grounds get no wider bevels.
+constexpr double kBevelCapFraction =
+    0.05;  // Of the typical solid's width: large grounds get no wider bevels.
 
 bool hasRoundPart(const Solid& solid) {
   return std::any_of(solid.parts().begin(), solid.parts().end(),
@@ -63,13 +64,16 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   const double bevel = bevelWidth(solid, bevel_cap_m);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
     const bool same = i > 1 && !geometry.is_round;
-    geometry.levels[i] = same ? geometry.levels[i - 1]
-                              : pool.add(buildMesh(solid, {kLevels[i].bevelled ? bevel : 0.0, kLevels[i].segments}));
+    geometry.levels[i] =
+        same ? geometry.levels[i - 1]
+             : pool.add(buildMesh(solid, {kLevels[i].bevelled ? bevel : 0.0, kLevels[i].segments}));
   }
   return geometry;
 }
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
 
 }  // namespace
 
@@ -91,7 +95,8 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
   gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(pool.vertices.size() * sizeof(MeshVertex)),
                 pool.vertices.data(), GL_STATIC_DRAW);
-  gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, position)));
+  gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
+                         offset(offsetof(MeshVertex, position)));
   gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, normal)));
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(pool.indices.size() * sizeof(std::uint32_t)),
@@ -99,7 +104,8 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
   instance_buffer_ = buffers[2];
   gl.BindBuffer(GL_ARRAY_BUFFER, instance_buffer_);
   for (GLuint i = 0; i < 4; ++i) {
-    gl.VertexAttribPointer(2 + i, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceRecord), offset(4 * sizeof(float) * i));
+    gl.VertexAttribPointer(2 + i, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceRecord),
+                           offset(4 * sizeof(float) * i));
     gl.VertexAttribDivisor(2 + i, 1);
   }
   for (GLuint i = 0; i < 6; ++i) gl.EnableVertexAttribArray(i);
@@ -107,13 +113,15 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {
   gl.BindBuffer(GL_ARRAY_BUFFER, instance_buffer_);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(records.size_bytes()), records.data(), GL_STREAM_DRAW);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(records.size_bytes()), records.data(),
+                GL_STREAM_DRAW);
 }
 
 void SceneGeometry::draw(const GlFunctions& gl, const MeshRange& range, int first_instance, int count) const {
   gl.BindVertexArray(vertex_array_);
-  gl.DrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, offset(range.first_byte),
-                                                 count, range.base_vertex, static_cast<GLuint>(first_instance));
+  gl.DrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, range.count, GL_UNSIGNED_INT,
+                                                 offset(range.first_byte), count, range.base_vertex,
+                                                 static_cast<GLuint>(first_instance));
 }
 
 }  // namespace carom::renderer

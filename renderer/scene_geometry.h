@@ -1,6 +1,6 @@
 #pragma once
-// The solids' triangles on the GPU's side, uploaded once: every solid at several levels of detail in one vertex and
-// one index buffer. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
+// The solids' triangles on the GPU's side, uploaded once: every solid at several levels of detail in one
+// vertex and one index buffer. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
 
 #include <array>
 #include <cstddef>
@@ -14,8 +14,9 @@ namespace carom::renderer {
 
 inline constexpr int kDetailLevels = 5;
 
-/// The level for a solid whose radius is `radius_px` on the image: bevels narrower than a pixel are left out, and the
-/// sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's 1000 pixels).
+/// The level for a solid whose radius is `radius_px` on the image: bevels narrower than a pixel are left out,
+/// and the sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's
+/// 1000 pixels).
 int detailLevel(double radius_px);
 
 /// A range of the index buffer.

@@ -8,12 +8,13 @@
 namespace carom::renderer {
 
 struct ShaderSources {
-  const char* name;                         ///< For the message when the driver rejects it.
-  std::array<const char*, 2> vertex;        ///< The stage's text, in pieces.
+  const char* name;                   ///< For the message when the driver rejects it.
+  std::array<const char*, 2> vertex;  ///< The stage's text, in pieces.
   std::array<const char*, 4> fragment;
 };
 
-/// A program that lives as long as the current context. Throws NoRenderer with the first line of the driver's log.
+/// A program that lives as long as the current context. Throws NoRenderer with the first line of the driver's
+/// log.
 GLuint linkProgram(const GlFunctions& gl, const ShaderSources& sources);
 
 }  // namespace carom::renderer

@@ -1,6 +1,6 @@
 #pragma once
-// The GLSL of all passes, and the block of values they share. Frame E: the world's axes, origin at the eye; light is
-// linear until the sRGB framebuffer encodes it.
+// The GLSL of all passes, and the block of values they share. Frame E: the world's axes, origin at the eye;
+// light is linear until the sRGB framebuffer encodes it.
 
 namespace carom::renderer {
 
@@ -8,12 +8,13 @@ namespace carom::renderer {
 struct FrameBlock {
   float clip_from_E[16];
   float shadow_rows[3][4];  ///< Texture u, v and depth of a point.
-  float to_light[4];        ///< Unit; w: how far a point is lifted along its normal before its shadow is looked up.
-  float ray_corner[4];      ///< Direction through the lower left corner of the image; w: 1 / fog distance.
-  float ray_x[4];           ///< Added per pixel to the right; w: texels along a side of the shadow map.
-  float ray_y[4];           ///< Added per pixel upwards.
-  float ground[4];          ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
-  float shadowed[4][4];     ///< xy: corners, in order, of the ground's part that the shadow map covers.
+  float to_light[4];  ///< Unit; w: how far a point is lifted along its normal before its shadow is looked up.
+  float ray_corner[4];  ///< Direction through the lower left corner of the image; w: 1 / fog distance.
+  float ray_x[4];       ///< Added per pixel to the right; w: texels along a side of the shadow map.
+  float ray_y[4];       ///< Added per pixel upwards.
+  float ground[4];      ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
+  float shadowed[4][4];  ///< xy: corners, in order, of the ground's part that the shadow map covers; z of the
+                         ///< first: how many times as large the whole ground is.
 };
 
 inline constexpr const char* kGlslHead = R"(#version 420 core
@@ -71,8 +72,8 @@ float lit(vec3 s) {
   vec4 q10 = textureGather(shadow_map, vec2(upper.x, lower.y), s.z);
   vec4 q01 = textureGather(shadow_map, vec2(lower.x, upper.y), s.z);
   vec4 q11 = textureGather(shadow_map, upper, s.z);
-  vec4 rows = vec4(dot(wx, vec4(q00.wz, q10.wz)), dot(wx, vec4(q00.xy, q10.xy)), dot(wx, vec4(q01.wz, q11.wz)),
-                   dot(wx, vec4(q01.xy, q11.xy)));
+  vec4 rows = vec4(dot(wx, vec4(q00.wz, q10.wz)), dot(wx, vec4(q00.xy, q10.xy)),
+                   dot(wx, vec4(q01.wz, q11.wz)), dot(wx, vec4(q01.xy, q11.xy)));
   return dot(wy, rows) / 16.0;
 }
 
@@ -87,7 +88,7 @@ float checker(vec2 uv) {
 const vec3 kLightSquare = vec3(0.52, 0.515, 0.50);
 const vec3 kDarkSquare = vec3(0.305, 0.315, 0.34);
 
-// A film's shoulder: straight for dim light, never quite white. Then the air in between, as bright as the horizon.
+// A film's shoulder: straight for dim light, never quite white. Then the air in between, bright as the horizon.
 vec3 film(vec3 light, float distance_m) {
   vec3 image = light * inversesqrt(1.0 + light * light);
   float q = distance_m * ray_corner.w;
@@ -146,19 +147,19 @@ void main() {
   float fresnel = 0.04 + 0.5 * grazing * grazing * grazing * grazing * grazing;
   float glint = exp2(-70.0 * (1.0 - nh)) * 0.42;
   float up = clamp(2.0 * nv * n.z - v.z, -1.0, 1.0);
-  vec3 mirrored = mix(kGroundLight * open_below, mix(kHorizon, kZenith, max(up, 0.0)), clamp(0.5 + 2.0 * up, 0.0, 1.0));
+  vec3 sky = mix(kHorizon, kZenith, max(up, 0.0));
+  vec3 mirrored = mix(kGroundLight * open_below, sky, clamp(0.5 + 2.0 * up, 0.0, 1.0));
   light += kSun * (glint * sun) + fresnel * mirrored;
   pixel = vec4(film(light, distance_m), 1.0);
 }
 )";
 
-// Four vertices: the shadowed part of the ground. Ten more: the ring from there to beyond the horizon, which shares
-// the part's sides to the bit, so that no gap shows, and is spared the shadow look-up.
+// Four vertices: the shadowed part of the ground. Ten more: the ring from there to beyond the horizon, which
+// shares the part's sides to the bit, so that no gap shows, and is spared the shadow look-up.
 inline constexpr const char* kGroundVertex = R"(
 void main() {
   bool inner = gl_VertexID < 4 || (gl_VertexID & 1) == 0;
-  int strip = (gl_VertexID & 1) + (gl_VertexID & 2) * 1;
-  int corner = gl_VertexID < 4 ? strip ^ (strip >> 1) : ((gl_VertexID - 4) >> 1) & 3;
+  int corner = gl_VertexID < 4 ? gl_VertexID ^ (gl_VertexID >> 1) : ((gl_VertexID - 4) >> 1) & 3;
   vec2 p = shadowed[corner].xy;
   vec2 middle = 0.5 * (shadowed[0].xy + shadowed[2].xy);
   if (!inner) p = middle + (p - middle) * shadowed[0].z;
@@ -242,7 +243,8 @@ void main() {
 }
 )";
 
-// Darkens by nearness, most where the near surface lies straight above the face and half as much where it stands on it.
+// Darkens by nearness, most where the near surface lies straight above the face and half as much where it
+// stands on it.
 inline constexpr const char* kOcclusionFragment = R"(
 in vec3 p_R;
 in float distance_m;

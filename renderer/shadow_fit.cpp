@@ -9,9 +9,10 @@
 namespace carom::renderer {
 namespace {
 
-constexpr double kReceiverReach = 1.6;  // Shadows are drawn up to this multiple of the farthest caster's distance.
+constexpr double kReceiverReach =
+    1.6;  // Shadows are drawn up to this multiple of the farthest caster's distance.
 constexpr double kStepsPerDoubling = 4.0;
-constexpr int kBorderTexels = 6;        // Kept free around the casters: the filter's reach and the snapping.
+constexpr int kBorderTexels = 6;  // Kept free around the casters: the filter's reach and the snapping.
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -64,9 +65,10 @@ double reachOf(const std::vector<const ShadowCaster*>& casters) {
   return reach;
 }
 
-// The casters whose shadows the camera may see. Those found first bound how far it has to look, which rules out more.
-std::vector<const ShadowCaster*> relevant(const ShadowRequest& request, const CameraAxes& camera, const LightAxes& light,
-                                          std::span<const ShadowCaster> casters) {
+// The casters whose shadows the camera may see. Those found first bound how far it has to look, which rules
+// out more.
+std::vector<const ShadowCaster*> relevant(const ShadowRequest& request, const CameraAxes& camera,
+                                          const LightAxes& light, std::span<const ShadowCaster> casters) {
   std::vector<const ShadowCaster*> kept;
   for (const ShadowCaster& c : casters) kept.push_back(&c);
   for (int round = 0; round < 3; ++round) {
@@ -120,6 +122,15 @@ ShadowView fitShadow(const ShadowRequest& request, std::span<const ShadowCaster>
   view.rows.block<1, 3>(2, 0) = -light.axis[2].transpose() / length;
   view.rows(2, 3) = (depth.high + margin) / length;
   return view;
+}
+
+std::array<Vec2, 4> coveredGround(const ShadowView& view, double ground_z_E) {
+  // Solve rows * (x, y, z, 1) = (u, v) for x and y.
+  const Eigen::Matrix2d uv_from_xy = view.rows.topLeftCorner<2, 2>();
+  const Vec2 rest = view.rows.block<2, 1>(0, 2) * ground_z_E + view.rows.block<2, 1>(0, 3);
+  std::array<Vec2, 4> corners = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)};
+  for (Vec2& corner : corners) corner = uv_from_xy.inverse() * Vec2(corner - rest);
+  return corners;
 }
 
 }  // namespace carom::renderer

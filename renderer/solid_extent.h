@@ -1,7 +1,7 @@
 #pragma once
-// How much room a solid takes: the box around it, and for each part the rounded box nearest to its shape, which stands
-// for the part where only its rough form matters (contact shadows). Exact for balls, capsules and boxes.
-// Tested in tests/renderer/solid_extent_test.cpp.
+// How much room a solid takes: the box around it, and for each part the rounded box nearest to its shape,
+// which stands for the part where only its rough form matters (contact shadows). Exact for balls, capsules
+// and boxes. Tested in tests/renderer/solid_extent_test.cpp.
 
 #include "engine/solid/solid.h"
 

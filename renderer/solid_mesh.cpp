@@ -9,11 +9,11 @@
 namespace carom::renderer {
 namespace {
 
-constexpr double kBevelFraction = 0.03;     // Of the part's width.
-constexpr double kPullIn = 0.25;            // How far bevels recede from the sharp edge to the inscribed round.
-constexpr double kMaxVertexPull = 0.5;      // Of the bevel's width: needles are not blunted further.
-constexpr double kUsableEdge = 0.9;         // Of an edge's length, what the bevels at its two ends may take.
-constexpr int kMaxBevelledFaces = 400;      // A part with more faces is round by itself.
+constexpr double kBevelFraction = 0.03;  // Of the part's width.
+constexpr double kPullIn = 0.25;         // How far bevels recede from the sharp edge to the inscribed round.
+constexpr double kMaxVertexPull = 0.5;   // Of the bevel's width: needles are not blunted further.
+constexpr double kUsableEdge = 0.9;      // Of an edge's length, what the bevels at its two ends may take.
+constexpr int kMaxBevelledFaces = 400;   // A part with more faces is round by itself.
 
 std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n) {
   const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
@@ -32,12 +32,14 @@ void addFan(TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
 void addSharpPart(TriangleMesh& mesh, const ConvexPolyhedron& core) {
   for (int f = 0; f < core.faceCount(); ++f) {
     std::vector<std::uint32_t> loop;
-    for (const int v : core.faceVertices(f)) loop.push_back(append(mesh, core.vertex(v), core.plane(f).normal));
+    for (const int v : core.faceVertices(f))
+      loop.push_back(append(mesh, core.vertex(v), core.plane(f).normal));
     addFan(mesh, loop);
   }
 }
 
-// One corner of a face: a vertex, the edges before and after it, and where the corner moves per metre of bevel.
+// One corner of a face: a vertex, the edges before and after it, and where the corner moves per metre of
+// bevel.
 struct Corner {
   int vertex = -1;
   int before = -1;
@@ -50,7 +52,8 @@ std::vector<Corner> faceCorners(const ConvexPolyhedron& core, int f) {
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const int before = edges[(i + edges.size() - 1) % edges.size()], after = edges[i];
-    // The point at distance one from both edges: a multiple of the sum of their unit directions into the face.
+    // The point at distance one from both edges: a multiple of the sum of their unit directions into the
+    // face.
     const Vec3 a = core.intoFace(before, f), b = core.intoFace(after, f);
     corners.push_back({vertices[i], before, after, (a + b) / (1.0 + a.dot(b))});
   }
@@ -70,8 +73,8 @@ double faceBevel(const ConvexPolyhedron& core, const std::vector<Corner>& corner
   return width;
 }
 
-// Builds the bevelled surface of one polyhedral part: shrunken faces, two strips an edge that meet in a ridge with the
-// mean normal, and a four-cornered patch for each corner of each face around a vertex.
+// Builds the bevelled surface of one polyhedral part: shrunken faces, two strips an edge that meet in a ridge
+// with the mean normal, and a four-cornered patch for each corner of each face around a vertex.
 class BevelledPart {
  public:
   BevelledPart(TriangleMesh& mesh, const ConvexPolyhedron& core, double bevel_m) : mesh_(mesh), core_(core) {
@@ -119,8 +122,8 @@ class BevelledPart {
     ridge_.push_back({append(mesh_, tail + shift, n), append(mesh_, head + shift, n)});
   }
 
-  // The peak recedes towards the ball that touches the faces around the vertex, along the mean of its edges: unlike
-  // the mean of the normals that leads into the solid however pointed the vertex is.
+  // The peak recedes towards the ball that touches the faces around the vertex, along the mean of its edges:
+  // unlike the mean of the normals that leads into the solid however pointed the vertex is.
   void addPeak(int v) {
     const Vec3 n = vertex_normal_[at(v)].normalized();
     Vec3 inward = Vec3::Zero();
@@ -138,7 +141,8 @@ class BevelledPart {
     const std::vector<Corner> corners = faceCorners(core_, f);
     std::vector<std::uint32_t> loop;
     for (const Corner& c : corners)
-      loop.push_back(append(mesh_, core_.vertex(c.vertex) + face_width_[at(f)] * c.inward, core_.plane(f).normal));
+      loop.push_back(
+          append(mesh_, core_.vertex(c.vertex) + face_width_[at(f)] * c.inward, core_.plane(f).normal));
     addFan(mesh_, loop);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Corner& c = corners[i];
@@ -175,7 +179,8 @@ void addRoundPart(TriangleMesh& mesh, const Vec3& a, const Vec3& b, double radiu
     std::vector<std::uint32_t> ring;
     for (int k = 0; k < segments; ++k) {
       const double c = std::cos(step * k), s = std::sin(step * k);
-      const double level = i == 0 || i == 2 * quarter + 1 ? 0.0 : std::cos(latitude);  // Poles are single points.
+      const double level =
+          i == 0 || i == 2 * quarter + 1 ? 0.0 : std::cos(latitude);  // Poles are single points.
       const Vec3 n = level * (c * basis.t1 + s * basis.t2) + std::sin(latitude) * axis;
       ring.push_back(append(mesh, (upper ? b : a) + radius * n, n));
     }

@@ -1,8 +1,8 @@
 #pragma once
-// Triangles of a solid. Flat faces keep flat normals; edges and vertices become narrow strips and patches whose normals
-// turn from face to face, so that they catch the light; balls and capsules are smooth. The drawn surface never leaves
-// the simulated solid and lies less than a hundredth of its width inside it. Tested in
-// tests/renderer/solid_mesh_test.cpp.
+// Triangles of a solid. Flat faces keep flat normals; edges and vertices become narrow bands and patches
+// whose normals turn from face to face, so that they catch the light. The band recedes from the sharp edge by
+// less than a hundredth of the solid's width: what touches in the simulation touches in the picture. Balls
+// and capsules are smooth. Tested in tests/renderer/solid_mesh_test.cpp.
 
 #include <cstdint>
 #include <vector>
@@ -22,8 +22,9 @@ struct TriangleMesh {
 };
 
 struct MeshDetail {
-  double bevel_m = 0.0;  ///< Width of the rounded band on either side of an edge; less where faces are small. 0: none.
-  int segments = 32;     ///< Around a ball or capsule; even.
+  double bevel_m =
+      0.0;  ///< Width of the rounded band on either side of an edge; less where faces are small. 0: none.
+  int segments = 32;  ///< Around a ball or capsule; even.
 };
 
 /// All parts of the solid in one mesh, in the solid's frame.

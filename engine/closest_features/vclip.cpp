@@ -20,7 +20,8 @@ constexpr double kNoDirection = 1e-9;
 constexpr double kTouching = 1e-14;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
 constexpr double kSlack = 1e-12;
-// Features within this angle of level across the normal can hide a gain below rounding: the root of 1e-16 and room.
+// A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features this close
+// to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
 // Edges that cross at a larger angle have a well-defined common perpendicular.
 constexpr double kCrossingSine = 1e-3;
@@ -56,14 +57,14 @@ std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& from, const 
 // The feature and what of the body's surface touches it and is almost level across `n`: edges and faces at its
 // vertices. More of them than fit stay out; they only serve to find a shorter way.
 struct LevelNeighbours {
-  LevelNeighbours(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& n) {
+  LevelNeighbours(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& n, double level_sine) {
         const auto visitVertex = [&](int v) {
       for (int e : polyhedron.vertexEdges(v)) {
         const Edge& edge = polyhedron.edge(e);
-        if (std::abs(edge.direction.dot(n)) > kLevelSine) continue;
+        if (std::abs(edge.direction.dot(n)) > level_sine) continue;
         add(edgeFeature(e));
         for (int f : {edge.left, edge.right})
-          if (f >= 0 && polyhedron.plane(f).normal.cross(n).norm() <= kLevelSine) add(faceFeature(f));
+          if (f >= 0 && polyhedron.plane(f).normal.cross(n).norm() <= level_sine) add(faceFeature(f));
       }
     };
     add(feature);
@@ -121,7 +122,7 @@ Vec3 normalBetween(const PolyhedronPair& pair, const FeatureDistance& d) {
   const auto [a, b] = d.features;
   if (a.kind == FeatureKind::kFace) return pair.a.plane(a.index).normal;
   if (b.kind == FeatureKind::kFace) return -(pair.R_AB * pair.b.plane(b.index).normal);
-  const Vec3 between = (d.p_b - d.p_a) / d.distance_m;
+  const Vec3 between = (d.p_b - d.p_a).normalized();
   if (a.kind == FeatureKind::kEdge && b.kind == FeatureKind::kEdge) {
     const Vec3 across = pair.a.edge(a.index).direction.cross(pair.R_AB * pair.b.edge(b.index).direction);
     const double sine = across.norm();
@@ -185,8 +186,9 @@ class Walk {
   // Between almost parallel features a step on one body alone gains less than rounding (half the slope squared), a
   // step on both together gains the slope itself.
   bool moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
-    const LevelNeighbours on_a(pair_.a, here_.features.a, n);
-    const LevelNeighbours on_b(pair_.b, here_.features.b, minus_n_B);
+    const double level_sine = kLevelSine * std::sqrt(std::max(1.0, scale_m_ / here_.distance_m));
+    const LevelNeighbours on_a(pair_.a, here_.features.a, n, level_sine);
+    const LevelNeighbours on_b(pair_.b, here_.features.b, minus_n_B, level_sine);
     bool moved = false;
     for (const Feature a : on_a.all())
       for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;

@@ -8,7 +8,9 @@ namespace {
 const Camera kCamera{Vec3(1.0, -7.0, 3.0), Vec3(0.0, 0.0, 0.5), 40.0};
 enum : int { kFloor, kBall, kBox };
 
-Pose at(double x, double y, double z) { return {Quat::Identity(), Vec3(x, y, z)}; }
+Pose at(double x, double y, double z) {
+  return {Quat::Identity(), Vec3(x, y, z)};
+}
 
 class DrawListTest : public testing::Test {
  protected:
@@ -30,7 +32,8 @@ class DrawListTest : public testing::Test {
 };
 
 TEST_F(DrawListTest, WhatTheCameraCannotSeeOnlyCastsShadows) {
-  const DrawList drawn = list({{kBox, at(0, 0, 0.5), {}}, {kBox, at(0, -20.0, 0.5), {}}, {kBall, at(60.0, 10.0, 0.5), {}}});
+  const DrawList drawn =
+      list({{kBox, at(0, 0, 0.5), {}}, {kBox, at(0, -20.0, 0.5), {}}, {kBall, at(60.0, 10.0, 0.5), {}}});
   EXPECT_EQ(count(drawn.visible), 1);
   EXPECT_EQ(count(drawn.casting), 3);
   EXPECT_EQ(drawn.records.size(), 4u);

@@ -65,9 +65,9 @@ TEST(EdgeFilter, ShallowEdgesComeCloseToTheirExactCoverage) {
       EXPECT_LT(meanError(rise, transposed, true), 0.06) << rise << (transposed ? " transposed" : "");
 }
 
-// The steeper, the shorter the stairs and the less they tell about the line. On the diagonal every step is one pixel,
-// whatever the line's offset: the filter can only give the mean coverage, 3/4 and 1/4, from which the true ones deviate
-// by 1/8 on average.
+// The steeper, the shorter the stairs and the less they tell about the line. On the diagonal every step is
+// one pixel, whatever the line's offset: the filter can only give the mean coverage, 3/4 and 1/4, from which
+// the true ones deviate by 1/8 on average.
 TEST(EdgeFilter, SteeperEdgesGainLessButGain) {
   for (const bool transposed : {false, true}) {
     EXPECT_LT(meanError(0.31, transposed, true), 0.4 * meanError(0.31, transposed, false));
@@ -88,6 +88,21 @@ TEST(EdgeFilter, StraightEdgesAndFlatPartsStayAsTheyAre) {
     }
   const Image flat = filtered(33, 29, [](int, int) { return 77; });
   EXPECT_EQ(std::count(flat.rgb.begin(), flat.rgb.end(), 77), 3 * 33 * 29);
+}
+
+// Also across the middle, where the two threads' halves meet. The order of mixing differs there, hence the
+// tolerance.
+TEST(EdgeFilter, ShiftingThePictureShiftsTheResult) {
+  const auto grey = [](int x, int y) { return (x - 0.13 * y > 20.0) != (y + 0.11 * x > 25.0) ? 230 : 25; };
+  const Image here = filtered(64, 64, grey);
+  for (int dx = 0; dx <= 4; dx += 2)
+    for (int dy = 0; dy <= 8; dy += 4) {
+      const Image there = filtered(64, 64, [&](int x, int y) { return grey(x - dx, y - dy); });
+      for (int y = 8; y < 48; ++y)
+        for (int x = 8; x < 52; ++x)
+          EXPECT_NEAR(*there.pixel(x + dx, y + dy), *here.pixel(x, y), 4)
+              << x << "," << y << " by " << dx << "," << dy;
+    }
 }
 
 TEST(EdgeFilter, RowsComeOutFromTopToBottom) {

@@ -24,8 +24,12 @@ const std::vector<Solid>& solids() {
   return all;
 }
 
-Pose at(double x, double y, double z) { return {Quat::Identity(), Vec3(x, y, z)}; }
-Instance ground() { return {kGround, at(0.0, 0.0, -0.5), {}, true}; }
+Pose at(double x, double y, double z) {
+  return {Quat::Identity(), Vec3(x, y, z)};
+}
+Instance ground() {
+  return {kGround, at(0.0, 0.0, -0.5), {}, true};
+}
 
 // The oracle for where a point is drawn: heading and pitch as angles, then the pinhole equation.
 Vec2 pinhole(const Camera& camera, const Vec3& p_W) {
@@ -50,8 +54,12 @@ Rgb at(const Image& image, const Vec2& pixel) {
   const std::uint8_t* p = image.pixel(x, y);
   return {p[0], p[1], p[2]};
 }
-Rgb seenAt(const Image& image, const Vec3& p_W) { return at(image, pinhole(kCamera, p_W)); }
-bool isRed(const Rgb& c) { return c.r > 2 * c.g && c.r > 2 * c.b; }
+Rgb seenAt(const Image& image, const Vec3& p_W) {
+  return at(image, pinhole(kCamera, p_W));
+}
+bool isRed(const Rgb& c) {
+  return c.r > 2 * c.g && c.r > 2 * c.b;
+}
 
 class Frame : public testing::Test {
  protected:
@@ -63,7 +71,8 @@ class Frame : public testing::Test {
 TEST_F(Frame, ABallFillsTheDiscThatThePinholeProjectionGivesIt) {
   const Vec3 center(0.6, 0.3, 1.4);
   const Image image = draw({ground(), {kBall, at(center.x(), center.y(), center.z()), kRed}});
-  // Near the middle of the image the outline, a cone of sine r/d about the centre, is a circle of this radius.
+  // Near the middle of the image the outline, a cone of sine r/d about the centre, is a circle of this
+  // radius.
   const double sine = 0.5 / (center - kCamera.eye).norm();
   const double focal = 0.5 * kHeight / std::tan(20.0 * std::numbers::pi / 180.0);
   const double radius_px = focal * sine / std::sqrt(1.0 - sine * sine);
@@ -134,7 +143,8 @@ TEST_F(Frame, CheckerSquaresAreAMetre) {
   };
   for (int i = -3; i < 3; ++i)
     for (int k = -2; k < 2; ++k) {
-      const int here = brightness(i + 0.5, k + 0.5), same = brightness(i + 1.5, k + 1.5), next = brightness(i + 1.5, k + 0.5);
+      const int here = brightness(i + 0.5, k + 0.5), same = brightness(i + 1.5, k + 1.5),
+                next = brightness(i + 1.5, k + 0.5);
       EXPECT_NEAR(here, same, 6) << i << "," << k;
       EXPECT_GT(std::abs(here - next), 60) << i << "," << k;
     }
@@ -155,7 +165,8 @@ TEST_F(Frame, TheGroundFadesIntoTheHorizonBeyondItsOwnBox) {
 }
 
 TEST_F(Frame, TheSameFrameTwiceIsTheSameBytesWhateverWasDrawnBetween) {
-  const std::vector<Instance> scene = {ground(), {kBall, at(0.2, 0.0, 0.5), kRed}, {kCapsule, at(-0.8, 0.2, 0.7), kBlue}};
+  const std::vector<Instance> scene = {
+      ground(), {kBall, at(0.2, 0.0, 0.5), kRed}, {kCapsule, at(-0.8, 0.2, 0.7), kBlue}};
   const Image first = draw(scene);
   draw({{kBox, at(0.0, 0.0, 3.0), kBlue}});
   EXPECT_EQ(draw(scene).rgb, first.rgb);
@@ -209,21 +220,26 @@ TEST_F(Frame, FarFromTheOriginTheFrameIsTheSame) {
   const Image far = FrameRenderer(Settings{kWidth, kHeight}, solids())
                         .draw(there, {kCamera.eye + away, kCamera.target + away, kCamera.fov_degrees});
   int different = 0;
-  for (std::size_t i = 0; i < near.rgb.size(); ++i) different += std::abs(near.rgb[i] - far.rgb[i]) > 8 ? 1 : 0;
+  for (std::size_t i = 0; i < near.rgb.size(); ++i)
+    different += std::abs(near.rgb[i] - far.rgb[i]) > 8 ? 1 : 0;
   EXPECT_LT(different, static_cast<int>(near.rgb.size() / 500));
 }
 
 TEST_F(Frame, SmallScenesLookLikeLargeOnes) {
-  // A hundredth of the size throughout; the checker's square changes by a power of ten, so bodies alone are compared.
+  // A hundredth of the size throughout; the checker's square changes by a power of ten, so bodies alone are
+  // compared.
   const double s = 0.01;
   const std::vector<Solid> small = {Solid::box(Vec3(s, s, s)), Solid::ball(0.5 * s)};
-  const std::vector<Instance> large_scene = {{kBox, at(0.1, 0.0, 0.5), kRed}, {kBall, at(0.2, 0.1, 1.5), kBlue}};
-  const std::vector<Instance> small_scene = {{0, at(0.1 * s, 0.0, 0.5 * s), kRed}, {1, at(0.2 * s, 0.1 * s, 1.5 * s), kBlue}};
+  const std::vector<Instance> large_scene = {{kBox, at(0.1, 0.0, 0.5), kRed},
+                                             {kBall, at(0.2, 0.1, 1.5), kBlue}};
+  const std::vector<Instance> small_scene = {{0, at(0.1 * s, 0.0, 0.5 * s), kRed},
+                                             {1, at(0.2 * s, 0.1 * s, 1.5 * s), kBlue}};
   const Image large = draw(large_scene);
   const Image tiny = FrameRenderer(Settings{kWidth, kHeight}, small)
                          .draw(small_scene, {s * kCamera.eye, s * kCamera.target, kCamera.fov_degrees});
   int different = 0;
-  for (std::size_t i = 0; i < large.rgb.size(); ++i) different += std::abs(large.rgb[i] - tiny.rgb[i]) > 8 ? 1 : 0;
+  for (std::size_t i = 0; i < large.rgb.size(); ++i)
+    different += std::abs(large.rgb[i] - tiny.rgb[i]) > 8 ? 1 : 0;
   EXPECT_LT(different, static_cast<int>(large.rgb.size() / 500));
 }
 
@@ -234,7 +250,8 @@ TEST_F(Frame, ImpossibleCamerasAndSolidsAreRefused) {
 }
 
 TEST(FrameRenderer, ImpossibleSizesAreRefused) {
-  for (const auto& [width, height] : {std::pair{0, 720}, {1280, 0}, {-1, 720}, {1280, -5}, {16385, 16}, {16, 16385}})
+  for (const auto& [width, height] :
+       {std::pair{0, 720}, {1280, 0}, {-1, 720}, {1280, -5}, {16385, 16}, {16, 16385}})
     EXPECT_THROW(FrameRenderer(Settings{width, height}, solids()), InputError) << width << "x" << height;
   Settings dark;
   dark.to_light = Vec3::Zero();
@@ -244,7 +261,8 @@ TEST(FrameRenderer, ImpossibleSizesAreRefused) {
 TEST(FrameRenderer, OddAndTinySizesAreDrawn) {
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {17, 211}, {333, 1}}) {
     FrameRenderer renderer(Settings{width, height}, solids());
-    const Image& image = renderer.draw(std::vector<Instance>{ground(), {kBall, at(0, 0, 0.5), kRed}}, kCamera);
+    const Image& image =
+        renderer.draw(std::vector<Instance>{ground(), {kBall, at(0, 0, 0.5), kRed}}, kCamera);
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
     EXPECT_EQ(image.rgb.size(), static_cast<std::size_t>(3 * width * height));

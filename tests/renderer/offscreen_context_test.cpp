@@ -39,7 +39,9 @@ TEST(OffscreenContextDeathTest, SoftpipeIsRefusedInOneLine) {
           createOffscreenContext(PixelPolicy::kFast);
         } catch (const NoRenderer& error) {
           const std::string message = error.what();
-          std::exit(message.find("softpipe") != std::string::npos && message.find('\n') == std::string::npos ? 6 : 1);
+          std::exit(message.find("softpipe") != std::string::npos && message.find('\n') == std::string::npos
+                        ? 6
+                        : 1);
         }
         std::exit(0);
       },

@@ -1,5 +1,6 @@
 #include "renderer/png.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -44,7 +45,8 @@ class PngFile : public testing::Test {
 Image noise(int width, int height) {
   std::mt19937 random(3);
   Image image{width, height, {}};
-  for (int i = 0; i < 3 * width * height; ++i) image.rgb.push_back(static_cast<std::uint8_t>(random() & 255u));
+  for (int i = 0; i < 3 * width * height; ++i)
+    image.rgb.push_back(static_cast<std::uint8_t>(random() & 255u));
   return image;
 }
 
@@ -59,8 +61,17 @@ TEST_F(PngFile, PixelsSurviveTheRoundTrip) {
 }
 
 TEST_F(PngFile, TextSurvivesTheRoundTrip) {
-  const PngText text = {{"Software", "carom 0.1.0"}, {"Scene", "Klötzchen auf Rampe"}, {"Empty", ""}, {"Scene", "twice"}};
+  const PngText text = {
+      {"Software", "carom 0.1.0"}, {"Scene", "Klötzchen auf Rampe"}, {"Empty", ""}, {"Scene", "twice"}};
   EXPECT_EQ(readPng(write(encodePng(noise(5, 4), text))).text, text);
+}
+
+TEST(Png, AsciiTextIsPlainAndOtherTextUnicode) {
+  const auto holds = [](const std::vector<std::uint8_t>& bytes, const std::string& kind) {
+    return std::search(bytes.begin(), bytes.end(), kind.begin(), kind.end()) != bytes.end();
+  };
+  EXPECT_TRUE(holds(encodePng(noise(1, 1), {{"Scene", "ramp"}}), "tEXtScene"));
+  EXPECT_TRUE(holds(encodePng(noise(1, 1), {{"Scene", "Klötzchen"}}), "iTXtScene"));
 }
 
 TEST_F(PngFile, TheSameImageGivesTheSameBytes) {
@@ -71,7 +82,8 @@ TEST_F(PngFile, EveryTruncationIsRefused) {
   const std::vector<std::uint8_t> whole = encodePng(noise(20, 10), {{"Scene", "ramp"}});
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const fs::path path = write({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)});
-    EXPECT_NE(refusal(path).find(path.string()), std::string::npos) << length << " of " << whole.size() << " bytes";
+    const std::string message = refusal(path);
+    EXPECT_NE(message.find(path.string()), std::string::npos) << length << " of " << whole.size() << " bytes";
   }
 }
 
@@ -82,7 +94,8 @@ TEST_F(PngFile, ADamagedByteIsRefused) {
 }
 
 TEST_F(PngFile, AMissingFileAFolderAndATextFileAreRefusedInOneLine) {
-  for (const fs::path& path : {folder_ / "nothing.png", folder_, write({'h', 'e', 'l', 'l', 'o', ' ', 'p', 'n', 'g'})}) {
+  for (const fs::path& path :
+       {folder_ / "nothing.png", folder_, write({'h', 'e', 'l', 'l', 'o', ' ', 'p', 'n', 'g'})}) {
     const std::string message = refusal(path);
     EXPECT_NE(message.find(path.string()), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;

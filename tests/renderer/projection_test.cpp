@@ -35,7 +35,8 @@ TEST(Projection, PointsLandWhereThePinholeEquationSays) {
     camera.eye = 10.0 * Vec3(unit(random), unit(random), unit(random));
     camera.target = 10.0 * Vec3(unit(random), unit(random), unit(random));
     camera.fov_degrees = 50.0 + 40.0 * unit(random);
-    const Vec3 p = camera.target + 0.3 * (camera.target - camera.eye).norm() * Vec3(unit(random), unit(random), unit(random));
+    const Vec3 p = camera.target +
+                   0.3 * (camera.target - camera.eye).norm() * Vec3(unit(random), unit(random), unit(random));
     const std::optional<Vec2> pixel = projectToPixel(camera, 1280, 720, p);
     ASSERT_TRUE(pixel.has_value());
     EXPECT_LT((*pixel - pinhole(camera, 1280, 720, p)).norm(), 1e-6) << "case " << i << " of seed 20";
@@ -76,7 +77,8 @@ TEST(Projection, TheMatrixAgreesWithThePixel) {
   const Vec3 p_W(1.0, 1.5, 2.0), p_E = p_W - camera.eye;
   const std::array<float, 16> m = clipFromE(camera, 1280, 720, {0.5, 200.0});
   double clip[4];
-  for (std::size_t r = 0; r < 4; ++r) clip[r] = m[r] * p_E.x() + m[4 + r] * p_E.y() + m[8 + r] * p_E.z() + m[12 + r];
+  for (std::size_t r = 0; r < 4; ++r)
+    clip[r] = m[r] * p_E.x() + m[4 + r] * p_E.y() + m[8 + r] * p_E.z() + m[12 + r];
   const Vec2 pixel = pinhole(camera, 1280, 720, p_W);
   EXPECT_NEAR(640.0 * (1.0 + clip[0] / clip[3]), pixel.x(), 1e-3);
   EXPECT_NEAR(360.0 * (1.0 - clip[1] / clip[3]), pixel.y(), 1e-3);
@@ -88,7 +90,8 @@ TEST(Projection, ImpossibleCamerasAreRefused) {
   EXPECT_THROW(cameraAxes({Vec3(1, 2, 3), Vec3(0, 0, 0), 180.0}), InputError);
   EXPECT_THROW(cameraAxes({Vec3(1, 2, 3), Vec3(0, 0, 0), std::nan("")}), InputError);
   EXPECT_THROW(cameraAxes({Vec3(1, std::nan(""), 3), Vec3(0, 0, 0), 40.0}), InputError);
-  EXPECT_THROW(cameraAxes({Vec3(1, 2, 3), Vec3(0, std::numeric_limits<double>::infinity(), 0), 40.0}), InputError);
+  EXPECT_THROW(cameraAxes({Vec3(1, 2, 3), Vec3(0, std::numeric_limits<double>::infinity(), 0), 40.0}),
+               InputError);
 }
 
 }  // namespace

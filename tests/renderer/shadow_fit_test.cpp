@@ -25,7 +25,8 @@ TEST(ShadowFit, EveryCornerOfAVisibleCasterIsOnTheMap) {
   const ShadowView view = fitShadow(kRequest, casters);
   for (const ShadowCaster& c : casters)
     for (int i = 0; i < 8; ++i) {
-      const Vec3 corner((i & 1 ? 1 : -1) * c.half.x(), (i & 2 ? 1 : -1) * c.half.y(), (i & 4 ? 1 : -1) * c.half.z());
+      const Vec3 corner((i & 1 ? 1 : -1) * c.half.x(), (i & 2 ? 1 : -1) * c.half.y(),
+                        (i & 4 ? 1 : -1) * c.half.z());
       const Vec3 s = onMap(view, c.X_EB * corner + kCamera.eye);
       EXPECT_GT(s.minCoeff(), 0.0);
       EXPECT_LT(s.maxCoeff(), 1.0);
@@ -47,7 +48,8 @@ TEST(ShadowFit, ATexelIsAsLargeAsItSays) {
 
 TEST(ShadowFit, SmallMotionsMoveTheMapByWholeTexels) {
   const Vec3 fixed(0.3, 0.4, 0.2);
-  std::vector<ShadowCaster> casters = {boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)), boxAt(Vec3(2.0, 1.0, 1.0), Vec3(0.5, 0.5, 0.5))};
+  std::vector<ShadowCaster> casters = {boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)),
+                                       boxAt(Vec3(2.0, 1.0, 1.0), Vec3(0.5, 0.5, 0.5))};
   const ShadowView before = fitShadow(kRequest, casters);
   for (int i = 1; i < 20; ++i) {
     casters[1] = boxAt(Vec3(2.0 + 0.0037 * i, 1.0 + 0.0021 * i, 1.0), Vec3(0.5, 0.5, 0.5));
@@ -56,6 +58,17 @@ TEST(ShadowFit, SmallMotionsMoveTheMapByWholeTexels) {
     const Vec3 shift = 1024.0 * (onMap(after, fixed) - onMap(before, fixed));
     EXPECT_NEAR(shift.x(), std::round(shift.x()), 1e-6);
     EXPECT_NEAR(shift.y(), std::round(shift.y()), 1e-6);
+  }
+}
+
+TEST(ShadowFit, TheCoveredGroundIsWhatTheMapsCornersFallOn) {
+  const ShadowView view = fitShadow(kRequest, std::vector{boxAt(Vec3(0.2, 0.1, 1.0), Vec3(0.5, 0.5, 0.5))});
+  const double ground_z = 0.3;
+  const std::array<Vec2, 4> corners = coveredGround(view, ground_z - kCamera.eye.z());
+  const Vec2 expected[] = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 p_W(corners[i].x() + kCamera.eye.x(), corners[i].y() + kCamera.eye.y(), ground_z);
+    EXPECT_LT((onMap(view, p_W).head<2>() - expected[i]).norm(), 1e-9) << i;
   }
 }
 

@@ -32,7 +32,8 @@ TEST(RoundedBox, IsExactForACapsuleInAnyDirection) {
 
 TEST(RoundedBox, ReachesAsFarAsTheFarthestVertex) {
   std::vector<Vec3> points;
-  for (int i = 0; i < 12; ++i) points.push_back(Vec3(std::cos(i * 0.5236), std::sin(i * 0.5236), i % 2 == 0 ? 0.9 : -0.9));
+  for (int i = 0; i < 12; ++i)
+    points.push_back(Vec3(std::cos(i * 0.5236), std::sin(i * 0.5236), i % 2 == 0 ? 0.9 : -0.9));
   const Solid drum = Solid::polyhedron(convexHull(points).polyhedron);
   const RoundedBox box = roundedBox(drum.parts()[0]);
   EXPECT_GT(box.radius, 0.0);
@@ -40,7 +41,8 @@ TEST(RoundedBox, ReachesAsFarAsTheFarthestVertex) {
 }
 
 TEST(SolidExtent, EnclosesAllPartsTightly) {
-  const Solid solid({{ConvexPolyhedron::point(Vec3(0, 0, 0)), 0.5}, {ConvexPolyhedron::point(Vec3(2, 0, 0)), 0.25}});
+  const Solid solid(
+      {{ConvexPolyhedron::point(Vec3(0, 0, 0)), 0.5}, {ConvexPolyhedron::point(Vec3(2, 0, 0)), 0.25}});
   const Extent extent = solidExtent(solid);
   EXPECT_LT((extent.half - Vec3(1.375, 0.5, 0.5)).norm(), 1e-12);
   EXPECT_LT((extent.center - solid.origin_B() - Vec3(0.875, 0, 0)).norm(), 1e-9);

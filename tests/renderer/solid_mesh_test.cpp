@@ -26,7 +26,8 @@ double volume(const TriangleMesh& mesh) {
   return six / 6.0;
 }
 
-// Every side of a triangle is some other triangle's side the other way round; sides are told apart by position.
+// Every side of a triangle is some other triangle's side the other way round; sides are told apart by
+// position.
 bool closed(const TriangleMesh& mesh) {
   using Key = std::array<float, 3>;
   std::map<std::pair<Key, Key>, int> sides;

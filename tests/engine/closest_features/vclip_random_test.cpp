@@ -37,11 +37,12 @@ TEST_P(RandomPairs, AgreeWithBruteForce) {
   ConvexPart a, b;
   int separated = 0, penetrating = 0;
   for (int i = 0; i < 12500 / kShare; ++i) {
-    const bool large = i % 250 == 0;
-    if (i % 10 <= 1) {
+    const bool large = i % 500 == 0;
+    if (large || i % 10 <= 1) {
+      const int small_most = i % 100 < 10 ? 24 : 12;  // mostly few vertices: the oracle takes their fourth power
       const Vec3 axes(1, random.uniform(0.2, 1), random.uniform(0.2, 1));
-      a.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, 20), axes);
-      b.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, 20));
+      a.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, small_most), axes);
+      b.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, small_most));
     }
     const Pose X_WA = random.pose(0.5);
     const Pose X_WB{random.rotation(), X_WA.position + random.uniform(0.3, 4.0) * random.direction()};
@@ -142,7 +143,7 @@ TEST_P(AdversarialFamily, ARandomSeedGivesTheSameDistance) {
     const ClosestFeatures want = closestFeatures(*p.a, p.X_WA, *p.b, p.X_WB, none);
     const ClosestFeatures got = closestFeatures(*p.a, p.X_WA, *p.b, p.X_WB, seeded);
     ASSERT_FALSE(got.reached_limit) << i;
-    ASSERT_NEAR(got.distance_m, want.distance_m, 1e-10 * p.scale()) << i;
+    ASSERT_NEAR(got.distance_m, want.distance_m, 5e-11 * p.scale()) << i;
   }
 }
 

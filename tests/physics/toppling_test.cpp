@@ -1,0 +1,38 @@
+// Toppling: a block that cannot slide falls over exactly when the weight's line leaves its base, tan(angle) > b / h.
+
+#include "tests/physics/small_world.h"
+
+namespace carom::physics {
+namespace {
+
+double tiltAfter(double tangent, double seconds, double rate, bool& rests) {
+  const Vec3 size(0.3, 0.4, 0.9);  // b / h = 1/3 along x
+  const Quat tilt = oracle::turned(Vec3::UnitZ(), 0.5) * oracle::turned(Vec3::UnitY(), std::atan(tangent));
+  SmallWorld w(rate);
+  w.addPlane(rubbing(1.5), tilt);
+  const Pose X = lyingBox(size, tilt, 0.0);
+  const int block = w.add({Solid::box(size), X, Vec3::Zero(), Vec3::Zero(), rubbing(1.5)});
+  w.start();
+  w.run(seconds);
+  rests = w.rests(block);
+  return w.state(block).X_WB.rotation.angularDistance(X.rotation);
+}
+
+class Toppling : public testing::TestWithParam<double> {};
+
+// The contact points stand half a gap off the block's base: 0.15 mm of 150, so 1 % either side is decided.
+TEST_P(Toppling, ABlockStandsWhenItsWeightFallsOnItsBase) {
+  bool rests = false;
+  EXPECT_LT(tiltAfter(0.99 / 3.0, 3.0, GetParam(), rests), 1e-3);
+  EXPECT_TRUE(rests);
+}
+
+TEST_P(Toppling, ABlockFallsWhenItsWeightFallsBesideItsBase) {
+  bool rests = false;
+  EXPECT_GT(tiltAfter(1.01 / 3.0, 3.0, GetParam(), rests), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, Toppling, testing::Values(60.0, 240.0));
+
+}  // namespace
+}  // namespace carom::physics
