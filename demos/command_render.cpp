@@ -156,6 +156,7 @@ ExitCode render(const RenderOptions& options) {
   Run run{clock, names, camera.camera, made, facts, manifest};
   if (options.telling.verbose) tellStart(run, scene);
 
+  catchInterrupts();
   // A run that ends early still finishes the frames it has drawn and says which they are.
   FrameWriter writer;
   std::exception_ptr ended_early;

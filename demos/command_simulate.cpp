@@ -88,6 +88,7 @@ ExitCode simulate(const SimulateOptions& options) {
   const int steps = clock.stepCount(scene.duration_s);
   if (steps < 1) throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no step");
 
+  catchInterrupts();
   CsvFile trajectory(options.csv, "frame,time_s,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode");
   CsvFile audits(options.audit,
                  "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"

@@ -17,6 +17,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
 void catchInterrupts() {
   struct sigaction action = {};
   action.sa_handler = [](int number) { arrived_signal.store(number, std::memory_order_relaxed); };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -4,7 +4,8 @@
 
 namespace carom::demos {
 
-/// From now on the two signals only raise the flag.
+/// From now on the first of either signal only raises the flag; a second one ends the program as it would have. To be
+/// called where the looking begins: before that, an interrupt ends the program at once and there is nothing to tidy.
 void catchInterrupts();
 
 /// Throws Interrupted when a signal has arrived.

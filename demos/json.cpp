@@ -50,11 +50,13 @@ const char* kindName(Json::Kind kind) {
   return "";
 }
 
-/// The library's message without its own numbering: "[json.exception.parse_error.101] parse error at line 3, ...".
+/// The library's message without its own numbering: of "[json.exception.parse_error.101] parse error at line 3,
+/// column 9: syntax error ..." only the end.
 std::string parserReason(const std::string& message) {
-  const std::size_t mark = message.find("; ");
   const std::size_t bracket = message.find("] ");
-  std::string reason = message.substr(mark != std::string::npos ? mark + 2 : bracket != std::string::npos ? bracket + 2 : 0);
+  std::string reason = message.substr(bracket == std::string::npos ? 0 : bracket + 2);
+  const std::size_t colon = reason.find(": ");
+  if (reason.rfind("parse error", 0) == 0 && colon != std::string::npos) reason.erase(0, colon + 2);
   for (char& c : reason)
     if (c == '\n') c = ' ';
   return reason;

@@ -8,7 +8,6 @@
 
 #include "demos/command_line.h"
 #include "demos/exit_code.h"
-#include "demos/interrupt.h"
 
 namespace {
 
@@ -30,7 +29,6 @@ void tell(const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  catchInterrupts();
   try {
     return run(argc, argv);
   } catch (...) {

@@ -1,5 +1,6 @@
 #include "demos/mesh_import.h"
 
+#include <fstream>
 #include <string>
 
 #include <assimp/Importer.hpp>
@@ -65,12 +66,23 @@ std::vector<std::vector<Vec3>> collectParts(const aiScene& scene, const fs::path
   return parts;
 }
 
+/// assimp 5.2 reads a PLY header without an end for ever.
+void requireEndOfPlyHeader(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line) || line.rfind("ply", 0) != 0) return;
+  while (std::getline(file, line))
+    if (line.rfind("end_header", 0) == 0) return;
+  throw InputError(path.string() + ": cannot be read as a mesh: the PLY header has no end_header");
+}
+
 }  // namespace
 
 ImportedMesh importMesh(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw InputError(path.string() + ": no such mesh file");
   if (!fs::is_regular_file(path, ignored)) throw InputError(path.string() + ": is no file; accepted: a mesh file");
+  requireEndOfPlyHeader(path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mRootNode == nullptr)

@@ -68,10 +68,11 @@ float lit(vec3 s) {
   vec4 wy = vec4(1.0 - f.y, 2.0 - f.y, 1.0 + f.y, f.y);
   vec2 lower = b / size;
   vec2 upper = (b + 2.0) / size;
-  vec4 q00 = textureGather(shadow_map, lower, s.z);
-  vec4 q10 = textureGather(shadow_map, vec2(upper.x, lower.y), s.z);
-  vec4 q01 = textureGather(shadow_map, vec2(lower.x, upper.y), s.z);
-  vec4 q11 = textureGather(shadow_map, upper, s.z);
+  float z = min(s.z, 1.0);  // beyond the last caster the empty map (depth 1) must not shade; float depths don't clamp
+  vec4 q00 = textureGather(shadow_map, lower, z);
+  vec4 q10 = textureGather(shadow_map, vec2(upper.x, lower.y), z);
+  vec4 q01 = textureGather(shadow_map, vec2(lower.x, upper.y), z);
+  vec4 q11 = textureGather(shadow_map, upper, z);
   vec4 rows = vec4(dot(wx, vec4(q00.wz, q10.wz)), dot(wx, vec4(q00.xy, q10.xy)),
                    dot(wx, vec4(q01.wz, q11.wz)), dot(wx, vec4(q01.xy, q11.xy)));
   return dot(wy, rows) / 16.0;

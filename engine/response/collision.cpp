@@ -6,8 +6,8 @@
 namespace carom {
 namespace {
 
-constexpr int kSweeps = 2000;
-constexpr double kConverged = 1e-13;  // of the approach speed
+constexpr int kSweeps = 400;
+constexpr double kConverged = 1e-12;  // of the approach speed
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
 double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before, std::span<const ImpulseBody> bodies) {

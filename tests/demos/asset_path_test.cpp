@@ -17,7 +17,7 @@ TEST(AssetPath, FindsAShippedSceneByNameAndAnyByPath) {
 }
 
 TEST(AssetPath, NamesTheNearestScene) {
-  EXPECT_EQ(thrownMessage<InputError>([] { findScene("sliding.jsn"); }).rfind("unknown scene \"sliding.jsn\"; did you mean \"sliding\"? accepted: ", 0), 0u);
+  EXPECT_EQ(thrownMessage<InputError>([] { findScene("slidimg"); }).rfind("unknown scene \"slidimg\"; did you mean \"sliding\"? accepted: ", 0), 0u);
   EXPECT_EQ(thrownMessage<InputError>([] { findScene("no/such.json"); }), "no/such.json: no such scene file");
 }
 

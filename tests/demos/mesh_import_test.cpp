@@ -1,9 +1,12 @@
 #include "demos/mesh_import.h"
 
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "demos/asset_path.h"
 #include "demos/shape_solid.h"
 #include "engine/foundation/contract.h"
 #include "temporary_folder.h"
@@ -102,10 +105,13 @@ TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
   EXPECT_EQ(refusal(folder.path()), "is no file; accepted: a mesh file");
   EXPECT_EQ(refusal(folder.file("text.xyz", "hello")).rfind("cannot be read as a mesh: ", 0), 0u);
   EXPECT_EQ(refusal(folder.file("empty.obj", "")).rfind("cannot be read as a mesh: ", 0), 0u);
-  EXPECT_EQ(refusal(folder.file("broken.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")).rfind("cannot be read as a mesh: ", 0), 0u);
+  EXPECT_EQ(refusal(folder.file("cut.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")),
+            "cannot be read as a mesh: the PLY header has no end_header");
   EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("flat"), std::string::npos);
-  EXPECT_NE(refusal(folder.file("nan.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 nan\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")).find("not finite"),
-            std::string::npos);
+  std::string stl = readTextFile(shipped("pyramid.stl"));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(stl.data() + 84 + 12 + 8, &nan, sizeof nan);  // header, normal, x, y: the first corner's z
+  EXPECT_NE(refusal(folder.file("nan.stl", stl)).find("is not finite; accepted: finite coordinates"), std::string::npos);
 }
 
 TEST(MeshImport, LeavesOutFlatMeshesBesideSolidOnes) {

@@ -1,0 +1,183 @@
+// Mass and velocity of a rigid body against sums over its points, and torque-free rotation: angular momentum exact,
+// energy bounded and of second order, whatever the body's shape.
+
+#include "engine/motion/rigid_body.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "engine/foundation/elementary.h"
+#include "tests/oracle/test_shapes.h"
+
+namespace carom {
+namespace {
+
+using oracle::Random;
+
+// Two-point Gauss quadrature per axis integrates squares over a box exactly: eight points of equal mass.
+std::vector<Vec3> gaussPoints(const Vec3& size) {
+  std::vector<Vec3> points;
+  for (double x : {-1.0, 1.0})
+    for (double y : {-1.0, 1.0})
+      for (double z : {-1.0, 1.0}) points.push_back(0.5 / std::sqrt(3.0) * Vec3(x, y, z).cwiseProduct(size));
+  return points;
+}
+
+struct Box {
+  Vec3 size;
+  Inertia inertia;
+  explicit Box(const Vec3& s) : size(s), inertia(inertiaOf(700.0, Solid::box(s).volume(), Solid::box(s).unitInertia())) {}
+};
+
+TEST(RigidBody, EnergyAndAngularMomentumAreTheSumsOverItsPoints) {
+  Random random(31);
+  const Box box({0.3, 0.7, 1.9});
+  const double point_mass = box.inertia.mass_kg / 8;
+  for (int i = 0; i < 100; ++i) {
+    const Quat R = random.rotation();
+    const Velocity v{3 * random.direction(), 5 * random.direction()};
+    double energy = 0.0;
+    Vec3 momentum = Vec3::Zero();
+    for (const Vec3& p_B : gaussPoints(box.size)) {
+      const Vec3 r = R * p_B;
+      energy += 0.5 * point_mass * v.at(r).squaredNorm();
+      momentum += point_mass * r.cross(v.at(r));
+    }
+    EXPECT_NEAR(kineticEnergy(box.inertia, R, v), energy, 1e-12 * energy);
+    EXPECT_LT((angularMomentum(box.inertia, R, v.angular) - momentum).norm(), 1e-12 * momentum.norm());
+  }
+}
+
+TEST(RigidBody, APointAheadOfACounterClockwiseSpinMovesToTheLeft) {
+  const Velocity v{Vec3(10, 0, 0), Vec3(0, 0, 2)};
+  EXPECT_EQ(v.at(Vec3(3, 0, 0)), Vec3(10, 6, 0));
+}
+
+TEST(RigidBody, AngularVelocityAndMomentumAreInverse) {
+  Random random(32);
+  const Box box({0.1, 1.0, 0.4});
+  for (int i = 0; i < 100; ++i) {
+    const Quat R = random.rotation();
+    const Vec3 w = random.direction();
+    EXPECT_LT((angularVelocity(box.inertia, R, angularMomentum(box.inertia, R, w)) - w).norm(), 1e-13);
+    EXPECT_LT((inverseTensorInWorld(box.inertia, R) * angularMomentum(box.inertia, R, w) - w).norm(), 1e-13);
+  }
+}
+
+// A free body carried for a while as the world does it: the path turns by the constant spin, and the velocity is
+// recomputed from the momentum.
+struct FreeRotation {
+  const Inertia& inertia;
+  Quat R;
+  Vec3 w;
+
+  void step(double dt) {
+    const Vec3 L = angularMomentum(inertia, R, w);
+    const Vec3 spin = torqueFreeSpin(inertia, R, w, dt);
+    R = (rotationBy(dt * spin) * R).normalized();
+    w = angularVelocity(inertia, R, L);
+  }
+  Vec3 momentum() const { return angularMomentum(inertia, R, w); }
+  double energy() const { return kineticEnergy(inertia, R, {Vec3::Zero(), w}); }
+};
+
+TEST(TorqueFreeRotation, KeepsTheAngularMomentumToRounding) {
+  const Box box({0.2, 0.6, 1.0});
+  FreeRotation body{box.inertia, oracle::turned({1, 2, 3}, 0.7), Vec3(1.0, -6.0, 2.0)};
+  const Vec3 before = body.momentum();
+  const int steps = 10000;
+  for (int i = 0; i < steps; ++i) body.step(1.0 / 240);
+  // A handful of roundings a step, at worst all in one direction.
+  EXPECT_LT((body.momentum() - before).norm(), 16.0 * steps * 0x1p-53 * before.norm());
+}
+
+double largestEnergyError(const Inertia& inertia, const Vec3& w, double dt, double seconds) {
+  FreeRotation body{inertia, oracle::turned({1, 2, 3}, 0.7), w};
+  const double before = body.energy();
+  double worst = 0.0;
+  for (double t = 0.0; t < seconds; t += dt) {
+    body.step(dt);
+    worst = std::max(worst, std::abs(body.energy() / before - 1.0));
+  }
+  return worst;
+}
+
+TEST(TorqueFreeRotation, EnergyErrorFallsWithTheSquareOfTheStep) {
+  const Box box({0.2, 0.6, 1.0});
+  const Vec3 w(1.0, -6.0, 2.0);
+  const double coarse = largestEnergyError(box.inertia, w, 1.0 / 120, 10.0);
+  const double fine = largestEnergyError(box.inertia, w, 1.0 / 240, 10.0);
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_NEAR(coarse / fine, 4.0, 0.4);
+}
+
+TEST(TorqueFreeRotation, EnergyErrorDoesNotGrowWithTime) {
+  const Box box({0.2, 0.6, 1.0});
+  const Vec3 w(1.0, -6.0, 2.0);
+  EXPECT_LT(largestEnergyError(box.inertia, w, 1.0 / 120, 600.0), 1.2 * largestEnergyError(box.inertia, w, 1.0 / 120, 20.0));
+}
+
+// The axis of a symmetric body circles round the angular momentum at |L| / I_1, at a constant angle.
+TEST(TorqueFreeRotation, OfASymmetricBodyPrecessesAtTheClosedFormRate) {
+  const Box box({0.4, 0.4, 1.2});
+  const Quat R0 = oracle::turned({2, -1, 1}, 0.9);
+  FreeRotation body{box.inertia, R0, R0 * Vec3(2.0, 0.0, 9.0)};
+  const Vec3 L = body.momentum();
+  const double dt = 1.0 / 480, seconds = 2.0;
+  for (int i = 0; i < 960; ++i) body.step(dt);
+  const double angle = L.norm() / box.inertia.tensor_B(0, 0) * seconds;
+  const Vec3 expected = Eigen::AngleAxisd(angle, L.normalized()) * (R0 * Vec3::UnitZ());
+  EXPECT_LT((body.R * Vec3::UnitZ() - expected).norm(), 2e-3);  // (L dt / I)^2 / 12 of some 14 radians
+}
+
+TEST(TorqueFreeRotation, OfABallIsItsSpin) {
+  const Inertia ball = inertiaOf(1000.0, Solid::ball(0.3).volume(), Solid::ball(0.3).unitInertia());
+  const Vec3 w(3, -50, 20);
+  EXPECT_LT((torqueFreeSpin(ball, oracle::turned({1, 2, 3}, 0.7), w, 1.0 / 60) - w).norm(), 1e-12);
+}
+
+// About a principal axis the spin is constant. Rounding must not grow along the slender axis, whose inertia is a
+// small share of the others'.
+TEST(TorqueFreeRotation, ASlenderRodAcrossItsLengthGoesOnAsItSpins) {
+  for (double width : {0.2, 0.04, 0.01, 0.001})
+    for (double speed : {1.0, 10.0, 30.0, 100.0}) {
+      const Box rod({2.0, width, width});
+      const Quat R = oracle::turned({1, 2, 3}, 0.7);
+      FreeRotation body{rod.inertia, R, R * Vec3(0, 0, speed)};
+      const double energy = body.energy();
+      for (int i = 0; i < 60; ++i) body.step(1.0 / 60);
+      ASSERT_NEAR(body.energy() / energy, 1.0, 1e-6) << "width " << width << " spin " << speed;
+    }
+}
+
+// Tumbling about a general axis: however coarse the step, energy stays of the order it was.
+TEST(TorqueFreeRotation, OfFlatAndLongBodiesKeepsTheEnergyBounded) {
+  Random random(33);
+  const std::array<Vec3, 4> sizes{Vec3(1, 0.1, 0.1), Vec3(1, 1, 0.02), Vec3(1, 0.3, 0.02), Vec3(2, 0.04, 0.04)};
+  for (const Vec3& size : sizes)
+    for (double turn_per_step : {0.05, 0.2}) {
+      const Box body_shape(size);
+      const Quat R = random.rotation();
+      const double dt = 1.0 / 60;
+      FreeRotation body{body_shape.inertia, R, turn_per_step / dt * random.direction()};
+      const double energy = body.energy();
+      for (int i = 0; i < 600; ++i) {
+        body.step(dt);
+        ASSERT_NEAR(body.energy() / energy, 1.0, 0.5) << size.transpose() << " turning " << turn_per_step << " a step, step " << i;
+      }
+    }
+}
+
+TEST(TorqueFreeRotation, RunsBackwardsToWhereItCameFrom) {
+  const Box box({0.2, 0.6, 1.0});
+  const Quat R0 = oracle::turned({1, 2, 3}, 0.7);
+  FreeRotation body{box.inertia, R0, Vec3(1.0, -6.0, 2.0)};
+  for (int i = 0; i < 100; ++i) body.step(1.0 / 120);
+  for (int i = 0; i < 100; ++i) body.step(-1.0 / 120);
+  EXPECT_LT(body.R.angularDistance(R0), 1e-7);
+}
+
+}  // namespace
+}  // namespace carom

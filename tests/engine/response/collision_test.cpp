@@ -1,0 +1,182 @@
+// A collision: the paper's j, a ball's closed forms, momentum kept and energy never gained.
+
+#include "engine/response/collision.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/response/random_contact.h"
+
+namespace carom {
+namespace {
+
+using oracle::Random;
+
+TEST(Collide, AtOneFrictionlessPoint_IsThePapersImpulse) {
+  const std::uint64_t seed = 111;
+  Random random(seed);
+  for (int i = 0; i < 1000; ++i) {
+    Meeting m = randomMeeting(random, 1, 0.0, random.logUniform(1e-3, 1e3));
+    const double e = random.uniform(0, 1);
+    const double j = frictionlessImpulse(m.bodies[0], m.bodies[1], m.rows[0].r_a, m.rows[0].r_b, m.rows[0].n, e);
+    const double approach = std::min(0.0, rowVelocity(m.rows[0], m.bodies).x());
+    const CollisionReport report = collide(m.rows, m.bodies, {{e}});
+    ASSERT_NEAR(report.impulse_Ns, j, 1e-11 * (j + 1e-9)) << "seed " << seed << " case " << i;
+    ASSERT_EQ(report.approach_mps, approach);
+    if (approach < 0) {
+      ASSERT_NEAR(rowVelocity(m.rows[0], m.bodies).x(), -e * approach, 1e-11) << i;
+    }
+  }
+}
+
+// A ball on the floor, r = 0.3, spinless: it slides through the collision when mu (1 + e) |v_n| < 2/7 |v_t|, and loses
+// that much; else its contact point comes to rest and v_t' = 5/7 v_t.
+struct BallBounce {
+  Vec3 velocity;
+  Vec3 spin;
+};
+BallBounce bounceBall(const Vec3& velocity, const Vec3& spin, double mu, double e, const Quat& frame) {
+  const double radius = 0.3;
+  const Solid ball = Solid::ball(radius);
+  const Inertia inertia = inertiaOf(1000.0, ball.volume(), ball.unitInertia());
+  std::vector<ImpulseBody> bodies{immovable(), impulseBody(inertia, Quat::Identity(), Vec3::Zero(), {frame * velocity, frame * spin})};
+  ContactRow row;
+  row.a = 0;
+  row.b = 1;
+  row.n = frame * Vec3::UnitZ();
+  row.r_b = -radius * row.n;
+  row.friction = {mu, mu};
+  prepareRow(row, bodies);
+  std::vector<ContactRow> rows{row};
+  collide(rows, bodies, {{e}});
+  return {frame.conjugate() * bodies[1].velocity.linear, frame.conjugate() * bodies[1].velocity.angular};
+}
+
+TEST(Collide, OfAnObliqueBallThatSlides_LosesFrictionsShareOfTheNormalImpulse) {
+  Random random(112);
+  for (double e : {0.0, 0.4, 1.0})
+    for (double heading : {0.0, 0.5, 2.0, 4.0}) {
+      const Vec3 along(std::cos(heading), std::sin(heading), 0);
+      const double mu = 0.1, vt = 5.0, vn = 2.0;  // mu (1 + e) vn <= 0.4 < 2/7 vt
+      const BallBounce b = bounceBall(vt * along - Vec3(0, 0, vn), Vec3::Zero(), mu, e, random.rotation());
+      EXPECT_LT((b.velocity - ((vt - mu * (1 + e) * vn) * along + Vec3(0, 0, e * vn))).norm(), 1e-10) << e << ' ' << heading;
+      // I dw = r x J with I = 2/5 m r^2.
+      EXPECT_NEAR(b.spin.norm(), 2.5 * mu * (1 + e) * vn / 0.3, 1e-9);
+      EXPECT_GT(b.spin.dot(Vec3::UnitZ().cross(along)), 0.0) << "forward spin";
+    }
+}
+
+TEST(Collide, OfAnObliqueBallThatGrips_LeavesFiveSeventhsOfItsSpeed) {
+  Random random(113);
+  for (double e : {0.0, 0.4, 1.0}) {
+    const double vt = 1.0, vn = 2.0;
+    const BallBounce b = bounceBall(Vec3(vt, 0, -vn), Vec3::Zero(), 0.8, e, random.rotation());
+    EXPECT_LT((b.velocity - Vec3(5.0 / 7.0 * vt, 0, e * vn)).norm(), 1e-10) << e;
+    EXPECT_NEAR(b.spin.y() * 0.3, 5.0 / 7.0 * vt, 1e-10) << "it rolls";
+  }
+}
+
+TEST(Collide, OfABallWithBackspin_CanTurnItRound) {
+  // Grips: v_t' = (5 v_t + 2 r w) / 7 with r w along the motion.
+  const BallBounce b = bounceBall(Vec3(1, 0, -3), Vec3(0, -20, 0), 0.9, 0.5, Quat::Identity());
+  EXPECT_NEAR(b.velocity.x(), (5.0 * 1.0 + 2.0 * 0.3 * -20.0) / 7.0, 1e-10);
+  EXPECT_LT(b.velocity.x(), 0.0);
+}
+
+TEST(Collide, OfAFlatBox_LeavesAtTheRestitutionOnAllCorners) {
+  for (double e : {0.0, 0.5, 1.0}) {
+    std::vector<ImpulseBody> bodies{immovable(), impulseBody(boxInertia(3.0, {0.7, 0.3, 0.2}), Quat::Identity(), Vec3(0, 0, 0.1), {Vec3(0, 0, -2), Vec3::Zero()})};
+    std::vector<ContactRow> rows;
+    for (double x : {-0.35, 0.35})
+      for (double y : {-0.15, 0.15}) {
+        ContactRow row;
+        row.a = 0;
+        row.b = 1;
+        row.r_a = Vec3(x, y, 0);
+        row.r_b = Vec3(x, y, -0.1);
+        row.friction = {0.5, 0.5};
+        prepareRow(row, bodies);
+        rows.push_back(row);
+      }
+    const std::vector<double> restitution(4, e);
+    collide(rows, bodies, restitution);
+    EXPECT_LT((bodies[1].velocity.linear - Vec3(0, 0, 2 * e)).norm(), 1e-10) << e;
+    EXPECT_LT(bodies[1].velocity.angular.norm(), 1e-9) << e;
+  }
+}
+
+TEST(Collide, NeverGainsEnergyNorLosesMomentum) {
+  const std::uint64_t seed = 114;
+  Random random(seed);
+  for (int i = 0; i < 100000; ++i) {
+    const int points = random.integer(1, 4);
+    Meeting m = randomMeeting(random, points, random.uniform(0, 2), random.logUniform(1e-6, 1e6));
+    const std::vector<double> restitution(static_cast<std::size_t>(points), random.integer(0, 3) == 0 ? 1.0 : random.uniform(0, 1));
+    const double before = kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]);
+    const Vec3 p = linearMomentum(m.bodies[0]) + linearMomentum(m.bodies[1]);
+    const Vec3 L = angularMomentum(m.bodies[0]) + angularMomentum(m.bodies[1]);
+    const double scale = linearMomentum(m.bodies[0]).norm() + linearMomentum(m.bodies[1]).norm();
+    collide(m.rows, m.bodies, restitution);
+    // The energies themselves are sums of squares of rounded velocities.
+    ASSERT_LE(kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]), before * (1 + 1e-11)) << "seed " << seed << " case " << i << " points " << points;
+    ASSERT_LT((linearMomentum(m.bodies[0]) + linearMomentum(m.bodies[1]) - p).norm(), 1e-12 * scale) << "seed " << seed << " case " << i;
+    ASSERT_LT((angularMomentum(m.bodies[0]) + angularMomentum(m.bodies[1]) - L).norm(), 1e-12 * scale) << "seed " << seed << " case " << i;
+  }
+}
+
+TEST(Collide, LeavesNoPointApproaching) {
+  const std::uint64_t seed = 115;
+  Random random(seed);
+  for (int i = 0; i < 3000; ++i) {
+    const int points = random.integer(1, 4);
+    Meeting m = randomMeeting(random, points, random.uniform(0, 1), random.logUniform(1e-2, 1e2));
+    const std::vector<double> restitution(static_cast<std::size_t>(points), random.uniform(0, 1));
+    double approach = 0;
+    for (const ContactRow& row : m.rows) approach = std::min(approach, rowVelocity(row, m.bodies).x());
+    collide(m.rows, m.bodies, restitution);
+    for (const ContactRow& row : m.rows)
+      ASSERT_GE(rowVelocity(row, m.bodies).x(), 1e-6 * approach) << "seed " << seed << " case " << i << " points " << points;
+  }
+}
+
+TEST(Collide, OfBodiesThatSeparate_ChangesNothing) {
+  Random random(116);
+  for (int i = 0; i < 100; ++i) {
+    Meeting m = randomMeeting(random, 2, 0.5, 1.0);
+    std::swap(m.bodies[0].velocity, m.bodies[1].velocity);
+    if (rowVelocity(m.rows[0], m.bodies).x() < 0 || rowVelocity(m.rows[1], m.bodies).x() < 0) continue;
+    const Velocity a = m.bodies[0].velocity;
+    collide(m.rows, m.bodies, {{0.5, 0.5}});
+    EXPECT_EQ(m.bodies[0].velocity.linear, a.linear);
+    EXPECT_EQ(m.bodies[0].velocity.angular, a.angular);
+  }
+}
+
+// Turn the whole collision: the answer is turned with it, though the tangents are not.
+TEST(Collide, DoesNotDependOnTheFrameItIsDescribedIn) {
+  Random random(117);
+  for (int i = 0; i < 200; ++i) {
+    const Meeting m = randomMeeting(random, 3, 0.4, 2.0);
+    const Quat R = random.rotation();
+    const Mat3 M = R.toRotationMatrix();
+    Meeting turned = m;
+    for (ImpulseBody& b : turned.bodies) {
+      b.velocity = {R * b.velocity.linear, R * b.velocity.angular};
+      b.center = R * b.center;
+      b.inverse_tensor = M * b.inverse_tensor * M.transpose();
+    }
+    for (ContactRow& row : turned.rows) {
+      row.n = R * row.n;
+      row.r_a = R * row.r_a;
+      row.r_b = R * row.r_b;
+      prepareRow(row, turned.bodies);
+    }
+    Meeting plain = m;
+    const std::vector<double> e(3, 0.4);
+    collide(plain.rows, plain.bodies, e);
+    collide(turned.rows, turned.bodies, e);
+    EXPECT_LT((turned.bodies[1].velocity.linear - R * plain.bodies[1].velocity.linear).norm(), 1e-6) << i;
+  }
+}
+
+}  // namespace
+}  // namespace carom
