@@ -33,12 +33,14 @@ fs::path installedAssets() {
 
 fs::path assetsFolder() {
   if (const char* chosen = std::getenv("CAROM_ASSETS"); chosen != nullptr && *chosen != '\0') {
-    if (!isAssetsFolder(chosen)) throw InputError(std::string("CAROM_ASSETS=") + chosen + ": no folder with a \"scenes\" folder in it");
+    if (!isAssetsFolder(chosen))
+      throw InputError(std::string("CAROM_ASSETS=") + chosen + ": no folder with a \"scenes\" folder in it");
     return chosen;
   }
   for (const fs::path& folder : {installedAssets(), fs::path(CAROM_SOURCE_ASSETS)})
     if (isAssetsFolder(folder)) return folder;
-  throw InputError("the assets folder is missing (looked at " CAROM_SOURCE_ASSETS "); set CAROM_ASSETS to where it is");
+  throw InputError("the assets folder is missing (looked at " CAROM_SOURCE_ASSETS
+                   "); set CAROM_ASSETS to where it is");
 }
 
 std::vector<fs::path> shippedScenes() {
@@ -50,7 +52,8 @@ std::vector<fs::path> shippedScenes() {
 }
 
 fs::path findScene(const std::string& name_or_path) {
-  const bool looks_like_path = name_or_path.find('/') != std::string::npos || fs::path(name_or_path).extension() == ".json";
+  const bool looks_like_path =
+      name_or_path.find('/') != std::string::npos || fs::path(name_or_path).extension() == ".json";
   if (looks_like_path) {
     if (!isFile(name_or_path)) throw InputError(name_or_path + ": no such scene file");
     return name_or_path;
@@ -61,7 +64,8 @@ fs::path findScene(const std::string& name_or_path) {
     names.push_back(scene.stem().string());
     if (names.back() == name_or_path) return scene;
   }
-  throw InputError("unknown scene \"" + name_or_path + "\"" + acceptedNames(name_or_path, names) + ", or a path to a .json file");
+  throw InputError("unknown scene \"" + name_or_path + "\"" + acceptedNames(name_or_path, names) +
+                   ", or a path to a .json file");
 }
 
 std::optional<fs::path> findBeside(const fs::path& scene_file, const std::string& name) {

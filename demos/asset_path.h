@@ -1,6 +1,6 @@
 #pragma once
-// Where shipped files are: $CAROM_ASSETS, else share/carom beside an installed program, else the assets folder of the
-// source tree the program was built from. Tested in tests/demos/asset_path_test.cpp.
+// Where shipped files are: $CAROM_ASSETS, else share/carom beside an installed program, else the assets
+// folder of the source tree the program was built from. Tested in tests/demos/asset_path_test.cpp.
 
 #include <filesystem>
 #include <optional>
@@ -15,12 +15,13 @@ std::filesystem::path assetsFolder();
 /// The scene files that are shipped, by name.
 std::vector<std::filesystem::path> shippedScenes();
 
-/// The file of a scene given as a shipped name ("sliding") or as a path to a .json file. Throws InputError with the
-/// nearest shipped name when there is no such scene.
+/// The file of a scene given as a shipped name ("sliding") or as a path to a .json file. Throws InputError
+/// with the nearest shipped name when there is no such scene.
 std::filesystem::path findScene(const std::string& name_or_path);
 
 /// A file named in a scene: beside that scene, else in the assets folder.
-std::optional<std::filesystem::path> findBeside(const std::filesystem::path& scene_file, const std::string& name);
+std::optional<std::filesystem::path> findBeside(const std::filesystem::path& scene_file,
+                                                const std::string& name);
 
 /// The bytes of a file; throws InputError when it cannot be read.
 std::string readTextFile(const std::filesystem::path& path);

@@ -42,7 +42,8 @@ void AtomicFile::commit() {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(temporary_, failed);
   if (failed) fail(failed.message());
-  if (size != written_) fail("only " + std::to_string(size) + " of " + std::to_string(written_) + " bytes arrived");
+  if (size != written_)
+    fail("only " + std::to_string(size) + " of " + std::to_string(written_) + " bytes arrived");
   fs::rename(temporary_, path_, failed);
   if (failed) fail(failed.message());
   temporary_.clear();

@@ -1,6 +1,7 @@
 #pragma once
-// A file that appears whole or not at all: written under a temporary name in the same folder, checked, then renamed.
-// A file that is given up (an exception, an interrupt) leaves nothing behind. Tested in tests/demos/atomic_file_test.cpp.
+// A file that appears whole or not at all: written under a temporary name in the same folder, checked, then
+// renamed. A file that is given up (an exception, an interrupt) leaves nothing behind. Tested in
+// tests/demos/atomic_file_test.cpp.
 
 #include <cstdint>
 #include <cstdio>
@@ -22,7 +23,8 @@ class AtomicFile {
 
   void write(std::string_view text);
   void write(std::span<const std::uint8_t> bytes);
-  /// Checks that every byte arrived and gives the file its name. Throws CannotWrite, leaving an older file as it was.
+  /// Checks that every byte arrived and gives the file its name. Throws CannotWrite, leaving an older file as
+  /// it was.
   void commit();
 
  private:

@@ -2,11 +2,14 @@
 
 namespace carom::demos {
 
-std::string programVersion() { return CAROM_VERSION; }
+std::string programVersion() {
+  return CAROM_VERSION;
+}
 
 std::string buildName() {
 #if defined(__clang__)
-  const std::string compiler = "clang " + std::to_string(__clang_major__) + "." + std::to_string(__clang_minor__);
+  const std::string compiler =
+      "clang " + std::to_string(__clang_major__) + "." + std::to_string(__clang_minor__);
 #else
   const std::string compiler = "gcc " + std::to_string(__GNUC__) + "." + std::to_string(__GNUC_MINOR__);
 #endif
@@ -14,8 +17,9 @@ std::string buildName() {
 }
 
 std::vector<std::pair<std::string, std::string>> libraryVersions() {
-  return {{"Eigen", CAROM_EIGEN_VERSION}, {"assimp", CAROM_ASSIMP_VERSION}, {"libpng", CAROM_PNG_VERSION},
-          {"qhull", CAROM_QHULL_VERSION}, {"CLI11", CAROM_CLI11_VERSION},   {"nlohmann-json", CAROM_JSON_VERSION}};
+  return {{"Eigen", CAROM_EIGEN_VERSION}, {"assimp", CAROM_ASSIMP_VERSION},
+          {"libpng", CAROM_PNG_VERSION},  {"qhull", CAROM_QHULL_VERSION},
+          {"CLI11", CAROM_CLI11_VERSION}, {"nlohmann-json", CAROM_JSON_VERSION}};
 }
 
 std::string cpuClass() {

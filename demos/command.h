@@ -1,6 +1,7 @@
 #pragma once
-// The commands of the program with their options as plain values; each lives in command_<name>.cpp. They write data to
-// stdout and everything else to stderr, and report failure by the exceptions that main.cpp maps to exit codes.
+// The commands of the program with their options as plain values; each lives in command_<name>.cpp. They
+// write data to stdout and everything else to stderr, and report failure by the exceptions that main.cpp maps
+// to exit codes.
 
 #include <cstdint>
 #include <filesystem>

@@ -17,9 +17,10 @@ void checkScene(const SceneChoice& choice) {
   const SceneWorld made = makeSceneWorld(scene, choice.mesh);
   int moving = 0;
   for (const BodyDescription& body : made.world.bodies()) moving += body.is_static ? 0 : 1;
-  std::cout << scene.file.string() << ": ok  " << made.world.bodies().size() << " bodies (" << moving << " move)  "
-            << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  " << scene.duration_s
-            << " s at " << scene.rate_hz << " steps/s  scene hash " << hexText(sceneHash(scene, choice.mesh)) << '\n';
+  std::cout << scene.file.string() << ": ok  " << made.world.bodies().size() << " bodies (" << moving
+            << " move)  " << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  "
+            << scene.duration_s << " s at " << scene.rate_hz << " steps/s  scene hash "
+            << hexText(sceneHash(scene, choice.mesh)) << '\n';
 }
 
 void checkMesh(const std::filesystem::path& path) {
@@ -31,9 +32,10 @@ void checkMesh(const std::filesystem::path& path) {
     faces += part.core.faceCount();
   }
   const Solid solid(std::move(mesh.parts));
-  std::cout << path.string() << ": ok  " << solid.parts().size() << (solid.parts().size() == 1 ? " part  " : " parts  ")
-            << vertices << " vertices  " << faces << " faces  volume " << solid.volume() << "  radius "
-            << solid.radius() << "  centre of mass " << (-solid.origin_B()).transpose();
+  std::cout << path.string() << ": ok  " << solid.parts().size()
+            << (solid.parts().size() == 1 ? " part  " : " parts  ") << vertices << " vertices  " << faces
+            << " faces  volume " << solid.volume() << "  radius " << solid.radius() << "  centre of mass "
+            << (-solid.origin_B()).transpose();
   if (flat_parts > 0) std::cout << "  left out as flat: " << flat_parts;
   std::cout << '\n';
 }

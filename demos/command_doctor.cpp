@@ -21,8 +21,9 @@ void line(const std::string& what, const std::string& answer) {
 
 /// A ball over a checkered ground, small: the picture must hold more than a handful of colours.
 bool drawsSomething(renderer::FrameRenderer& pictures) {
-  const std::vector<renderer::Instance> instances = {{0, Pose{Quat::Identity(), Vec3(0.0, 0.0, -0.5)}, {}, true},
-                                                     {1, Pose{Quat::Identity(), Vec3(0.0, 0.0, 1.0)}, {0.9f, 0.4f, 0.1f}, false}};
+  const std::vector<renderer::Instance> instances = {
+      {0, Pose{Quat::Identity(), Vec3(0.0, 0.0, -0.5)}, {}, true},
+      {1, Pose{Quat::Identity(), Vec3(0.0, 0.0, 1.0)}, {0.9f, 0.4f, 0.1f}, false}};
   const renderer::Image& image = pictures.draw(instances, renderer::Camera());
   std::set<int> colors;
   for (int y = 0; y < image.height; ++y)

@@ -35,8 +35,8 @@ void readSize(const std::string& text, RenderOptions& options) {
   const bool parsed = static_cast<bool>(in >> width >> cross >> height) && cross == 'x' && !(in >> rest);
   const auto fits = [](int side) { return side >= kSmallestSide && side <= kLargestSide; };
   if (!parsed || !fits(width) || !fits(height))
-    throw UsageError("--size " + text + ": accepted: WIDTHxHEIGHT such as 1280x720, each " + std::to_string(kSmallestSide) + " to " +
-                     std::to_string(kLargestSide));
+    throw UsageError("--size " + text + ": accepted: WIDTHxHEIGHT such as 1280x720, each " +
+                     std::to_string(kSmallestSide) + " to " + std::to_string(kLargestSide));
   options.width = width;
   options.height = height;
 }
@@ -55,14 +55,17 @@ void requireHash(const std::string& text) {
 }
 
 void addSceneOptions(CLI::App& command, SceneChoice& choice) {
-  command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")->required();
+  command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")
+      ->required();
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
   command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
   command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable hulls");
 }
 
 void addTellingOptions(CLI::App& command, Telling& telling) {
-  command.add_option("--progress", telling.progress, "json, none, or auto: redrawn on a terminal, else a line a second")
+  command
+      .add_option("--progress", telling.progress,
+                  "json, none, or auto: redrawn on a terminal, else a line a second")
       ->check(CLI::IsMember({"json", "none", "auto"}));
   command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
 }
@@ -88,17 +91,21 @@ struct CommandLine {
 
 CommandLine::CommandLine() {
   app.set_version_flag("--version", "carom " + programVersion() + " (" + buildName() + ")");
-  app.footer("Example: carom render sliding -o out/frame_%04d.png\n"
-             "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
-             "            5 simulation invalid, 6 no renderer, 128+n signal n");
+  app.footer(
+      "Example: carom render sliding -o out/frame_%04d.png\n"
+      "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
+      "            5 simulation invalid, 6 no renderer, 128+n signal n");
   list_command = app.add_subcommand("list", "The shipped scenes, one line each");
   list_command->add_flag("--json", list_options.json, "As a JSON array");
   list_command->footer("Example: carom list --json");
   addRender();
   addSimulate();
   check_command = app.add_subcommand("check", "Validates a scene or a mesh file without rendering");
-  check_command->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")->required();
-  check_command->add_option("--mesh", check_options.choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+  check_command
+      ->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")
+      ->required();
+  check_command->add_option("--mesh", check_options.choice.mesh,
+                            "A mesh file in place of the scene's replaceable hulls");
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   doctor_command->footer("Example: carom doctor");
@@ -110,22 +117,32 @@ CommandLine::CommandLine() {
 void CommandLine::addRender() {
   render_command = app.add_subcommand("render", "Simulates a scene and writes PNG frames");
   addSceneOptions(*render_command, render_options.choice);
-  render_command->add_option("-o,--output", render_options.output, "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png)");
-  render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")->capture_default_str();
+  render_command->add_option("-o,--output", render_options.output,
+                             "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png)");
+  render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")
+      ->capture_default_str();
   render_command->add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
-  render_command->add_option("--camera", render_options.camera, "One of the scene's cameras (main, or its first)");
+  render_command->add_option("--camera", render_options.camera,
+                             "One of the scene's cameras (main, or its first)");
   addTellingOptions(*render_command, render_options.telling);
-  render_command->add_flag("-v,--verbose", render_options.telling.verbose, "Tell about scene and renderer first");
-  render_command->footer("Example: carom render drop-mesh --mesh part.stl --size 1920x1080 -o out/part_####.png");
+  render_command->add_flag("-v,--verbose", render_options.telling.verbose,
+                           "Tell about scene and renderer first");
+  render_command->footer(
+      "Example: carom render drop-mesh --mesh part.stl --size 1920x1080 -o out/part_####.png");
 }
 
 void CommandLine::addSimulate() {
-  simulate_command = app.add_subcommand("simulate", "Simulates a scene; prints the final state hash and a line of facts");
+  simulate_command =
+      app.add_subcommand("simulate", "Simulates a scene; prints the final state hash and a line of facts");
   addSceneOptions(*simulate_command, simulate_options.choice);
-  simulate_command->add_option("--csv", simulate_options.csv, "One row a body and frame: poses, velocities, modes");
-  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv")->capture_default_str();
-  simulate_command->add_option("--audit", simulate_options.audit, "One row a step: energy, momentum, gap, counters");
-  simulate_command->add_option("--expect-hash", simulate_options.expected_hash, "Exit 1 when the final state hash differs");
+  simulate_command->add_option("--csv", simulate_options.csv,
+                               "One row a body and frame: poses, velocities, modes");
+  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv")
+      ->capture_default_str();
+  simulate_command->add_option("--audit", simulate_options.audit,
+                               "One row a step: energy, momentum, gap, counters");
+  simulate_command->add_option("--expect-hash", simulate_options.expected_hash,
+                               "Exit 1 when the final state hash differs");
   addTellingOptions(*simulate_command, simulate_options.telling);
   simulate_command->footer("Example: carom simulate resting --csv run.csv --audit steps.csv");
 }
@@ -142,17 +159,20 @@ void refuseExtras(const CommandLine& line) {
   const std::vector<CLI::App*> chosen = line.app.get_subcommands();
   if (chosen.empty()) {
     std::vector<std::string> names;
-    for (const CLI::App* command : line.app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+    for (const CLI::App* command : line.app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
     const std::vector<std::string> extras = line.app.remaining();
     if (extras.empty()) throw UsageError("a command is missing" + acceptedNames("", names));
-    if (extras[0][0] == '-') throw UsageError("unknown option " + extras[0] + acceptedNames(extras[0], optionNames(line.app)));
+    if (extras[0][0] == '-')
+      throw UsageError("unknown option " + extras[0] + acceptedNames(extras[0], optionNames(line.app)));
     throw UsageError("unknown command \"" + extras[0] + "\"" + acceptedNames(extras[0], names));
   }
   const std::vector<std::string> extras = line.app.remaining(true);
   if (extras.empty()) return;
   const std::string word = extras[0].substr(0, extras[0].find('='));
   const std::string name = chosen[0]->get_name();
-  if (word[0] == '-') throw UsageError(name + ": unknown option " + word + acceptedNames(word, optionNames(*chosen[0])));
+  if (word[0] == '-')
+    throw UsageError(name + ": unknown option " + word + acceptedNames(word, optionNames(*chosen[0])));
   throw UsageError(name + ": unexpected argument \"" + word + "\"");
 }
 
@@ -179,7 +199,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     line.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = line.app.get_subcommands();
-    std::cout << (chosen.empty() ? line.app.help() : chosen[0]->help("carom " + chosen[0]->get_name()));
+    std::cout << (chosen.empty() ? line.app.help() : chosen[0]->help("carom"));
     return ExitCode::kOk;
   } catch (const CLI::CallForVersion& version) {
     std::cout << version.what() << '\n';

@@ -37,8 +37,8 @@ ExitCode list(const ListOptions& options) {
     if (options.json) {
       all.push(sceneJson(scene));
     } else {
-      std::cout << std::left << std::setw(24) << scene.name << std::right << std::setw(4) << bodyCount(scene) << " bodies "
-                << std::setw(4) << scene.duration_s << " s  " << scene.description << '\n';
+      std::cout << std::left << std::setw(24) << scene.name << std::right << std::setw(4) << bodyCount(scene)
+                << " bodies " << std::setw(4) << scene.duration_s << " s  " << scene.description << '\n';
     }
   }
   if (options.json) std::cout << all.text(2) << '\n';

@@ -1,5 +1,5 @@
-// `carom render`: the loop of the paper. The world steps to the next frame's time, the frame is drawn, and a second
-// thread encodes it meanwhile.
+// `carom render`: the loop of the paper. The world steps to the next frame's time, the frame is drawn, and a
+// second thread encodes it meanwhile.
 #include "demos/command.h"
 
 #include <cstdio>
@@ -34,7 +34,8 @@ NamedCamera chosenCamera(const Scene& scene, const std::string& name) {
   if (chosen != scene.cameras.end()) return {chosen->first, chosen->second};
   std::vector<std::string> names;
   for (const auto& [known, unused] : scene.cameras) names.push_back(known);
-  throw UsageError("--camera " + name + ": no such camera in " + scene.file.string() + acceptedNames(name, names));
+  throw UsageError("--camera " + name + ": no such camera in " + scene.file.string() +
+                   acceptedNames(name, names));
 }
 
 Manifest emptyManifest(const RenderOptions& options, const Scene& scene, const NamedCamera& camera) {
@@ -112,9 +113,10 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
 }
 
 void tellStart(const Run& run, const Scene& scene) {
-  std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, " << run.manifest.frames_planned << " frames at "
-            << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera " << run.manifest.camera << ", seed "
-            << scene.seed << ", scene hash " << hexText(run.manifest.scene_hash) << '\n'
+  std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, " << run.manifest.frames_planned
+            << " frames at " << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera "
+            << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
+            << hexText(run.manifest.scene_hash) << '\n'
             << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << '\n';
 }
 
@@ -124,7 +126,8 @@ void printReport(const Run& run) {
   const double count = static_cast<double>(m.frames.size());
   char line[256];
   std::snprintf(line, sizeof line,
-                "%zu frames  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms  smallest gap %.3g m",
+                "%zu frames  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms  "
+                "smallest gap %.3g m",
                 m.frames.size(), m.wall_s, count / m.wall_s, total.physics_ms / count, total.draw_ms / count,
                 total.encode_ms / count, run.facts.smallest_gap_m);
   std::cout << run.names.pattern() << "  " << line << '\n';
@@ -133,7 +136,8 @@ void printReport(const Run& run) {
 void noteOlderFrames(const FrameNames& names, int count) {
   std::error_code ignored;
   if (std::filesystem::exists(names.file(count), ignored))
-    std::cerr << "note: " << names.file(count).string() << " and what follows it are from an earlier, longer run\n";
+    std::cerr << "note: " << names.file(count).string()
+              << " and what follows it are from an earlier, longer run\n";
 }
 
 }  // namespace
@@ -142,12 +146,14 @@ ExitCode render(const RenderOptions& options) {
   const double started_s = steadySeconds();
   const Scene scene = chosenScene(options.choice);
   const NamedCamera camera = chosenCamera(scene, options.camera);
-  const FrameNames names(options.output.empty() ? "frames/" + scene.name + "/frame_%04d.png" : options.output);
+  const FrameNames names(options.output.empty() ? "frames/" + scene.name + "/frame_%04d.png"
+                                                : options.output);
   const FrameClock clock({options.fps, scene.rate_hz});
   Manifest manifest = emptyManifest(options, scene, camera);
   manifest.frames_planned = clock.frameCount(scene.duration_s);
   if (manifest.frames_planned < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " + std::to_string(options.fps) + " fps");
+    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
+                     std::to_string(options.fps) + " fps");
 
   SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
   renderer::FrameRenderer pictures({options.width, options.height}, made.world.solids());
@@ -161,7 +167,8 @@ ExitCode render(const RenderOptions& options) {
   FrameWriter writer;
   std::exception_ptr ended_early;
   try {
-    const ProgressStyle style = options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+    const ProgressStyle style =
+        options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
     Progress progress({"frame", manifest.frames_planned}, style, std::cerr, steadySeconds);
     drawFrames(run, pictures, writer, progress);
   } catch (const std::exception&) {

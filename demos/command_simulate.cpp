@@ -42,7 +42,8 @@ std::ostringstream exactRow() {
   return row;
 }
 
-void writeTrajectory(CsvFile& csv, int frame, double time_s, std::span<const std::string> names, std::span<const BodyState> states) {
+void writeTrajectory(CsvFile& csv, int frame, double time_s, std::span<const std::string> names,
+                     std::span<const BodyState> states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& s = states[i];
     const Vec3& p = s.X_WB.position;
@@ -50,9 +51,9 @@ void writeTrajectory(CsvFile& csv, int frame, double time_s, std::span<const std
     const Vec3& v = s.linear_velocity;
     const Vec3& w = s.angular_velocity;
     std::ostringstream row = exactRow();
-    row << frame << ',' << time_s << ",\"" << names[i] << "\"," << p.x() << ',' << p.y() << ',' << p.z() << ',' << q.w()
-        << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ',' << v.y() << ',' << v.z() << ',' << w.x()
-        << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
+    row << frame << ',' << time_s << ",\"" << names[i] << "\"," << p.x() << ',' << p.y() << ',' << p.z()
+        << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ',' << v.y() << ','
+        << v.z() << ',' << w.x() << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
     csv.row(row);
   }
 }
@@ -62,21 +63,23 @@ void writeAudit(CsvFile& csv, int step, const Audit& audit) {
   const Vec3& l = audit.angular_momentum;
   const StepCounters& c = audit.last_step;
   std::ostringstream row = exactRow();
-  row << step << ',' << audit.time_s << ',' << audit.kinetic_energy_J << ',' << audit.potential_energy_J << ',' << p.x()
-      << ',' << p.y() << ',' << p.z() << ',' << l.x() << ',' << l.y() << ',' << l.z() << ',' << audit.smallest_gap_m << ','
-      << audit.resting_bodies << ',' << c.candidate_pairs << ',' << c.distance_queries << ',' << c.contact_points << ','
-      << c.events << ',' << c.stopped_bodies << ',' << c.iteration_limits;
+  row << step << ',' << audit.time_s << ',' << audit.kinetic_energy_J << ',' << audit.potential_energy_J
+      << ',' << p.x() << ',' << p.y() << ',' << p.z() << ',' << l.x() << ',' << l.y() << ',' << l.z() << ','
+      << audit.smallest_gap_m << ',' << audit.resting_bodies << ',' << c.candidate_pairs << ','
+      << c.distance_queries << ',' << c.contact_points << ',' << c.events << ',' << c.stopped_bodies << ','
+      << c.iteration_limits;
   csv.row(row);
 }
 
 void printFacts(const World& world, const RunFacts& facts) {
   const Audit audit = world.audit();
   std::cout << hexText(world.stateHash()) << '\n'
-            << "steps=" << world.stepCount() << " time_s=" << world.time() << " bodies=" << world.bodies().size()
-            << " resting=" << audit.resting_bodies << " kinetic_J=" << audit.kinetic_energy_J
-            << " potential_J=" << audit.potential_energy_J << " smallest_gap_m=" << facts.smallest_gap_m
-            << " events=" << facts.events << " stopped_bodies=" << facts.stopped_bodies
-            << " iteration_limits=" << facts.iteration_limits << '\n';
+            << "steps=" << world.stepCount() << " time_s=" << world.time()
+            << " bodies=" << world.bodies().size() << " resting=" << audit.resting_bodies
+            << " kinetic_J=" << audit.kinetic_energy_J << " potential_J=" << audit.potential_energy_J
+            << " smallest_gap_m=" << facts.smallest_gap_m << " events=" << facts.events
+            << " stopped_bodies=" << facts.stopped_bodies << " iteration_limits=" << facts.iteration_limits
+            << '\n';
 }
 
 }  // namespace
@@ -90,11 +93,13 @@ ExitCode simulate(const SimulateOptions& options) {
 
   catchInterrupts();
   CsvFile trajectory(options.csv, "frame,time_s,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode");
-  CsvFile audits(options.audit,
-                 "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
-                 "distance_queries,contact_points,events,stopped_bodies,iteration_limits");
+  CsvFile audits(
+      options.audit,
+      "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
+      "distance_queries,contact_points,events,stopped_bodies,iteration_limits");
   RunFacts facts;
-  const ProgressStyle style = options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+  const ProgressStyle style =
+      options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
   {
     Progress progress({"step", steps}, style, std::cerr, steadySeconds);
     FrameStates states(made.world, clock, [&](const World& world) {

@@ -1,6 +1,6 @@
 #pragma once
 // A 64-bit fingerprint of bytes, for telling scenes and frames apart in manifests (not against forgery).
-// Multiply-and-fold over little-endian 64-bit words, so that a frame of 720p costs well under a millisecond.
+// Multiply-and-fold over little-endian 64-bit words, so that a frame of 720p costs about a millisecond.
 // Tested in tests/demos/content_hash_test.cpp.
 
 #include <cstddef>

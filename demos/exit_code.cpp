@@ -8,7 +8,9 @@
 namespace carom::demos {
 namespace {
 
-Failure failure(ExitCode code, const std::string& line) { return {static_cast<int>(code), line, false}; }
+Failure failure(ExitCode code, const std::string& line) {
+  return {static_cast<int>(code), line, false};
+}
 
 }  // namespace
 
@@ -26,7 +28,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
   } catch (const renderer::NoRenderer& error) {
     return failure(ExitCode::kNoRenderer, error.what());
   } catch (const Interrupted& interrupted) {
-    return {static_cast<int>(ExitCode::kSignal) + interrupted.signal, "interrupted; what has been written is whole", false};
+    return {static_cast<int>(ExitCode::kSignal) + interrupted.signal,
+            "interrupted; what has been written is whole", false};
   } catch (const std::exception& error) {
     return {static_cast<int>(ExitCode::kSignal) + SIGABRT, error.what(), true};
   }

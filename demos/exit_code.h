@@ -11,13 +11,13 @@ namespace carom::demos {
 
 enum class ExitCode {
   kOk = 0,
-  kNo = 1,           ///< The question has been answered: no.
-  kUsage = 2,        ///< Unknown command or option, or a value out of range.
-  kBadInput = 3,     ///< Bad scene or asset.
+  kNo = 1,        ///< The question has been answered: no.
+  kUsage = 2,     ///< Unknown command or option, or a value out of range.
+  kBadInput = 3,  ///< Bad scene or asset.
   kCannotWrite = 4,
-  kInvalid = 5,      ///< The simulation left what it guarantees.
+  kInvalid = 5,  ///< The simulation left what it guarantees.
   kNoRenderer = 6,
-  kSignal = 128      ///< Plus the signal's number.
+  kSignal = 128  ///< Plus the signal's number.
 };
 
 /// A command line that cannot be carried out as it stands.

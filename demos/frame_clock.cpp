@@ -4,14 +4,17 @@
 
 namespace carom::demos {
 
-int FrameClock::frameCount(double duration_s) const { return static_cast<int>(std::lround(duration_s * rates_.fps)); }
+int FrameClock::frameCount(double duration_s) const {
+  return static_cast<int>(std::lround(duration_s * rates_.fps));
+}
 
 int FrameClock::stepCount(double duration_s) const {
   return static_cast<int>(std::lround(duration_s * rates_.steps_per_second));
 }
 
 StepInstant FrameClock::instant(int frame) const {
-  // t = k / fps and step = t x rate, so step = k x rate / fps. fmod is exact, so that the whole part is never off by one.
+  // t = k / fps and step = t x rate, so step = k x rate / fps. fmod is exact, so that the whole part is never
+  // off by one.
   const double numerator = frame * rates_.steps_per_second;
   const double remainder = std::fmod(numerator, rates_.fps);
   return {static_cast<int>(std::lround((numerator - remainder) / rates_.fps)), remainder / rates_.fps};

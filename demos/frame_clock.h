@@ -1,8 +1,8 @@
 #pragma once
-// Which instant a frame shows: frame k shows exactly t = k / fps, whatever the step of the simulation, and a duration
-// holds round(duration x fps) frames. Where the step does not divide the frame, the instant lies between two steps and
-// the drawn pose is interpolated. Exact: frame, rate and fps stay whole as long as they were given whole.
-// Tested in tests/demos/frame_clock_test.cpp.
+// Which instant a frame shows: frame k shows exactly t = k / fps, whatever the step of the simulation, and a
+// duration holds round(duration x fps) frames. Where the step does not divide the frame, the instant lies
+// between two steps and the drawn pose is interpolated. Exact: frame, rate and fps stay whole as long as they
+// were given whole. Tested in tests/demos/frame_clock_test.cpp.
 
 #include "engine/foundation/frames.h"
 

@@ -13,9 +13,12 @@ FrameNames::FrameNames(const std::string& pattern) : pattern_(pattern) {
   std::smatch match;
   const bool found = std::regex_search(name, match, number);
   const std::string rest = found ? match.suffix().str() : "";
-  const bool once = found && !std::regex_search(rest, number) && (match.prefix().str() + rest).find('%') == std::string::npos;
+  const bool once = found && !std::regex_search(rest, number) &&
+                    (match.prefix().str() + rest).find('%') == std::string::npos;
   if (!once || path.extension() != ".png")
-    throw UsageError("-o " + pattern + ": accepted: a .png name with one frame number as %04d or ####, such as out/frame_%04d.png");
+    throw UsageError(
+        "-o " + pattern +
+        ": accepted: a .png name with one frame number as %04d or ####, such as out/frame_%04d.png");
   folder_ = path.parent_path();
   before_ = match.prefix().str();
   after_ = rest;

@@ -9,7 +9,8 @@ namespace carom::demos {
 
 class FrameNames {
  public:
-  /// Throws UsageError for a pattern without exactly one number in its file name, or that does not end in .png.
+  /// Throws UsageError for a pattern without exactly one number in its file name, or that does not end in
+  /// .png.
   explicit FrameNames(const std::string& pattern);
 
   std::filesystem::path file(int frame) const;

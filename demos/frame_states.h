@@ -1,6 +1,6 @@
 #pragma once
-// Steps a world to the instant of each frame in turn and gives the bodies' states there. The step before is kept, so
-// that a frame between two steps is interpolated and the world never steps for a picture's sake.
+// Steps a world to the instant of each frame in turn and gives the bodies' states there. The step before is
+// kept, so that a frame between two steps is interpolated and the world never steps for a picture's sake.
 // Tested in tests/demos/frame_states_test.cpp.
 
 #include <functional>
@@ -19,8 +19,8 @@ class FrameStates {
   /// Both must outlive this. `after_step` is called after every step.
   FrameStates(World& world, const FrameClock& clock, AfterStep after_step);
 
-  /// Steps on to `frame`, which must not be before the last one asked for; the states at its exact time, valid until
-  /// the next call.
+  /// Steps on to `frame`, which must not be before the last one asked for; the states at its exact time,
+  /// valid until the next call.
   std::span<const BodyState> advanceTo(int frame);
 
   /// Steps on to the end of `step`.

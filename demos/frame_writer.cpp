@@ -21,7 +21,9 @@ FrameRecord writeFrame(FrameToWrite frame) {
 
 FrameWriter::FrameWriter() : thread_([this] { work(); }) {}
 
-FrameWriter::~FrameWriter() { end(); }
+FrameWriter::~FrameWriter() {
+  end();
+}
 
 void FrameWriter::submit(FrameToWrite frame) {
   std::unique_lock lock(mutex_);

@@ -32,7 +32,8 @@ class FrameWriter {
 
   /// Waits while `kMostWaiting` frames are queued. Throws what writing an earlier frame threw.
   void submit(FrameToWrite frame);
-  /// Waits for all frames. Throws what writing one threw; else the records, completed, of all that were written.
+  /// Waits for all frames. Throws what writing one threw; else the records, completed, of all that were
+  /// written.
   std::vector<FrameRecord> finish();
   /// The records of the frames written so far.
   std::vector<FrameRecord> written() const;

@@ -11,8 +11,8 @@
 namespace carom::demos {
 namespace {
 
-/// Hands characters to the parser and counts lines. The parser reads one character past a number, so a line break
-/// counts only once the character after it has been read.
+/// Hands characters to the parser and counts lines. The parser reads one character past a number, so a line
+/// break counts only once the character after it has been read.
 class LineCounter {
  public:
   using value_type = char;
@@ -40,18 +40,24 @@ class LineCounter {
 
 const char* kindName(Json::Kind kind) {
   switch (kind) {
-    case Json::Kind::kNull: return "null";
-    case Json::Kind::kBoolean: return "a boolean";
-    case Json::Kind::kNumber: return "a number";
-    case Json::Kind::kString: return "a string";
-    case Json::Kind::kArray: return "an array";
-    case Json::Kind::kObject: return "an object";
+    case Json::Kind::kNull:
+      return "null";
+    case Json::Kind::kBoolean:
+      return "a boolean";
+    case Json::Kind::kNumber:
+      return "a number";
+    case Json::Kind::kString:
+      return "a string";
+    case Json::Kind::kArray:
+      return "an array";
+    case Json::Kind::kObject:
+      return "an object";
   }
   return "";
 }
 
-/// The library's message without its own numbering: of "[json.exception.parse_error.101] parse error at line 3,
-/// column 9: syntax error ..." only the end.
+/// The library's message without its own numbering: of "[json.exception.parse_error.101] parse error at line
+/// 3, column 9: syntax error ..." only the end.
 std::string parserReason(const std::string& message) {
   const std::size_t bracket = message.find("] ");
   std::string reason = message.substr(bracket == std::string::npos ? 0 : bracket + 2);
@@ -64,8 +70,10 @@ std::string parserReason(const std::string& message) {
 
 nlohmann::ordered_json toLibrary(const Json& value) {
   switch (value.kind()) {
-    case Json::Kind::kBoolean: return value.asBoolean();
-    case Json::Kind::kString: return value.asString();
+    case Json::Kind::kBoolean:
+      return value.asBoolean();
+    case Json::Kind::kString:
+      return value.asString();
     case Json::Kind::kNumber: {
       const double number = value.asNumber();
       if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
@@ -81,7 +89,8 @@ nlohmann::ordered_json toLibrary(const Json& value) {
       for (const auto& [key, member] : value.members()) object[key] = toLibrary(member);
       return object;
     }
-    case Json::Kind::kNull: break;
+    case Json::Kind::kNull:
+      break;
   }
   return nullptr;
 }
@@ -131,7 +140,8 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     return value;
   }
   bool open(Json container) {
-    constexpr std::size_t kDeepest = 64;  // far beyond any scene; keeps hostile files from exhausting the stack
+    constexpr std::size_t kDeepest =
+        64;  // far beyond any scene; keeps hostile files from exhausting the stack
     if (open_.size() >= kDeepest) fail("nested deeper than " + std::to_string(kDeepest) + " levels");
     open_.emplace_back(placed(std::move(container)), "");
     return true;
@@ -176,8 +186,8 @@ Json Json::object(std::initializer_list<Member> members) {
 Json Json::parse(std::string_view text, const std::string& origin) {
   int line = 1;
   JsonBuilder builder(origin, &line);
-  nlohmann::json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), &line), &builder,
-                            nlohmann::json::input_format_t::json, true, true);
+  nlohmann::json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), &line),
+                            &builder, nlohmann::json::input_format_t::json, true, true);
   return builder.take();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// JSON values that remember where they stood, so that every complaint about a file names its line and JSON path.
-// json.cpp is the only file that names the JSON library. Comments (// and /* */) are accepted; keys given twice are not.
-// Tested in tests/demos/json_test.cpp.
+// JSON values that remember where they stood, so that every complaint about a file names its line and JSON
+// path. json.cpp is the only file that names the JSON library. Comments (// and /* */) are accepted; keys
+// given twice are not. Tested in tests/demos/json_test.cpp.
 
 #include <cstdint>
 #include <initializer_list>

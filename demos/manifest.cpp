@@ -11,7 +11,9 @@ namespace carom::demos {
 namespace {
 
 /// Timings are noise below a microsecond.
-double roundedToMicroseconds(double ms) { return std::round(ms * 1000.0) / 1000.0; }
+double roundedToMicroseconds(double ms) {
+  return std::round(ms * 1000.0) / 1000.0;
+}
 
 Json timingsJson(const FrameTimings& timings) {
   return Json::object({{"physics", roundedToMicroseconds(timings.physics_ms)},
@@ -45,24 +47,25 @@ void writeManifest(const Manifest& manifest, const std::filesystem::path& path) 
   Json frames = Json::array();
   for (const FrameRecord& record : manifest.frames) frames.push(frameJson(record));
   const bool complete = static_cast<int>(manifest.frames.size()) == manifest.frames_planned;
-  const Json json = Json::object({{"format", 1},
-                                  {"command", manifest.command},
-                                  {"complete", complete},
-                                  {"scene", manifest.scene},
-                                  {"sceneHash", hexText(manifest.scene_hash)},
-                                  {"seed", static_cast<double>(manifest.seed)},
-                                  {"size", Json::array({manifest.width, manifest.height})},
-                                  {"fps", manifest.fps},
-                                  {"stepsPerSecond", manifest.steps_per_second},
-                                  {"camera", manifest.camera},
-                                  {"version", programVersion()},
-                                  {"build", buildName()},
-                                  {"gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}})},
-                                  {"cpu", cpuClass()},
-                                  {"framesPlanned", manifest.frames_planned},
-                                  {"wall_s", roundedToMicroseconds(manifest.wall_s)},
-                                  {"total_ms", timingsJson(totalTimings(manifest.frames))},
-                                  {"frames", std::move(frames)}});
+  const Json json = Json::object(
+      {{"format", 1},
+       {"command", manifest.command},
+       {"complete", complete},
+       {"scene", manifest.scene},
+       {"sceneHash", hexText(manifest.scene_hash)},
+       {"seed", static_cast<double>(manifest.seed)},
+       {"size", Json::array({manifest.width, manifest.height})},
+       {"fps", manifest.fps},
+       {"stepsPerSecond", manifest.steps_per_second},
+       {"camera", manifest.camera},
+       {"version", programVersion()},
+       {"build", buildName()},
+       {"gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}})},
+       {"cpu", cpuClass()},
+       {"framesPlanned", manifest.frames_planned},
+       {"wall_s", roundedToMicroseconds(manifest.wall_s)},
+       {"total_ms", timingsJson(totalTimings(manifest.frames))},
+       {"frames", std::move(frames)}});
   AtomicFile file(path);
   file.write(json.text(1) + "\n");
   file.commit();

@@ -1,6 +1,7 @@
 #pragma once
-// manifest.json: what a folder of frames is and what each frame cost, so that frames can be told apart, checked and
-// timed later. Written beside the frames, also for a run that was interrupted. Tested in tests/demos/manifest_test.cpp.
+// manifest.json: what a folder of frames is and what each frame cost, so that frames can be told apart,
+// checked and timed later. Written beside the frames, also for a run that was interrupted. Tested in
+// tests/demos/manifest_test.cpp.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,11 +21,11 @@ struct FrameTimings {
 
 struct FrameRecord {
   int frame = 0;
-  std::string file;             ///< Name within the folder.
+  std::string file;  ///< Name within the folder.
   double time_s = 0.0;
-  int step = 0;                 ///< Steps the world had made.
-  std::uint64_t state_hash = 0; ///< Of the world after those steps.
-  std::uint64_t pixel_hash = 0; ///< ContentHash of the image's RGB bytes.
+  int step = 0;                  ///< Steps the world had made.
+  std::uint64_t state_hash = 0;  ///< Of the world after those steps.
+  std::uint64_t pixel_hash = 0;  ///< ContentHash of the image's RGB bytes.
   FrameTimings timings;
 };
 

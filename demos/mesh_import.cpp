@@ -57,7 +57,8 @@ std::vector<std::vector<Vec3>> collectParts(const aiScene& scene, const fs::path
       if (hasFaces(mesh)) parts.push_back(placedVertices(mesh, visit.X_FN, path));
     }
     if (parts.size() > kMostParts)
-      throw InputError(path.string() + ": more than " + std::to_string(kMostParts) + " meshes; accepted: at most that many");
+      throw InputError(path.string() + ": more than " + std::to_string(kMostParts) +
+                       " meshes; accepted: at most that many");
     for (unsigned i = visit.node->mNumChildren; i > 0; --i) {
       const aiNode* child = visit.node->mChildren[i - 1];
       visits.push_back({child, visit.X_FN * child->mTransformation});
@@ -81,7 +82,8 @@ void requireEndOfPlyHeader(const fs::path& path) {
 ImportedMesh importMesh(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw InputError(path.string() + ": no such mesh file");
-  if (!fs::is_regular_file(path, ignored)) throw InputError(path.string() + ": is no file; accepted: a mesh file");
+  if (!fs::is_regular_file(path, ignored))
+    throw InputError(path.string() + ": is no file; accepted: a mesh file");
   requireEndOfPlyHeader(path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices);

@@ -1,7 +1,7 @@
 #pragma once
-// Reads a mesh file of any format that assimp knows, and makes a solid of it: the convex hull of each of the file's
-// meshes, every one placed by the transforms of the nodes it hangs from. Axes and units are taken as they stand.
-// mesh_import.cpp is the only file that names assimp. Tested in tests/demos/mesh_import_test.cpp.
+// Reads a mesh file of any format that assimp knows, and makes a solid of it: the convex hull of each of the
+// file's meshes, every one placed by the transforms of the nodes it hangs from. Axes and units are taken as
+// they stand. mesh_import.cpp is the only file that names assimp. Tested in tests/demos/mesh_import_test.cpp.
 
 #include <filesystem>
 #include <vector>

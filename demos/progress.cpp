@@ -50,10 +50,17 @@ void Progress::done(int count) {
   shown_s_ = now_s;
   const double elapsed_s = now_s - started_s_;
   switch (style_) {
-    case ProgressStyle::kTerminal: out_ << '\r' << line(count, elapsed_s) << "\033[K"; break;
-    case ProgressStyle::kLines: out_ << line(count, elapsed_s) << '\n'; break;
-    case ProgressStyle::kJson: out_ << json(count, elapsed_s) << '\n'; break;
-    case ProgressStyle::kNone: break;
+    case ProgressStyle::kTerminal:
+      out_ << '\r' << line(count, elapsed_s) << "\033[K";
+      break;
+    case ProgressStyle::kLines:
+      out_ << line(count, elapsed_s) << '\n';
+      break;
+    case ProgressStyle::kJson:
+      out_ << json(count, elapsed_s) << '\n';
+      break;
+    case ProgressStyle::kNone:
+      break;
   }
   out_.flush();
 }
@@ -61,8 +68,8 @@ void Progress::done(int count) {
 std::string Progress::line(int count, double elapsed_s) const {
   const Pace pace = paceOf(count, plan_.total, elapsed_s);
   char text[160];
-  std::snprintf(text, sizeof text, "%s %d/%d  %d %%  %.1f %s  eta %.0f s", plan_.unit.c_str(), count, plan_.total,
-                static_cast<int>(100.0 * count / plan_.total), pace.per_second,
+  std::snprintf(text, sizeof text, "%s %d/%d  %d %%  %.1f %s  eta %.0f s", plan_.unit.c_str(), count,
+                plan_.total, static_cast<int>(100.0 * count / plan_.total), pace.per_second,
                 plan_.unit == "frame" ? "fps" : "per s", std::ceil(pace.remaining_s));
   return text;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Progress on stderr: redrawn in place on a terminal, one line a second elsewhere, or JSON lines for programs.
-// The clock is handed in, so that the tests need not wait. Tested in tests/demos/progress_test.cpp.
+// Progress on stderr: redrawn in place on a terminal, one line a second elsewhere, or JSON lines for
+// programs. The clock is handed in, so that the tests need not wait. Tested in tests/demos/progress_test.cpp.
 
 #include <functional>
 #include <iosfwd>

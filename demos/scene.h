@@ -1,6 +1,7 @@
 #pragma once
-// A scene as a person describes it: plain values in SI units, already checked, nothing resolved into solids yet.
-// scene_file.h reads it, scene_world.h makes a world of it. Every part remembers its place in the file for messages.
+// A scene as a person describes it: plain values in SI units, already checked, nothing resolved into solids
+// yet. scene_file.h reads it, scene_world.h makes a world of it. Every part remembers its place in the file
+// for messages.
 
 #include <filesystem>
 #include <map>
@@ -31,11 +32,11 @@ struct CapsuleShape {
 };
 /// The convex hull of points, or of each mesh of a file.
 struct HullShape {
-  std::filesystem::path file;      ///< Empty when `points` are given.
+  std::filesystem::path file;  ///< Empty when `points` are given.
   std::vector<Vec3> points;
   double scale = 1.0;
-  std::optional<double> fit_m;     ///< Scaled so that the longest side is this, and centred on its bounding box.
-  bool replaceable = false;        ///< The mesh of the command line (--mesh) takes the place of `file`.
+  std::optional<double> fit_m;  ///< Scaled so that the longest side is this, and centred on its bounding box.
+  bool replaceable = false;     ///< The mesh of the command line (--mesh) takes the place of `file`.
 };
 struct CompoundPart;
 struct CompoundShape {

@@ -20,7 +20,8 @@ constexpr double kSmallestLength_m = 1e-4;
 constexpr double kLargestLength_m = 1e5;
 constexpr double kLargestSpeed = 1e5;  // m/s and rad/s
 constexpr int kMostBodies = 20000;
-constexpr double kUnitTolerance = 1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
+constexpr double kUnitTolerance =
+    1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
 constexpr double kPi = 3.14159265358979323846;
 
 /// The values that are accepted; a limit that is `open` is itself left out.
@@ -54,13 +55,16 @@ double readNumber(const Json& json, const Range& range) {
 int readWhole(const Json& json, int least, int most) {
   const double value = json.asNumber();
   if (!(value >= least && value <= most) || value != std::floor(value))
-    json.fail(json.shown() + " is out of range; accepted: a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    json.fail(json.shown() + " is out of range; accepted: a whole number from " + std::to_string(least) +
+              " to " + std::to_string(most));
   return static_cast<int>(value);
 }
 
 Vec3 readVec3(const Json& json, const Range& range) {
-  if (json.items().size() != 3) json.fail(json.shown() + " has " + std::to_string(json.items().size()) + " numbers; accepted: three");
-  return {readNumber(json.items()[0], range), readNumber(json.items()[1], range), readNumber(json.items()[2], range)};
+  if (json.items().size() != 3)
+    json.fail(json.shown() + " has " + std::to_string(json.items().size()) + " numbers; accepted: three");
+  return {readNumber(json.items()[0], range), readNumber(json.items()[1], range),
+          readNumber(json.items()[2], range)};
 }
 
 Place placeOf(const Json& json, const std::filesystem::path& file) {
@@ -72,7 +76,8 @@ Place placeOf(const Json& json, const std::filesystem::path& file) {
 Quat readAxisRotation(const Json& json) {
   json.onlyKeys({"axis", "degrees"});
   const Vec3 axis = readVec3(json.at("axis"), kCoordinate);
-  if (!(axis.norm() > kSmallestLength_m)) json.at("axis").fail(json.at("axis").shown() + " has no direction; accepted: an axis of some length");
+  if (!(axis.norm() > kSmallestLength_m))
+    json.at("axis").fail(json.at("axis").shown() + " has no direction; accepted: an axis of some length");
   const double radians = readNumber(json.at("degrees"), {-36000.0, 36000.0}) * kPi / 180.0;
   return rotationBy(axis.normalized() * radians);
 }
@@ -80,12 +85,15 @@ Quat readAxisRotation(const Json& json) {
 Quat readRotation(const Json& json) {
   if (json.kind() == Json::Kind::kObject) return readAxisRotation(json);
   if (json.kind() != Json::Kind::kArray || json.items().size() != 4)
-    json.fail(json.shown() + " is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a unit quaternion [w, x, y, z]");
+    json.fail(
+        json.shown() +
+        " is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a unit quaternion [w, x, y, z]");
   double q[4];
   for (std::size_t i = 0; i < 4; ++i) q[i] = json.items()[i].asNumber();
   const Quat rotation(q[0], q[1], q[2], q[3]);
   if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance))
-    json.fail(json.shown() + " has length " + plainNumber(rotation.norm()) + "; accepted: a unit quaternion [w, x, y, z]");
+    json.fail(json.shown() + " has length " + plainNumber(rotation.norm()) +
+              "; accepted: a unit quaternion [w, x, y, z]");
   return rotation.normalized();
 }
 
@@ -141,7 +149,8 @@ NamedMaterial readMaterial(const Json& json) {
   if (const Json* value = json.find("dynamicFriction")) {
     m.dynamic_friction = readNumber(*value, {0.0, 100.0});
     if (m.dynamic_friction > m.static_friction)
-      value->fail(value->shown() + " is above the static friction of " + plainNumber(m.static_friction) + "; accepted: at most that");
+      value->fail(value->shown() + " is above the static friction of " + plainNumber(m.static_friction) +
+                  "; accepted: at most that");
   }
   if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
   if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
@@ -218,11 +227,13 @@ Shape readShape(const Json& json, const std::filesystem::path& file, bool inside
     shape.form = SphereShape{readNumber(value.at("radius"), kLength)};
   } else if (kind == "capsule") {
     value.onlyKeys({"radius", "length"});
-    shape.form = CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
+    shape.form =
+        CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
   } else if (kind == "hull") {
     shape.form = readHull(value, file);
   } else {
-    if (inside_compound) value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull");
+    if (inside_compound)
+      value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull");
     shape.form = readCompound(value, file);
   }
   return shape;
@@ -234,22 +245,26 @@ Repeat readRepeat(const Json& json) {
   json.onlyKeys({"count", "step", "jitter", "jitterDegrees"});
   Repeat repeat;
   const Json& count = json.at("count");
-  if (count.items().size() != 3) count.fail(count.shown() + " has " + std::to_string(count.items().size()) + " numbers; accepted: three");
+  if (count.items().size() != 3)
+    count.fail(count.shown() + " has " + std::to_string(count.items().size()) + " numbers; accepted: three");
   double total = 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     repeat.count[i] = readWhole(count.items()[i], 1, kMostBodies);
     total *= repeat.count[i];
   }
-  if (total > kMostBodies) count.fail(count.shown() + " makes too many bodies; accepted: at most " + std::to_string(kMostBodies));
+  if (total > kMostBodies)
+    count.fail(count.shown() + " makes too many bodies; accepted: at most " + std::to_string(kMostBodies));
   repeat.step_m = readVec3(json.at("step"), kCoordinate);
-  if (const Json* jitter = json.find("jitter")) repeat.jitter_m = readNumber(*jitter, {0.0, kLargestLength_m});
-  if (const Json* jitter = json.find("jitterDegrees")) repeat.jitter_degrees = readNumber(*jitter, {0.0, 180.0});
+  if (const Json* jitter = json.find("jitter"))
+    repeat.jitter_m = readNumber(*jitter, {0.0, kLargestLength_m});
+  if (const Json* jitter = json.find("jitterDegrees"))
+    repeat.jitter_degrees = readNumber(*jitter, {0.0, 180.0});
   return repeat;
 }
 
 Body readBody(const Json& json, const Materials& materials, const std::filesystem::path& file) {
-  json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material", "color",
-                 "static", "repeat"});
+  json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
+                 "color", "static", "repeat"});
   Body body;
   body.place = placeOf(json, file);
   body.name = json.at("name").asString();
@@ -257,14 +272,16 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
   body.shape = readShape(json.at("shape"), file);
   body.X_WS = readPose(json);
   if (const Json* velocity = json.find("linearVelocity")) body.linear_velocity = readVec3(*velocity, kSpeed);
-  if (const Json* velocity = json.find("angularVelocity")) body.angular_velocity = readVec3(*velocity, kSpeed);
+  if (const Json* velocity = json.find("angularVelocity"))
+    body.angular_velocity = readVec3(*velocity, kSpeed);
   if (const Json* is_static = json.find("static")) body.is_static = is_static->asBoolean();
   if (const Json* material = json.find("material")) {
     const NamedMaterial chosen = chooseMaterial(*material, materials);
     body.material = chosen.physical;
     body.look = chosen.look;
     if (!body.is_static && !(body.material.density_kgpm3 > 0.0))
-      material->fail("density " + plainNumber(body.material.density_kgpm3) + " for a body that moves; accepted: above 0");
+      material->fail("density " + plainNumber(body.material.density_kgpm3) +
+                     " for a body that moves; accepted: above 0");
   }
   if (const Json* color = json.find("color")) body.colors = readColors(*color);
   if (const Json* repeat = json.find("repeat")) body.repeat = readRepeat(*repeat);
@@ -273,13 +290,15 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
   return body;
 }
 
-std::vector<Body> readBodies(const Json& json, const Materials& materials, const std::filesystem::path& file) {
+std::vector<Body> readBodies(const Json& json, const Materials& materials,
+                             const std::filesystem::path& file) {
   std::vector<Body> bodies;
   std::set<std::string> names;
   int total = 0;
   for (const Json& item : json.items()) {
     bodies.push_back(readBody(item, materials, file));
-    if (!names.insert(bodies.back().name).second) item.at("name").fail(item.at("name").shown() + " names two bodies");
+    if (!names.insert(bodies.back().name).second)
+      item.at("name").fail(item.at("name").shown() + " names two bodies");
     total += bodies.back().repeat.total();
     if (total > kMostBodies) item.fail("more bodies than " + std::to_string(kMostBodies));
   }
@@ -298,14 +317,16 @@ renderer::Camera readCamera(const Json& json) {
 }
 
 void readFormat(const Json& json) {
-  if (json.at("format").asNumber() != 1.0) json.at("format").fail(json.at("format").shown() + " is unknown; accepted: 1");
+  if (json.at("format").asNumber() != 1.0)
+    json.at("format").fail(json.at("format").shown() + " is unknown; accepted: 1");
 }
 
 }  // namespace
 
 Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   const Json json = Json::parse(text, path.string());
-  json.onlyKeys({"format", "description", "gravity", "rate", "seed", "materials", "bodies", "cameras", "duration"});
+  json.onlyKeys(
+      {"format", "description", "gravity", "rate", "seed", "materials", "bodies", "cameras", "duration"});
   readFormat(json);
   Scene scene;
   scene.name = path.stem().string();
@@ -313,7 +334,8 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   if (const Json* value = json.find("description")) scene.description = value->asString();
   if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
   if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
-  if (const Json* value = json.find("seed")) scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
+  if (const Json* value = json.find("seed"))
+    scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);

@@ -1,7 +1,7 @@
 #pragma once
-// Reads scene files (JSON with comments; assets/scene.schema.json describes them). Whatever is misspelt, missing or out
-// of range is an InputError of one line with file, line, JSON path, the value, and what is accepted.
-// Tested in tests/demos/scene_file_test.cpp.
+// Reads scene files (JSON with comments; assets/scene.schema.json describes them). Whatever is misspelt,
+// missing or out of range is an InputError of one line with file, line, JSON path, the value, and what is
+// accepted. Tested in tests/demos/scene_file_test.cpp.
 
 #include <filesystem>
 #include <string_view>

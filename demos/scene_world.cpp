@@ -19,12 +19,14 @@ constexpr double kPi = 3.14159265358979323846;
 class JitterStream {
  public:
   JitterStream(std::uint64_t seed, std::size_t body, int copy)
-      : state_(seed * 0x9e3779b97f4a7c15ull + body * 0xbf58476d1ce4e5b9ull + static_cast<std::uint64_t>(copy)) {
+      : state_(seed * 0x9e3779b97f4a7c15ull + body * 0xbf58476d1ce4e5b9ull +
+               static_cast<std::uint64_t>(copy)) {
     next();
   }
   /// Uniform in [-1, 1), a multiple of 2^-52: no rounding, the same on every machine.
   double signedUnit() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1.0; }
-  /// A direction, uniform on the sphere: the first of a bounded number of points of the cube that lies in the ball.
+  /// A direction, uniform on the sphere: the first of a bounded number of points of the cube that lies in the
+  /// ball.
   Vec3 direction() {
     for (int i = 0; i < 64; ++i) {
       const Vec3 p = vector();
@@ -51,7 +53,8 @@ class JitterStream {
 
 Pose poseOfCopy(const Body& body, std::uint64_t seed, std::size_t index, int copy) {
   const Repeat& repeat = body.repeat;
-  const Vec3 cell(copy % repeat.count[0], copy / repeat.count[0] % repeat.count[1], copy / (repeat.count[0] * repeat.count[1]));
+  const Vec3 cell(copy % repeat.count[0], copy / repeat.count[0] % repeat.count[1],
+                  copy / (repeat.count[0] * repeat.count[1]));
   JitterStream random(seed, index, copy);
   Pose X_WS = body.X_WS;
   X_WS.position += cell.cwiseProduct(repeat.step_m) + repeat.jitter_m * random.vector();
@@ -93,16 +96,18 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
     made.world.addBody(description);
     made.names.push_back(body.repeat.total() == 1 ? body.name : body.name + "[" + std::to_string(copy) + "]");
     made.looks.push_back(body.look);
-    if (!body.colors.empty()) made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
+    if (!body.colors.empty())
+      made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
   }
 }
 
-[[noreturn]] void refuseOverlaps(const SceneWorld& made, const Scene& scene, const std::vector<Overlap>& overlaps) {
+[[noreturn]] void refuseOverlaps(const SceneWorld& made, const Scene& scene,
+                                 const std::vector<Overlap>& overlaps) {
   const Overlap& worst = overlaps.front();
   std::ostringstream message;
-  message << scene.file.string() << ": \"" << made.names[static_cast<std::size_t>(worst.body_a)] << "\" and \""
-          << made.names[static_cast<std::size_t>(worst.body_b)] << "\" overlap at the start by " << worst.depth_m
-          << " m";
+  message << scene.file.string() << ": \"" << made.names[static_cast<std::size_t>(worst.body_a)]
+          << "\" and \"" << made.names[static_cast<std::size_t>(worst.body_b)]
+          << "\" overlap at the start by " << worst.depth_m << " m";
   if (overlaps.size() > 1) message << " (the deepest of " << overlaps.size() << " pairs)";
   message << "; accepted: apart, or just touching";
   throw InputError(message.str());
@@ -133,7 +138,8 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh) {
 std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::span<const BodyState> states) {
   std::vector<renderer::Instance> instances;
   for (std::size_t i = 0; i < states.size(); ++i)
-    instances.push_back({scene.world.bodies()[i].solid, states[i].X_WB, scene.looks[i].color, scene.looks[i].checker});
+    instances.push_back(
+        {scene.world.bodies()[i].solid, states[i].X_WB, scene.looks[i].color, scene.looks[i].checker});
   return instances;
 }
 

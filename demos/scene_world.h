@@ -1,7 +1,7 @@
 #pragma once
 // From a described scene to a world that is ready to step, with the names and looks of its bodies beside it.
-// Repeated bodies are laid out here; their jitter comes from an integer generator of our own, so that a seed gives the
-// same scene everywhere. Tested in tests/demos/scene_world_test.cpp.
+// Repeated bodies are laid out here; their jitter comes from an integer generator of our own, so that a seed
+// gives the same scene everywhere. Tested in tests/demos/scene_world_test.cpp.
 
 #include <filesystem>
 #include <optional>
@@ -21,8 +21,8 @@ struct SceneWorld {
   std::vector<SurfaceLook> looks;
 };
 
-/// Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no volume, and
-/// when bodies overlap at the start (both named, with the depth).
+/// Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no
+/// volume, and when bodies overlap at the start (both named, with the depth).
 SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh);
 
 /// What the renderer is to draw for these states of the scene's bodies.

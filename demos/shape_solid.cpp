@@ -30,13 +30,16 @@ ConvexPart placed(const ConvexPart& part, const Pose& X_SP) {
   if (vertices.size() == 1) return {ConvexPolyhedron::point(vertices[0]), part.radius_m};
   if (vertices.size() == 2) return {ConvexPolyhedron::segment(vertices[0], vertices[1]), part.radius_m};
   std::vector<std::vector<int>> loops;
-  for (int f = 0; f < core.faceCount(); ++f) loops.emplace_back(core.faceVertices(f).begin(), core.faceVertices(f).end());
+  for (int f = 0; f < core.faceCount(); ++f)
+    loops.emplace_back(core.faceVertices(f).begin(), core.faceVertices(f).end());
   return {ConvexPolyhedron::fromFaces(std::move(vertices), loops), part.radius_m};
 }
 
 std::vector<ConvexPart> makeParts(const Shape& shape, const Mesh& mesh);
 
-std::vector<ConvexPart> partsOf(const BoxShape& box, const Mesh&) { return {{boxPolyhedron(box.size_m), 0.0}}; }
+std::vector<ConvexPart> partsOf(const BoxShape& box, const Mesh&) {
+  return {{boxPolyhedron(box.size_m), 0.0}};
+}
 
 std::vector<ConvexPart> partsOf(const SphereShape& sphere, const Mesh&) {
   return {{ConvexPolyhedron::point(Vec3::Zero()), sphere.radius_m}};
@@ -48,7 +51,8 @@ std::vector<ConvexPart> partsOf(const CapsuleShape& capsule, const Mesh&) {
 }
 
 std::vector<ConvexPart> partsOf(const HullShape& hull, const Mesh& mesh) {
-  if (!hull.file.empty()) return meshParts(hull.replaceable && mesh ? *mesh : hull.file, hull.scale, hull.fit_m).parts;
+  if (!hull.file.empty())
+    return meshParts(hull.replaceable && mesh ? *mesh : hull.file, hull.scale, hull.fit_m).parts;
   std::vector<std::vector<Vec3>> parts{hull.points};
   for (Vec3& p : parts[0]) p *= hull.scale;
   if (hull.fit_m) fitInto(parts, *hull.fit_m);

@@ -1,6 +1,6 @@
 #pragma once
-// From a described shape to a solid of the engine: primitives, convex hulls of points or mesh files, compounds.
-// Tested in tests/demos/shape_solid_test.cpp.
+// From a described shape to a solid of the engine: primitives, convex hulls of points or mesh files,
+// compounds. Tested in tests/demos/shape_solid_test.cpp.
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +16,8 @@ struct MeshSolid {
   int flat_parts = 0;  ///< Meshes left out because they enclose no volume.
 };
 
-/// The hull of each mesh in the file, scaled by `scale`, or to a longest side of `fit_m` about the middle of the
-/// bounding box. Throws InputError when nothing in it encloses a volume.
+/// The hull of each mesh in the file, scaled by `scale`, or to a longest side of `fit_m` about the middle of
+/// the bounding box. Throws InputError when nothing in it encloses a volume.
 MeshSolid meshParts(const std::filesystem::path& path, double scale, const std::optional<double>& fit_m);
 
 /// The solid of a shape; `mesh` takes the place of every replaceable hull's file.

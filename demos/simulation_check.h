@@ -18,8 +18,8 @@ struct RunFacts {
   long long iteration_limits = 0;
 };
 
-/// Adds a step's audit to the facts; throws SimulationInvalid when a gap has closed or a state is not finite, naming
-/// the step and, for a state, the body.
+/// Adds a step's audit to the facts; throws SimulationInvalid when a gap has closed or a state is not finite,
+/// naming the step and, for a state, the body.
 void checkStep(const World& world, const Audit& audit, std::span<const std::string> names, RunFacts& facts);
 
 }  // namespace carom::demos

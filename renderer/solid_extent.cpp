@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace carom::renderer {
 namespace {
@@ -27,6 +28,14 @@ double matchRounding(const Vec3& half, double reach) {
     (corner > reach ? low : high) = r;
   }
   return low;
+}
+
+// Steiner's formula: the box, slabs on its faces, quarter cylinders on its edges, a ball in its corners.
+double volumeOf(const RoundedBox& box) {
+  const Vec3 size = 2.0 * box.half;
+  const double r = box.radius;
+  const double faces = size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+  return size.prod() + 2.0 * faces * r + std::numbers::pi * r * r * (size.sum() + 4.0 / 3.0 * r);
 }
 
 RoundedBox boxOfSegment(const ConvexPart& part) {
@@ -56,6 +65,12 @@ RoundedBox roundedBox(const ConvexPart& part) {
   box.X_BR.position = 0.5 * (corners.low + corners.high);
   box.radius = matchRounding(half, part.core.radiusAbout(box.X_BR.position) + part.radius_m);
   box.half = (half.array() - box.radius).matrix();
+  // A pointed part fills little of that box: the same form, about its centre of mass, with its volume.
+  const MassProperties mass = polyhedronMass(part.core);
+  const double scale = std::cbrt(mass.mass / volumeOf(box));
+  box.X_BR.position = mass.center;
+  box.half *= scale;
+  box.radius *= scale;
   return box;
 }
 

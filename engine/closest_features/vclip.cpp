@@ -139,7 +139,10 @@ class Walk {
       : pair_(pair), scale_m_(scale_m), here_(anyFeatureDistance(pair, seed.a, seed.b)) {}
 
   Move next() {
-    if (here_.crossing || here_.distance_m == 0.0) return Move::kInside;
+    if (here_.crossing || here_.distance_m == 0.0) {
+      common_is_on_a_ = false;
+      return Move::kInside;
+    }
     if (here_.behind) return here_.features.a.kind == FeatureKind::kFace ? enterA() : enterB();
     const Vec3 n = normalBetween(pair_, here_);
     const Vec3 minus_n_B = -(pair_.R_AB.transpose() * n);
@@ -154,6 +157,8 @@ class Walk {
   }
 
   const FeatureDistance& here() const { return here_; }
+  /// After kInside: the witness that lies in both bodies.
+  const Vec3& commonPoint() const { return common_is_on_a_ ? here_.p_a : here_.p_b; }
 
  private:
   bool moveTo(FeaturePair features) {
@@ -168,6 +173,7 @@ class Walk {
   Move enterB() { return moveToEntry(entryFace(pair_.b, pair_.toB(here_.p_a), pair_.toB(here_.p_b)), false); }
 
   Move moveToEntry(std::optional<int> entry, bool entered_a) {
+    common_is_on_a_ = !entered_a;
     if (!entry) return Move::kInside;
     const Feature face = faceFeature(*entry);
     const bool moved = moveTo(entered_a ? FeaturePair{face, here_.features.b} : FeaturePair{here_.features.a, face});
@@ -198,6 +204,7 @@ class Walk {
   const PolyhedronPair& pair_;
   double scale_m_;
   FeatureDistance here_;
+  bool common_is_on_a_ = false;
 };
 
 // Every vertex against every face and every edge against every edge.
@@ -233,13 +240,11 @@ struct CoreAnswer {
 
 // The axes give the normal, and the depth of cores that intersect. Cores that merely touch keep the witnesses that the
 // walk found: the foot of a support vertex may lie beside its face when several vertices are equally far.
-CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, bool inside, double touching_m) {
+CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, const Vec3* common, double touching_m) {
   const MinimumTranslation m = minimumTranslation(pair);
   if (m.gap_m < -touching_m) return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
-  if (!inside) return {found.distance_m, m.normal, found.p_a, found.p_b, found.features};
-  const bool b_is_behind_face = found.behind && found.features.b.kind == FeatureKind::kFace;
-  const Vec3 common = b_is_behind_face ? found.p_a : found.p_b;
-  return {m.gap_m, m.normal, common, common + m.gap_m * m.normal, m.features};
+  if (!common) return {found.distance_m, m.normal, found.p_a, found.p_b, found.features};
+  return {m.gap_m, m.normal, *common, *common + m.gap_m * m.normal, m.features};
 }
 
 }  // namespace
@@ -259,15 +264,17 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   for (result.states = 1; result.states < bound && (move = walk.next()) == Move::kTaken;) ++result.states;
   result.reached_limit = move == Move::kTaken;
   FeatureDistance found = walk.here();
+  Vec3 common = walk.commonPoint();
   bool inside = move == Move::kInside;
   if (result.reached_limit) {
     found = exhaustiveSearch(pair);
     inside = found.crossing;
+    common = found.p_b;
   }
 
   const bool directed = !inside && found.distance_m > kNoDirection * scale;
   const CoreAnswer core = directed ? CoreAnswer{found.distance_m, normalBetween(pair, found), found.p_a, found.p_b, found.features}
-                                   : fromAxes(pair, found, inside, kNoDirection * scale);
+                                   : fromAxes(pair, found, inside ? &common : nullptr, kNoDirection * scale);
   tracked = core.features;
   result.features = core.features;
   const Mat3 R_WA = X_WA.rotation.toRotationMatrix();

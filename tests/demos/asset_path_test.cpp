@@ -17,7 +17,10 @@ TEST(AssetPath, FindsAShippedSceneByNameAndAnyByPath) {
 }
 
 TEST(AssetPath, NamesTheNearestScene) {
-  EXPECT_EQ(thrownMessage<InputError>([] { findScene("slidimg"); }).rfind("unknown scene \"slidimg\"; did you mean \"sliding\"? accepted: ", 0), 0u);
+  EXPECT_EQ(thrownMessage<InputError>([] {
+              findScene("slidimg");
+            }).rfind("unknown scene \"slidimg\"; did you mean \"sliding\"? accepted: ", 0),
+            0u);
   EXPECT_EQ(thrownMessage<InputError>([] { findScene("no/such.json"); }), "no/such.json: no such scene file");
 }
 

@@ -8,8 +8,8 @@
 namespace carom::demos {
 namespace {
 
-/// Steps of 1/240, 0.002, 0.005, 0.01 s against 24, 30, 60 frames a second. Rates are whole here, so whole-number
-/// arithmetic is the oracle: step = k * rate div fps, fraction = k * rate mod fps / fps.
+/// Steps of 1/240, 0.002, 0.005, 0.01 s against 24, 30, 60 frames a second. Rates are whole here, so
+/// whole-number arithmetic is the oracle: step = k * rate div fps, fraction = k * rate mod fps / fps.
 class FrameClockExactness : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(FrameClockExactness, FrameShowsExactlyKOverFps) {

@@ -17,8 +17,11 @@ TEST(FrameNames, PadsTheNumberAsThePatternSays) {
 }
 
 TEST(FrameNames, RefusesPatternsWithoutExactlyOneNumber) {
-  for (const char* pattern : {"frame.png", "%04d_%04d.png", "##a##.png", "frame_%04d.jpg", "frame_%04d", "%s.png", "out/%04d/", "", "%%04d.png"})
-    EXPECT_NE(thrownMessage<UsageError>([&] { FrameNames names(pattern); }).find("accepted: "), std::string::npos) << pattern;
+  for (const char* pattern : {"frame.png", "%04d_%04d.png", "##a##.png", "frame_%04d.jpg", "frame_%04d",
+                              "%s.png", "out/%04d/", "", "%%04d.png"})
+    EXPECT_NE(thrownMessage<UsageError>([&] { FrameNames names(pattern); }).find("accepted: "),
+              std::string::npos)
+        << pattern;
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 namespace carom::demos {
 namespace {
 
-/// A ball in free flight without gravity: its position is linear in time, so that every frame has a closed form.
+/// A ball in free flight without gravity: its position is linear in time, so that every frame has a closed
+/// form.
 World flyingBall(double rate_hz) {
   WorldSettings settings;
   settings.step_s = 1.0 / rate_hz;
@@ -29,7 +30,8 @@ TEST(FrameStates, ShowEachFrameAtItsExactTime) {
       for (int frame = 0; frame < 100; ++frame) {
         const Vec3 expected = clock.time(frame) * Vec3(3.0, -2.0, 1.0);
         // The world adds up at most 2500 steps, each rounded to half an ulp of a position below 16 m.
-        EXPECT_LT((states.advanceTo(frame)[0].X_WB.position - expected).norm(), 2500 * 1.8e-15) << rate << ' ' << fps << ' ' << frame;
+        EXPECT_LT((states.advanceTo(frame)[0].X_WB.position - expected).norm(), 2500 * 1.8e-15)
+            << rate << ' ' << fps << ' ' << frame;
       }
       EXPECT_EQ(steps, clock.instant(99).lastStepNeeded());
     }

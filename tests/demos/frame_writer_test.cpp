@@ -11,7 +11,8 @@ namespace {
 
 renderer::Image stripes(int seed) {
   renderer::Image image{32, 18, std::vector<std::uint8_t>(32 * 18 * 3)};
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(i * 7 + static_cast<std::size_t>(seed) * 31);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    image.rgb[i] = static_cast<std::uint8_t>(i * 7 + static_cast<std::size_t>(seed) * 31);
   return image;
 }
 

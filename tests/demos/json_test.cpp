@@ -13,7 +13,8 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Json, ReadsCommentsAndRemembersLinesAndPaths) {
-  const Json json = Json::parse("// head\n{ \"a\": 1, /* two\nlines */ \"b\": [\n  true,\n  { \"c\": 2.5 }\n] }\n", "f.json");
+  const Json json = Json::parse(
+      "// head\n{ \"a\": 1, /* two\nlines */ \"b\": [\n  true,\n  { \"c\": 2.5 }\n] }\n", "f.json");
   EXPECT_EQ(json.line(), 2);
   EXPECT_EQ(json.at("a").line(), 2);
   EXPECT_EQ(json.at("b").line(), 3);
@@ -49,7 +50,9 @@ TEST(Json, ComplainsWithPlaceAboutAValueOfAnotherKind) {
   EXPECT_EQ(thrownMessage<InputError>([&] { json.at("a").items()[0].asNumber(); }),
             "f.json:2: a[0]: \"x\" is a string; accepted: a finite number");
   EXPECT_EQ(thrownMessage<InputError>([&] { json.at("b"); }), "f.json:1: key \"b\" is missing");
-  EXPECT_EQ(thrownMessage<InputError>([&] { json.onlyKeys({"b", "position"}); }),
+  EXPECT_EQ(thrownMessage<InputError>([&] {
+              json.onlyKeys({"b", "position"});
+            }),
             "f.json:2: a: unknown key \"a\"; did you mean \"b\"? accepted: b, position");
 }
 

@@ -17,7 +17,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double ringArea(int sides, double radius) { return 0.5 * sides * radius * radius * std::sin(2.0 * kPi / sides); }
+double ringArea(int sides, double radius) {
+  return 0.5 * sides * radius * radius * std::sin(2.0 * kPi / sides);
+}
 
 /// A frustum between two similar, parallel polygons.
 double frustum(double area_a, double area_b, double height) {
@@ -29,11 +31,16 @@ struct ShippedMesh {
   double volume;
   int parts;
 };
-void PrintTo(const ShippedMesh& mesh, std::ostream* out) { *out << mesh.file; }
+void PrintTo(const ShippedMesh& mesh, std::ostream* out) {
+  *out << mesh.file;
+}
 
 const double kRootFive = std::sqrt(5.0);
 const ShippedMesh kShipped[] = {
-    {"gem.obj", frustum(ringArea(8, 0.34), ringArea(8, 0.55), 0.19) + 0.06 * ringArea(8, 0.55) + 0.5 * ringArea(8, 0.55) / 3.0, 1},
+    {"gem.obj",
+     frustum(ringArea(8, 0.34), ringArea(8, 0.55), 0.19) + 0.06 * ringArea(8, 0.55) +
+         0.5 * ringArea(8, 0.55) / 3.0,
+     1},
     {"hammer.obj", 1.2 * 0.14 * 0.14 + 0.3 * 0.7 * 0.3, 2},
     {"wedge.stl", 0.5 * 1.0 * 0.5 * 0.6, 1},
     {"pyramid.stl", 0.8 / 3.0, 1},
@@ -53,19 +60,21 @@ TEST_P(ShippedMeshes, HaveTheVolumeOfTheirClosedForm) {
   MeshSolid mesh = meshParts(shipped(GetParam().file), 1.0, std::nullopt);
   EXPECT_EQ(static_cast<int>(mesh.parts.size()), GetParam().parts);
   EXPECT_EQ(mesh.flat_parts, 0);
-  // Files and importer hold coordinates in single precision: 6e-8 each, three of them in a volume, and half as much
-  // again for the difference of sizes.
+  // Files and importer hold coordinates in single precision: 6e-8 each, three of them in a volume, and half
+  // as much again for the difference of sizes.
   EXPECT_NEAR(Solid(std::move(mesh.parts)).volume() / GetParam().volume, 1.0, 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedMeshes, testing::ValuesIn(kShipped), [](const testing::TestParamInfo<ShippedMesh>& mesh) {
-  const std::string file = mesh.param.file;
-  return file.substr(0, file.find('.')) + "_" + file.substr(file.find('.') + 1);
-});
+INSTANTIATE_TEST_SUITE_P(All, ShippedMeshes, testing::ValuesIn(kShipped),
+                         [](const testing::TestParamInfo<ShippedMesh>& mesh) {
+                           const std::string file = mesh.param.file;
+                           return file.substr(0, file.find('.')) + "_" + file.substr(file.find('.') + 1);
+                         });
 
 TEST(MeshImport, EveryShippedMeshIsInTheTable) {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(shipped(""))) files += entry.is_regular_file() ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped("")))
+    files += entry.is_regular_file() ? 1 : 0;
   EXPECT_EQ(files, std::size(kShipped));
 }
 
@@ -107,18 +116,21 @@ TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
   EXPECT_EQ(refusal(folder.file("empty.obj", "")).rfind("cannot be read as a mesh: ", 0), 0u);
   EXPECT_EQ(refusal(folder.file("cut.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")),
             "cannot be read as a mesh: the PLY header has no end_header");
-  EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("flat"), std::string::npos);
+  EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("flat"),
+            std::string::npos);
   std::string stl = readTextFile(shipped("pyramid.stl"));
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(stl.data() + 84 + 12 + 8, &nan, sizeof nan);  // header, normal, x, y: the first corner's z
-  EXPECT_NE(refusal(folder.file("nan.stl", stl)).find("is not finite; accepted: finite coordinates"), std::string::npos);
+  EXPECT_NE(refusal(folder.file("nan.stl", stl)).find("is not finite; accepted: finite coordinates"),
+            std::string::npos);
 }
 
 TEST(MeshImport, LeavesOutFlatMeshesBesideSolidOnes) {
   const TemporaryFolder folder;
-  const auto path = folder.file("decal.obj",
-                                "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-                                "o decal\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 5 6 7\n");
+  const auto path =
+      folder.file("decal.obj",
+                  "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+                  "o decal\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 5 6 7\n");
   MeshSolid mesh = meshParts(path, 1.0, std::nullopt);
   EXPECT_EQ(mesh.flat_parts, 1);
   EXPECT_NEAR(Solid(std::move(mesh.parts)).volume(), 1.0 / 6.0, 1e-12);

@@ -24,7 +24,8 @@ TEST(NearestName, FindsTheOneThatWasMeant) {
 
 TEST(NearestName, SaysNothingWhenNoneIsNear) {
   EXPECT_EQ(nearestName("waterfall", kScenes), "");
-  EXPECT_EQ(acceptedNames("waterfall", kScenes), "; accepted: sliding, resting, multi-contact, bouncing-ball");
+  EXPECT_EQ(acceptedNames("waterfall", kScenes),
+            "; accepted: sliding, resting, multi-contact, bouncing-ball");
   EXPECT_EQ(acceptedNames("restin", kScenes),
             "; did you mean \"resting\"? accepted: sliding, resting, multi-contact, bouncing-ball");
 }

@@ -27,7 +27,8 @@ struct ProgramEnd {
 class Program {
  public:
   /// Starts it in a folder of its own with `environment` ("NAME=value") added.
-  explicit Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
+  explicit Program(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment = {}) {
     child_ = fork();
     if (child_ < 0) throw std::runtime_error("cannot fork");
     if (child_ == 0) exec(arguments, environment);
@@ -47,7 +48,8 @@ class Program {
   std::filesystem::path out() const { return streams_.path() / "out"; }
   std::filesystem::path err() const { return streams_.path() / "err"; }
 
-  [[noreturn]] void exec(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) const {
+  [[noreturn]] void exec(const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment) const {
     for (const std::string& variable : environment) {
       const std::size_t equals = variable.find('=');
       setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
@@ -68,7 +70,8 @@ class Program {
   pid_t child_ = -1;
 };
 
-inline ProgramEnd runCarom(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
+inline ProgramEnd runCarom(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment = {}) {
   return Program(arguments, environment).wait();
 }
 

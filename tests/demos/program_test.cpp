@@ -17,8 +17,10 @@ namespace fs = std::filesystem;
 
 const std::string kBall =
     "{ \"format\": 1, \"rate\": 500, \"duration\": 0.5, \"bodies\": ["
-    "{ \"name\": \"floor\", \"shape\": { \"box\": [9, 9, 1] }, \"position\": [0, 0, -0.5], \"static\": true, \"material\": { \"checker\": true } },"
-    "{ \"name\": \"ball\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, \"position\": [0, 0, 2], \"color\": \"#d55e00\" } ] }";
+    "{ \"name\": \"floor\", \"shape\": { \"box\": [9, 9, 1] }, \"position\": [0, 0, -0.5], \"static\": true, "
+    "\"material\": { \"checker\": true } },"
+    "{ \"name\": \"ball\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, \"position\": [0, 0, 2], "
+    "\"color\": \"#d55e00\" } ] }";
 
 /// One line that starts with the program's name and holds `part`.
 void expectOneLine(const ProgramEnd& end, const std::string& part) {
@@ -30,10 +32,18 @@ void expectOneLine(const ProgramEnd& end, const std::string& part) {
 
 TEST(Program, HelpOfEveryCommandShowsAnExample) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"--help"}, {"list", "--help"}, {"render", "--help"}, {"simulate", "--help"}, {"check", "--help"}, {"doctor", "--help"}}) {
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"list", "--help"},
+                                             {"render", "--help"},
+                                             {"simulate", "--help"},
+                                             {"check", "--help"},
+                                             {"doctor", "--help"}}) {
     const ProgramEnd end = runCarom(arguments);
     EXPECT_EQ(end.code, 0);
     EXPECT_NE(end.out.find("Example: carom "), std::string::npos) << end.out;
+    EXPECT_NE(end.out.find("Usage: carom " + (arguments.size() > 1 ? arguments[0] + " [" : "[")),
+              std::string::npos)
+        << end.out;
     EXPECT_EQ(end.err, "");
   }
   EXPECT_EQ(runCarom({"--version"}).out.rfind("carom 0.", 0), 0u);
@@ -44,7 +54,8 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"a command is missing", {}},
       {"unknown command \"rendr\"; did you mean \"render\"?", {"rendr", "sliding"}},
       {"unknown option --versoin; did you mean \"--version\"?", {"--versoin"}},
-      {"render: unknown option --durtion; did you mean \"--duration\"?", {"render", "sliding", "--durtion", "1"}},
+      {"render: unknown option --durtion; did you mean \"--duration\"?",
+       {"render", "sliding", "--durtion", "1"}},
       {"render: unexpected argument \"resting\"", {"render", "sliding", "resting"}},
       {"--size 64: accepted: WIDTHxHEIGHT", {"render", "sliding", "--size", "64"}},
       {"--size 1x1: accepted:", {"render", "sliding", "--size", "1x1"}},
@@ -69,10 +80,20 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
 TEST(Program, BadScenesAndAssetsEndWith3) {
   const TemporaryFolder folder;
   const std::map<std::string, fs::path> scenes = {
-      {"did you mean \"shape\"?", folder.file("key.json", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shap\": { \"box\": [1, 1, 1] } } ] }")},
-      {"overlap at the start by 0.5 m", folder.file("overlap.json", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] }, \"repeat\": { \"count\": [2, 1, 1], \"step\": [0.5, 0, 0] } } ] }")},
-      {"density 0", folder.file("mass.json", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] }, \"material\": { \"density\": 0 } } ] }")},
-      {"flat", folder.file("flat.json", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"hull\": { \"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0]] } } } ] }")},
+      {"did you mean \"shape\"?",
+       folder.file(
+           "key.json",
+           "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shap\": { \"box\": [1, 1, 1] } } ] }")},
+      {"overlap at the start by 0.5 m",
+       folder.file("overlap.json",
+                   "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] }, "
+                   "\"repeat\": { \"count\": [2, 1, 1], \"step\": [0.5, 0, 0] } } ] }")},
+      {"density 0", folder.file("mass.json",
+                                "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, "
+                                "1, 1] }, \"material\": { \"density\": 0 } } ] }")},
+      {"flat", folder.file("flat.json",
+                           "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"hull\": { "
+                           "\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0]] } } } ] }")},
       {"no such scene file", folder.path() / "none.json"},
       {"did you mean \"sliding\"?", "slidin"},
       {"no such mesh file", folder.path() / "none.stl"},
@@ -90,10 +111,12 @@ TEST(Program, UnwritableTargetsEndWith4) {
   const TemporaryFolder folder;
   const fs::path scene = folder.file("ball.json", kBall);
   const std::string below_a_file = (scene / "out").string();
-  const ProgramEnd render = runCarom({"render", scene.string(), "--size", "64x36", "--progress", "none", "-o", below_a_file + "/f_%04d.png"});
+  const ProgramEnd render = runCarom({"render", scene.string(), "--size", "64x36", "--progress", "none", "-o",
+                                      below_a_file + "/f_%04d.png"});
   EXPECT_EQ(render.code, 4);
   expectOneLine(render, "cannot write " + below_a_file);
-  const ProgramEnd simulate = runCarom({"simulate", scene.string(), "--progress", "none", "--csv", below_a_file});
+  const ProgramEnd simulate =
+      runCarom({"simulate", scene.string(), "--progress", "none", "--csv", below_a_file});
   EXPECT_EQ(simulate.code, 4);
   expectOneLine(simulate, "cannot write " + below_a_file);
 }
@@ -107,7 +130,8 @@ TEST(Program, NoRendererEndsWith6AndSaysHowToGetOne) {
 TEST(Program, DoctorFindsThisMachineFit) {
   const ProgramEnd end = runCarom({"doctor"});
   EXPECT_EQ(end.code, 0) << end.err;
-  for (const char* part : {"GL renderer", "GL version", "MSAA limit", "test render     ok", "assimp", "missing         nothing"})
+  for (const char* part :
+       {"GL renderer", "GL version", "MSAA limit", "test render     ok", "assimp", "missing         nothing"})
     EXPECT_NE(end.out.find(part), std::string::npos) << part << '\n' << end.out;
 }
 
@@ -132,7 +156,8 @@ TEST(Program, RenderLeavesExactlyTheFramesAndTheirManifest) {
     const renderer::DecodedPng png = renderer::readPng(frames / frame.at("file").asString());
     EXPECT_EQ(png.image.width, 64);
     EXPECT_EQ(png.image.height, 36);
-    EXPECT_EQ(hexText(ContentHash().add(png.image.rgb.data(), png.image.rgb.size()).value()), frame.at("pixelHash").asString());
+    EXPECT_EQ(hexText(ContentHash().add(png.image.rgb.data(), png.image.rgb.size()).value()),
+              frame.at("pixelHash").asString());
     const std::map<std::string, std::string> text(png.text.begin(), png.text.end());
     EXPECT_EQ(text.at("State"), frame.at("stateHash").asString());
     EXPECT_EQ(text.at("Scene"), "ball " + manifest.at("sceneHash").asString());
@@ -149,7 +174,8 @@ TEST(Program, SameSceneSamePixels) {
     const Program program({"render", scene.string(), "--size", "64x36", "-q"});
     const ProgramEnd end = program.wait();
     EXPECT_EQ(end.err, "");
-    const Json manifest = Json::parse(readTextFile(program.folder() / "frames/ball/manifest.json"), "manifest.json");
+    const Json manifest =
+        Json::parse(readTextFile(program.folder() / "frames/ball/manifest.json"), "manifest.json");
     for (const Json& frame : manifest.at("frames").items())
       run.push_back(frame.at("stateHash").asString() + frame.at("pixelHash").asString());
   }
@@ -159,9 +185,11 @@ TEST(Program, SameSceneSamePixels) {
 
 /// Waits until the first frame is there, sends the signal, and looks at what is left.
 void expectCleanStop(int number) {
-  const Program program({"render", "resting", "--size", "64x36", "--fps", "240", "--duration", "600", "--progress", "none"});
+  const Program program(
+      {"render", "resting", "--size", "64x36", "--fps", "240", "--duration", "600", "--progress", "none"});
   const fs::path frames = program.folder() / "frames/resting";
-  for (int i = 0; i < 3000 && !fs::exists(frames / "frame_0005.png"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 3000 && !fs::exists(frames / "frame_0005.png"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   program.signal(number);
   const ProgramEnd end = program.wait();
   EXPECT_EQ(end.code, 128 + number);
@@ -179,8 +207,12 @@ void expectCleanStop(int number) {
   EXPECT_EQ(manifest.at("frames").items().size(), pictures);
 }
 
-TEST(Program, InterruptLeavesOnlyWholeFrames) { expectCleanStop(SIGINT); }
-TEST(Program, TerminationLeavesOnlyWholeFrames) { expectCleanStop(SIGTERM); }
+TEST(Program, InterruptLeavesOnlyWholeFrames) {
+  expectCleanStop(SIGINT);
+}
+TEST(Program, TerminationLeavesOnlyWholeFrames) {
+  expectCleanStop(SIGTERM);
+}
 
 TEST(Program, SimulatePrintsAHashThatCanBeExpected) {
   const TemporaryFolder folder;
@@ -215,14 +247,17 @@ TEST(Program, ListNamesEveryShippedScene) {
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_EQ(Json::parse(end.out, "list").items().size(), shippedScenes().size());
   const ProgramEnd lines = runCarom({"list"});
-  EXPECT_EQ(static_cast<std::size_t>(std::count(lines.out.begin(), lines.out.end(), '\n')), shippedScenes().size());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(lines.out.begin(), lines.out.end(), '\n')),
+            shippedScenes().size());
 }
 
 TEST(Program, CheckSaysInOneLineWhatASceneOrMeshHolds) {
   const ProgramEnd mesh = runCarom({"check", std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj"});
   EXPECT_EQ(mesh.code, 0);
-  EXPECT_NE(mesh.out.find(": ok  2 parts  16 vertices  12 faces  volume 0.08652"), std::string::npos) << mesh.out;
-  const ProgramEnd scene = runCarom({"check", "drop-mesh", "--mesh", std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj"});
+  EXPECT_NE(mesh.out.find(": ok  2 parts  16 vertices  12 faces  volume 0.08652"), std::string::npos)
+      << mesh.out;
+  const ProgramEnd scene =
+      runCarom({"check", "drop-mesh", "--mesh", std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj"});
   EXPECT_EQ(scene.code, 0) << scene.err;
   EXPECT_EQ(std::count(scene.out.begin(), scene.out.end(), '\n'), 1);
 }

@@ -49,7 +49,9 @@ TEST(Progress, SpeaksJsonToPrograms) {
   EXPECT_NEAR(json.at("eta_s").asNumber(), 4.0, 1e-9);
 }
 
-TEST(Progress, SaysNothingWhenAskedTo) { EXPECT_EQ(progressOf(ProgressStyle::kNone), ""); }
+TEST(Progress, SaysNothingWhenAskedTo) {
+  EXPECT_EQ(progressOf(ProgressStyle::kNone), "");
+}
 
 }  // namespace
 }  // namespace carom::demos

@@ -20,31 +20,42 @@ struct Refusal {
   std::string text;
   std::string message;  ///< Without the file's name.
 };
-void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
+void PrintTo(const Refusal& refusal, std::ostream* out) {
+  *out << refusal.name;
+}
 
 const std::string kBox = "\"shape\": { \"box\": [1, 1, 1] }";
 const char kOneOfShapes[] = "accepted: exactly one of box, sphere, capsule, hull, compound";
 
 const Refusal kRefusals[] = {
     {"MisspeltTopKey", "{ \"format\": 1, \"boddies\": [] }",
-     ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: format, description, gravity, rate, seed, "
+     ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: format, description, gravity, "
+     "rate, seed, "
      "materials, bodies, cameras, duration"},
     {"MisspeltShape", bodyScene("\"shape\": { \"bx\": [1, 1, 1] }"),
-     ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, hull, compound"},
-    {"MisspeltMaterial", "{ \"format\": 1, \"materials\": { \"wood\": {} },\n \"bodies\": [ { \"name\": \"a\", \"material\": \"wod\", " + kBox + " } ] }",
+     ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, "
+     "hull, compound"},
+    {"MisspeltMaterial",
+     "{ \"format\": 1, \"materials\": { \"wood\": {} },\n \"bodies\": [ { \"name\": \"a\", \"material\": "
+     "\"wod\", " +
+         kBox + " } ] }",
      ":2: bodies[0].material: unknown material \"wod\"; did you mean \"wood\"? accepted: wood"},
-    {"KeyOfALaterFormat", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"fluids\": [] }",
-     ":2: fluids: unknown key \"fluids\"; accepted: format, description, gravity, rate, seed, materials, bodies, cameras, duration"},
+    {"KeyOfALaterFormat",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"fluids\": [] }",
+     ":2: fluids: unknown key \"fluids\"; accepted: format, description, gravity, rate, seed, materials, "
+     "bodies, cameras, duration"},
     {"UnknownFormat", "{ \"format\": 2, \"bodies\": [] }", ":1: format: 2 is unknown; accepted: 1"},
     {"MissingFormat", "{ \"bodies\": [] }", ":1: key \"format\" is missing"},
     {"NoBodies", "{ \"format\": 1, \"bodies\": [] }", ":1: bodies: a scene needs at least one body"},
     {"NanSize", bodyScene("\"shape\": { \"box\": [1, NaN, 1] }"), ":3: syntax error"},
-    {"InfiniteSize", bodyScene("\"shape\": { \"box\": [1, 1e999, 1] }"), ":3: number overflow parsing '1e999'"},
+    {"InfiniteSize", bodyScene("\"shape\": { \"box\": [1, 1e999, 1] }"),
+     ":3: number overflow parsing '1e999'"},
     {"ZeroSize", bodyScene("\"shape\": { \"box\": [1, 0, 1] }"),
      ":3: bodies[0].shape.box[1]: 0 is out of range; accepted: 0.0001 to 100000"},
     {"NegativeRadius", bodyScene("\"shape\": { \"sphere\": { \"radius\": -0.5 } }"),
      ":3: bodies[0].shape.sphere.radius: -0.5 is out of range; accepted: 0.0001 to 100000"},
-    {"TwoSizes", bodyScene("\"shape\": { \"box\": [1, 2] }"), ":3: bodies[0].shape.box: [1,2] has 2 numbers; accepted: three"},
+    {"TwoSizes", bodyScene("\"shape\": { \"box\": [1, 2] }"),
+     ":3: bodies[0].shape.box: [1,2] has 2 numbers; accepted: three"},
     {"SizeInWords", bodyScene("\"shape\": { \"box\": [1, \"two\", 3] }"),
      ":3: bodies[0].shape.box[1]: \"two\" is a string; accepted: a finite number"},
     {"NoShape", bodyScene("\"shape\": {}"), std::string(":3: bodies[0].shape: ") + kOneOfShapes},
@@ -55,18 +66,22 @@ const Refusal kRefusals[] = {
      ":3: bodies[0].shape.hull.file: no file \"meshes/gemm.obj\" beside the scene or in the assets folder"},
     {"NeitherFileNorPoints", bodyScene("\"shape\": { \"hull\": {} }"),
      ":3: bodies[0].shape.hull: accepted: either \"file\" or \"points\""},
-    {"ScaleAndFit", bodyScene("\"shape\": { \"hull\": { \"file\": \"meshes/gem.obj\", \"scale\": 2, \"fit\": 1 } }"),
+    {"ScaleAndFit",
+     bodyScene("\"shape\": { \"hull\": { \"file\": \"meshes/gem.obj\", \"scale\": 2, \"fit\": 1 } }"),
      ":3: bodies[0].shape.hull.fit: given together with \"scale\"; accepted: one of them"},
     {"NestedCompound", bodyScene("\"shape\": { \"compound\": [ { \"shape\": { \"compound\": [] } } ] }"),
-     ":3: bodies[0].shape.compound[0].shape.compound: a compound cannot hold a compound; accepted: box, sphere, capsule, hull"},
+     ":3: bodies[0].shape.compound[0].shape.compound: a compound cannot hold a compound; accepted: box, "
+     "sphere, capsule, hull"},
     {"ZeroMass", bodyScene(kBox + ", \"material\": { \"density\": 0 }"),
      ":3: bodies[0].material: density 0 for a body that moves; accepted: above 0"},
     {"NegativeDensity", bodyScene(kBox + ", \"material\": { \"density\": -1 }"),
      ":3: bodies[0].material.density: -1 is out of range; accepted: 0 to 1e+06"},
     {"TooBouncy", bodyScene(kBox + ", \"material\": { \"restitution\": 1.1 }"),
      ":3: bodies[0].material.restitution: 1.1 is out of range; accepted: 0 to 1"},
-    {"DynamicAboveStaticFriction", bodyScene(kBox + ", \"material\": { \"staticFriction\": 0.3, \"dynamicFriction\": 0.4 }"),
-     ":3: bodies[0].material.dynamicFriction: 0.4 is above the static friction of 0.3; accepted: at most that"},
+    {"DynamicAboveStaticFriction",
+     bodyScene(kBox + ", \"material\": { \"staticFriction\": 0.3, \"dynamicFriction\": 0.4 }"),
+     ":3: bodies[0].material.dynamicFriction: 0.4 is above the static friction of 0.3; accepted: at most "
+     "that"},
     {"BadQuaternion", bodyScene(kBox + ", \"rotation\": [1, 1, 0, 0]"),
      ":3: bodies[0].rotation: [1,1,0,0] has length 1.41421; accepted: a unit quaternion [w, x, y, z]"},
     {"ZeroQuaternion", bodyScene(kBox + ", \"rotation\": [0, 0, 0, 0]"),
@@ -74,8 +89,10 @@ const Refusal kRefusals[] = {
     {"ZeroAxis", bodyScene(kBox + ", \"rotation\": { \"axis\": [0, 0, 0], \"degrees\": 30 }"),
      ":3: bodies[0].rotation.axis: [0,0,0] has no direction; accepted: an axis of some length"},
     {"RotationInWords", bodyScene(kBox + ", \"rotation\": \"up\""),
-     ":3: bodies[0].rotation: \"up\" is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a unit quaternion [w, x, y, z]"},
-    {"BadColor", bodyScene(kBox + ", \"color\": \"red\""), ":3: bodies[0].color: \"red\" is no colour; accepted: \"#rrggbb\""},
+     ":3: bodies[0].rotation: \"up\" is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a "
+     "unit quaternion [w, x, y, z]"},
+    {"BadColor", bodyScene(kBox + ", \"color\": \"red\""),
+     ":3: bodies[0].color: \"red\" is no colour; accepted: \"#rrggbb\""},
     {"MovingStatic", bodyScene(kBox + ", \"static\": true, \"linearVelocity\": [1, 0, 0]"),
      ":3: bodies[0]: a static body has no velocity; accepted: leave out linearVelocity and angularVelocity"},
     {"HugeCount", bodyScene(kBox + ", \"repeat\": { \"count\": [1000, 1000, 1000], \"step\": [2, 2, 2] }"),
@@ -84,16 +101,21 @@ const Refusal kRefusals[] = {
      ":3: bodies[0].repeat.count[0]: 1.5 is out of range; accepted: a whole number from 1 to 20000"},
     {"EndlessDuration", "{ \"format\": 1, \"duration\": 0, \"bodies\": [] }",
      ":1: duration: 0 is out of range; accepted: above 0 to 3600"},
-    {"TwoBodiesOfOneName", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " },\n { \"name\": \"a\", " + kBox + " } ] }",
+    {"TwoBodiesOfOneName",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " },\n { \"name\": \"a\", " + kBox +
+         " } ] }",
      ":2: bodies[1].name: \"a\" names two bodies"},
-    {"BlindCamera", "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"cameras\": { \"main\": { \"eye\": [1, 2, 3], \"target\": [1, 2, 3] } } }",
+    {"BlindCamera",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
+         " } ],\n \"cameras\": { \"main\": { \"eye\": [1, 2, 3], \"target\": [1, 2, 3] } } }",
      ":2: cameras.main: eye and target coincide"},
 };
 
 class SceneFileRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(SceneFileRefuses, InOneLineThatNamesPlaceValueAndWhatIsAccepted) {
-  const std::string message = thrownMessage<InputError>([] { parseScene(GetParam().text, "scenes/try.json"); });
+  const std::string message =
+      thrownMessage<InputError>([] { parseScene(GetParam().text, "scenes/try.json"); });
   const std::string expected = "scenes/try.json" + GetParam().message;
   EXPECT_EQ(message.substr(0, expected.size()), expected);
   EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -105,14 +127,15 @@ INSTANTIATE_TEST_SUITE_P(All, SceneFileRefuses, testing::ValuesIn(kRefusals),
                          [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
 
 TEST(SceneFile, ReadsWhatIsWritten) {
-  const Scene scene = parseScene(R"({ "format": 1, "description": "d", "gravity": [0, 0, -1.62], "rate": 500, "seed": 9, "duration": 2.5,
+  const Scene scene = parseScene(
+      R"({ "format": 1, "description": "d", "gravity": [0, 0, -1.62], "rate": 500, "seed": 9, "duration": 2.5,
       // a comment
       "materials": { "wood": { "staticFriction": 0.6, "dynamicFriction": 0.5, "restitution": 0.3, "density": 600, "color": "#ff8000", "checker": true } },
       "bodies": [ { "name": "crate", "shape": { "capsule": { "radius": 0.2, "length": 0.6 } }, "position": [1, 2, 3],
                     "rotation": { "axis": [0, 0, 2], "degrees": 90 }, "linearVelocity": [4, 5, 6], "angularVelocity": [7, 8, 9],
                     "material": "wood", "color": ["#000000", "#ffffff"], "repeat": { "count": [2, 3, 4], "step": [1, 1, 2], "jitter": 0.1, "jitterDegrees": 5 } } ],
       "cameras": { "far": { "eye": [9, 9, 9], "target": [0, 0, 1], "fovDegrees": 25 } } })",
-                                 "scenes/moon.json");
+      "scenes/moon.json");
   EXPECT_EQ(scene.name, "moon");
   EXPECT_EQ(scene.gravity, Vec3(0.0, 0.0, -1.62));
   EXPECT_EQ(scene.rate_hz, 500.0);

@@ -15,6 +15,7 @@ namespace carom::demos {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
+constexpr double kInTheWindow = 3e-4;  // m: below the margin by which the smallest shipped parts (0.1 m) are paired
 
 // Steps a scene to its end and shows `look` the world at every frame.
 template <typename Look>
@@ -38,8 +39,10 @@ TEST_P(EveryShippedScene, NeverOverlapsInAnyFrame) {
     smallest = std::min(smallest, gap.gap_m);
     ASSERT_GT(gap.gap_m, 0.0) << made.names[static_cast<std::size_t>(gap.body_a)] << " and "
                               << made.names[static_cast<std::size_t>(gap.body_b)] << " at " << world.time() << " s";
-    // What the engine says of its gaps is what the oracle sees (poses in metres: rounding far below 1e-9).
-    if (world.audit().smallest_gap_m < 0.01) {
+    // The engine speaks of candidate pairs only: it may not see the closest pair of a loose scene, but it may not see
+    // it closer either, and within the collision window it must see it (poses in metres: rounding far below 1e-9).
+    ASSERT_GT(world.audit().smallest_gap_m, gap.gap_m - 1e-9) << world.time();
+    if (gap.gap_m < kInTheWindow) {
       ASSERT_NEAR(world.audit().smallest_gap_m, gap.gap_m, 1e-9) << world.time();
     }
     ASSERT_EQ(world.audit().last_step.iteration_limits, 0) << world.time();

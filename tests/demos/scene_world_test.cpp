@@ -16,7 +16,8 @@ SceneWorld worldOf(const std::string& bodies, std::uint64_t seed = 1) {
 }
 
 const std::string kRepeated =
-    "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [10, 0, 0], \"color\": [\"#ff0000\", \"#00ff00\"],"
+    "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [10, 0, 0], \"color\": "
+    "[\"#ff0000\", \"#00ff00\"],"
     " \"repeat\": { \"count\": [2, 3, 4], \"step\": [2, 3, 4], \"jitter\": 0.05, \"jitterDegrees\": 20 } }";
 
 TEST(SceneWorld, LaysCopiesOutOnTheLattice) {
@@ -45,28 +46,35 @@ TEST(SceneWorld, JitterFollowsTheSeedAndNothingElse) {
 TEST(SceneWorld, PositionIsThatOfTheDescribedFrame) {
   // A tetrahedron whose centre of mass is (1/4, 1/4, 1/4) off its own origin, turned by 180 degrees about z.
   const SceneWorld made = worldOf(
-      "{ \"name\": \"t\", \"shape\": { \"hull\": { \"points\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] } }, \"position\": [5, 6, 7],"
+      "{ \"name\": \"t\", \"shape\": { \"hull\": { \"points\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] } }, "
+      "\"position\": [5, 6, 7],"
       " \"rotation\": [0, 0, 0, 1] }");
   EXPECT_LT((made.world.states()[0].X_WB.position - Vec3(4.75, 5.75, 7.25)).norm(), 1e-12);
 }
 
 TEST(SceneWorld, RefusesAnOverlapWithBothNamesAndTheDepth) {
   const std::string message = thrownMessage<InputError>([] {
-    worldOf("{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": true },"
-            "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.25] }");
+    worldOf(
+        "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "
+        "true },"
+        "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.25] }");
   });
-  EXPECT_EQ(message, "s.json: \"floor\" and \"crate\" overlap at the start by 0.25 m; accepted: apart, or just touching");
+  EXPECT_EQ(
+      message,
+      "s.json: \"floor\" and \"crate\" overlap at the start by 0.25 m; accepted: apart, or just touching");
 }
 
 TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
   const SceneWorld made = worldOf(
-      "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": true },"
+      "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "
+      "true },"
       "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.5] }");
   EXPECT_EQ(made.world.bodies().size(), 2u);
 }
 
 TEST(SceneWorld, TakesAMeshOnlyWhereOneCanBeReplaced) {
-  const Scene scene = parseScene("{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ] }", "s.json");
+  const Scene scene = parseScene(
+      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ] }", "s.json");
   EXPECT_EQ(thrownMessage<InputError>([&] { makeSceneWorld(scene, "x.obj"); }),
             "s.json: takes no --mesh: no hull in it says \"replaceable\": true");
 }

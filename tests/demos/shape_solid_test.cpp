@@ -11,18 +11,23 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Shape shapeOf(decltype(Shape::form) form) { return {std::move(form), "s.json:7: bodies[2].shape.x"}; }
+Shape shapeOf(decltype(Shape::form) form) {
+  return {std::move(form), "s.json:7: bodies[2].shape.x"};
+}
 
 TEST(ShapeSolid, PrimitivesHaveTheirVolumes) {
   EXPECT_NEAR(makeSolid(shapeOf(BoxShape{Vec3(1.0, 2.0, 3.0)}), std::nullopt).volume(), 6.0, 1e-12);
   EXPECT_NEAR(makeSolid(shapeOf(SphereShape{0.5}), std::nullopt).volume(), kPi / 6.0, 1e-12);
-  EXPECT_NEAR(makeSolid(shapeOf(CapsuleShape{0.5, 2.0}), std::nullopt).volume(), kPi / 6.0 + kPi / 2.0, 1e-12);
+  EXPECT_NEAR(makeSolid(shapeOf(CapsuleShape{0.5, 2.0}), std::nullopt).volume(), kPi / 6.0 + kPi / 2.0,
+              1e-12);
 }
 
 TEST(ShapeSolid, CompoundPlacesItsParts) {
   CompoundShape compound;
-  compound.parts.push_back({shapeOf(BoxShape{Vec3(1.0, 1.0, 1.0)}), Pose{Quat::Identity(), Vec3(0.0, 0.0, 1.0)}});
-  compound.parts.push_back({shapeOf(BoxShape{Vec3(3.0, 1.0, 1.0)}), Pose{rotationBy(Vec3(0.0, 0.0, kPi / 2.0)), Vec3(0.0, 4.0, 1.0)}});
+  compound.parts.push_back(
+      {shapeOf(BoxShape{Vec3(1.0, 1.0, 1.0)}), Pose{Quat::Identity(), Vec3(0.0, 0.0, 1.0)}});
+  compound.parts.push_back({shapeOf(BoxShape{Vec3(3.0, 1.0, 1.0)}),
+                            Pose{rotationBy(Vec3(0.0, 0.0, kPi / 2.0)), Vec3(0.0, 4.0, 1.0)}});
   const Solid solid = makeSolid(shapeOf(std::move(compound)), std::nullopt);
   EXPECT_NEAR(solid.volume(), 4.0, 1e-12);
   // Centre of mass: (1 * (0, 0, 1) + 3 * (0, 4, 1)) / 4 = (0, 3, 1).

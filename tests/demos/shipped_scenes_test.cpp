@@ -1,5 +1,5 @@
-// Every shipped scene is valid, starts without an overlap, and agrees with the schema; the schema refuses what the
-// program refuses.
+// Every shipped scene is valid, starts without an overlap, and agrees with the schema; the schema refuses
+// what the program refuses.
 #include <cmath>
 #include <map>
 #include <regex>
@@ -28,9 +28,13 @@ class Schema {
   static std::size_t size(const Json& bound) { return static_cast<std::size_t>(bound.asNumber()); }
 
   static bool isOfType(const std::string& type, const Json& value) {
-    if (type == "integer") return value.kind() == Kind::kNumber && value.asNumber() == std::floor(value.asNumber());
-    const std::map<std::string, Kind> kinds = {{"object", Kind::kObject}, {"array", Kind::kArray},     {"string", Kind::kString},
-                                               {"number", Kind::kNumber}, {"boolean", Kind::kBoolean}};
+    if (type == "integer")
+      return value.kind() == Kind::kNumber && value.asNumber() == std::floor(value.asNumber());
+    const std::map<std::string, Kind> kinds = {{"object", Kind::kObject},
+                                               {"array", Kind::kArray},
+                                               {"string", Kind::kString},
+                                               {"number", Kind::kNumber},
+                                               {"boolean", Kind::kBoolean}};
     return value.kind() == kinds.at(type);
   }
 
@@ -42,7 +46,8 @@ class Schema {
   }
 
   bool obeys(const std::string& keyword, const Json& rule, const Json& schema, const Json& value) const {
-    if (keyword == "$ref") return accepts(root_.at("$defs").at(rule.asString().substr(std::string("#/$defs/").size())), value);
+    if (keyword == "$ref")
+      return accepts(root_.at("$defs").at(rule.asString().substr(std::string("#/$defs/").size())), value);
     if (keyword == "const") return same(rule, value);
     if (keyword == "type") return isOfType(rule.asString(), value);
     if (keyword == "not") return !accepts(rule, value);
@@ -52,18 +57,23 @@ class Schema {
       return keyword == "oneOf" ? accepted == 1 : accepted > 0;
     }
     switch (value.kind()) {
-      case Kind::kObject: return objectObeys(keyword, rule, schema, value);
-      case Kind::kArray: return arrayObeys(keyword, rule, value);
-      case Kind::kNumber: return numberObeys(keyword, rule, value.asNumber());
+      case Kind::kObject:
+        return objectObeys(keyword, rule, schema, value);
+      case Kind::kArray:
+        return arrayObeys(keyword, rule, value);
+      case Kind::kNumber:
+        return numberObeys(keyword, rule, value.asNumber());
       case Kind::kString:
         if (keyword == "pattern") return std::regex_search(value.asString(), std::regex(rule.asString()));
         if (keyword == "minLength") return value.asString().size() >= size(rule);
         return true;
-      default: return true;
+      default:
+        return true;
     }
   }
 
-  bool objectObeys(const std::string& keyword, const Json& rule, const Json& schema, const Json& value) const {
+  bool objectObeys(const std::string& keyword, const Json& rule, const Json& schema,
+                   const Json& value) const {
     bool ok = true;
     if (keyword == "minProperties") ok = value.members().size() >= size(rule);
     if (keyword == "maxProperties") ok = value.members().size() <= size(rule);
@@ -125,8 +135,9 @@ TEST(ShippedScenes, HoldWhatTheMainJobPromises) {
     names += scene.name + " ";
   }
   EXPECT_GE(frames, 600);
-  for (const char* name : {"sliding", "resting", "multi-contact", "contact-vertex-vertex", "contact-vertex-edge", "contact-edge-edge",
-                           "contact-vertex-face", "bouncing-ball", "imported-meshes", "drop-mesh", "fifty-bodies"})
+  for (const char* name : {"sliding", "resting", "multi-contact", "contact-vertex-vertex",
+                           "contact-vertex-edge", "contact-edge-edge", "contact-vertex-face", "bouncing-ball",
+                           "imported-meshes", "drop-mesh", "fifty-bodies"})
     EXPECT_NE(names.find(name), std::string::npos) << name;
 }
 

@@ -55,7 +55,7 @@ TEST_P(Tower, AtRestIsWokenByAnImpactAndRestsAgain) {
   w.addPlane(rubbing(0.5), Quat::Identity(), 20.0);
   const Vec3 size(0.5, 0.5, 0.4);
   const int box = w.add({Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(), rubbing(0.5)});
-  const int ball = w.add({Solid::ball(0.1), {Quat::Identity(), Vec3(-12.0, 0.02, 3.0)}, Vec3(9.6, 0, 4.0), Vec3::Zero(), rubbing(0.5)});
+  const int ball = w.add({Solid::ball(0.1), {Quat::Identity(), Vec3(-12.0, 0.02, 2.55)}, Vec3(9.6, 0, 4.0), Vec3::Zero(), rubbing(0.5)});
   w.start();
   w.run(1.0);
   ASSERT_TRUE(w.rests(box));

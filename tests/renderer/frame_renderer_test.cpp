@@ -104,6 +104,28 @@ TEST_F(Frame, TheShadowLiesOnTheSideAwayFromTheLight) {
   EXPECT_NEAR(seenAt(image, mirrored).sum(), seenAt(empty, mirrored).sum(), 12);
 }
 
+TEST_F(Frame, WhereNothingStandsInTheLightTheGroundIsLit) {
+  const std::vector<Instance> bodies = {{kBall, at(0.0, 0.0, 0.9), kRed}, {kBall, at(1.5, 0.5, 0.5), kBlue}};
+  const Image image = draw({ground(), bodies[0], bodies[1]}), empty = draw({ground()});
+  const Vec3 to_light = Settings{}.to_light.normalized();
+  for (double x = -6.0; x <= 6.0; x += 0.21)
+    for (double y = -3.0; y <= 12.0; y += 0.23) {
+      const Vec3 p(x, y, 0.0);
+      const Vec2 pixel = pinhole(kCamera, p);
+      if (pixel.x() < 2 || pixel.x() > kWidth - 2 || pixel.y() < 2 || pixel.y() > kHeight - 2) continue;
+      bool open =
+          true;  // Neither the line to the light nor the line of sight passes a ball, nor is one close.
+      for (const Instance& ball : bodies) {
+        const Vec3 c = ball.X_WB.position, to_eye = (kCamera.eye - p).normalized();
+        for (const Vec3& ray : {to_light, to_eye}) open = open && (c - p).cross(ray).norm() > 0.65;
+        open = open && (c - p).norm() > 1.3;
+      }
+      if (!open) continue;
+      // A shadow takes some 300; a far pixel is larger than the margins above and may take a little of its neighbour.
+      EXPECT_NEAR(seenAt(image, p).sum(), seenAt(empty, p).sum(), 30) << x << "," << y;
+    }
+}
+
 TEST_F(Frame, ALightFromTheOtherSideThrowsTheShadowToTheOtherSide) {
   Settings settings{kWidth, kHeight};
   settings.to_light = Vec3(-0.8, -0.2, 1.0);
@@ -198,16 +220,18 @@ TEST_F(Frame, NoPartOfAnEmptyFrameIsBlack) {
 }
 
 TEST_F(Frame, SlantedSilhouettesAreSmooth) {
-  // A box turned by 20 degrees against the sky: along its side there must be pixels between the two colours.
+  // A black box before the sky, so far away that it has no bevels: what lies between the two is due to
+  // smoothing.
   const Quat turned(Eigen::AngleAxisd(0.35, Vec3::UnitY()));
-  const Image image = draw({{kBox, {turned, Vec3(0.0, 0.0, 1.2)}, {0.02f, 0.02f, 0.02f}}});
+  const Vec3 far = kCamera.eye + 10.0 * cameraAxes(kCamera).forward;
+  const Image image = draw({{kBox, {turned, far}, {0.02f, 0.02f, 0.02f}}});
   int between = 0;
   for (int y = 20; y < kHeight - 20; ++y)
     for (int x = 0; x < kWidth; ++x) {
       const int g = image.pixel(x, y)[1];
       if (g > 100 && g < 170) ++between;
     }
-  EXPECT_GT(between, 40);
+  EXPECT_GT(between, 20);
 }
 
 TEST_F(Frame, FarFromTheOriginTheFrameIsTheSame) {

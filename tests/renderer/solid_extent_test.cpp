@@ -30,14 +30,27 @@ TEST(RoundedBox, IsExactForACapsuleInAnyDirection) {
   EXPECT_DOUBLE_EQ(box.radius, 0.2);
 }
 
-TEST(RoundedBox, ReachesAsFarAsTheFarthestVertex) {
+TEST(RoundedBox, OfATetrahedronHasItsVolumeAndCentre) {
+  const std::vector<Vec3> points = {Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1)};
+  const Solid solid = Solid::polyhedron(convexHull(points).polyhedron);
+  const RoundedBox box = roundedBox(solid.parts()[0]);
+  // Its vertices are corners of the box around it, so nothing is rounded: a cube with the tetrahedron's 8/3 m^3.
+  EXPECT_NEAR(box.radius, 0.0, 1e-9);
+  EXPECT_LT((box.half - Vec3::Constant(0.5 * std::cbrt(8.0 / 3.0))).norm(), 1e-9);
+  EXPECT_LT(box.X_BR.position.norm(), 1e-9);
+}
+
+TEST(RoundedBox, OfADrumIsNoLargerThanTheDrum) {
   std::vector<Vec3> points;
   for (int i = 0; i < 12; ++i)
-    points.push_back(Vec3(std::cos(i * 0.5236), std::sin(i * 0.5236), i % 2 == 0 ? 0.9 : -0.9));
+    for (double z : {-0.9, 0.9}) points.push_back(Vec3(std::cos(i * 0.5236), std::sin(i * 0.5236), z));
   const Solid drum = Solid::polyhedron(convexHull(points).polyhedron);
   const RoundedBox box = roundedBox(drum.parts()[0]);
-  EXPECT_GT(box.radius, 0.0);
-  EXPECT_NEAR(box.half.norm() + box.radius, drum.parts()[0].core.radiusAbout(box.X_BR.position), 1e-6);
+  EXPECT_GT(box.radius, 0.1);
+  const Vec3 reach = (box.half.array() + box.radius).matrix();
+  EXPECT_LT(reach.x(), 1.0);
+  EXPECT_LT(reach.z(), 0.9);
+  EXPECT_GT(reach.z(), 0.8);
 }
 
 TEST(SolidExtent, EnclosesAllPartsTightly) {

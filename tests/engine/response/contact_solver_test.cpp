@@ -117,6 +117,33 @@ TEST(SolveContacts, HoldsABlockThatTheConeCanHold) {
   }
 }
 
+// A tall block near its tipping point on rough ground: normal and friction impulses work against each other at every
+// corner, and taking them in turn must not go round in circles. Statics: it stands while tan < b / h and tan <= mu.
+TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
+  const Vec3 size(0.3, 0.4, 0.9);
+  for (const double mu : {0.4, 1.0, 2.0, 4.0})
+    for (const double tangent : {0.7 / 3, 0.95 / 3, 0.99 / 3}) {
+      const Quat tilt = oracle::turned(Vec3::UnitY(), std::atan(tangent));
+      const Vec3 center = tilt * Vec3(0, 0, 0.45);
+      Meeting m;
+      m.bodies = {immovable(), impulseBody(boxInertia(2.0, size), tilt, center, {Vec3(0, 0, -1), Vec3::Zero()})};
+      for (double x : {-0.15, 0.15})
+        for (double y : {-0.2, 0.2}) {
+          ContactRow row;
+          row.a = 0;
+          row.b = 1;
+          row.n = tilt * Vec3::UnitZ();
+          row.r_a = tilt * Vec3(x, y, 0);
+          row.r_b = row.r_a - center;
+          row.friction = {mu, mu};
+          prepareRow(row, m.bodies);
+          m.rows.push_back(row);
+        }
+      solveContacts(m.rows, m.bodies, {5000, 1e-13, true});
+      EXPECT_LT(m.bodies[1].velocity.linear.norm() + m.bodies[1].velocity.angular.norm(), 1e-6) << "mu " << mu << " tan " << tangent;
+    }
+}
+
 // With one point: what the static cone holds is held; beyond it the dynamic coefficient brakes.
 TEST(SolveContacts, TellsStaticFrictionFromDynamic) {
   for (const double tangent : {0.59, 0.61}) {
