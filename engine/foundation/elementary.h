@@ -15,5 +15,7 @@ SineCosine sineCosine(double angle);
 
 /// The rotation by |rotation| radians about the direction of `rotation` (exponential map).
 Quat rotationBy(const Vec3& rotation);
+/// Its inverse: the shortest rotation vector, radians, of a unit quaternion.
+Vec3 rotationOf(const Quat& q);
 
 }  // namespace carom

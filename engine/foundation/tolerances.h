@@ -20,7 +20,8 @@ inline constexpr double kLyingSine = 0.087;        // 5 degrees: an edge or face
 
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
-inline constexpr int kSolverSweeps = 60;           // per step, warm started
+inline constexpr int kSolverSweeps = 60;           // per step and island, warm started, at least ...
+inline constexpr int kSolverRowVisits = 20000;     // ... and as many more as make this many visits of a row
 inline constexpr double kGapGain = 0.2;            // share of the missing gap reopened in a step
 inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopening
 
@@ -28,7 +29,8 @@ inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopenin
 inline constexpr int kPairEvents = 8;      // up to here each event is solved between its two bodies
 inline constexpr int kEventsPerBody = 24;  // up to here together with all contacts around; then the body is held
 
-// Sliding mode (paper §2.4).
+// Sliding (paper §2.4).
+inline constexpr double kSlipSpeed = 1e-5;         // m/s: below it the static coefficient of friction counts
 inline constexpr double kSlidingSpeed = 1e-3;      // m/s along the contact; slower is holding or rolling
 
 // Resting mode (paper §2.5).

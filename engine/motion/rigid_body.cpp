@@ -1,14 +1,26 @@
 #include "engine/motion/rigid_body.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "engine/foundation/elementary.h"
 
 namespace carom {
 namespace {
 
-// The midpoint equation contracts by about |spin| dt / 2 per pass.
-constexpr int kMidpointPasses = 12;
+// A rotation by more than this has no reliable axis: near a whole turn it looks like none.
+constexpr double kLargestTurn = 2.0;
+
+// Turns the body about one of its principal axes by the flow of the energy L_i^2 / 2 (1/I_i - 1/I_reference): the
+// angular momentum in the body turns the other way.
+void turnAboutAxis(int axis, double rate_per_momentum, double dt_s, Quat& R, Vec3& momentum_P) {
+  Vec3 turn = Vec3::Zero();
+  turn[axis] = rate_per_momentum * momentum_P[axis] * dt_s;
+  const Quat q = rotationBy(turn);
+  R = R * q;
+  momentum_P = q.conjugate() * momentum_P;
+}
 
 }  // namespace
 
@@ -18,6 +30,10 @@ Inertia inertiaOf(double density_kgpm3, double volume, const Mat3& unit_inertia)
   inertia.inverse_mass = 1.0 / inertia.mass_kg;
   inertia.tensor_B = density_kgpm3 * unit_inertia;
   inertia.inverse_tensor_B = inertia.tensor_B.inverse();
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia.tensor_B);
+  inertia.principal_axes_B = principal.eigenvectors();
+  inertia.principal_moments = principal.eigenvalues();
+  if (inertia.principal_axes_B.determinant() < 0.0) inertia.principal_axes_B.col(0) *= -1.0;
   return inertia;
 }
 
@@ -42,12 +58,21 @@ double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& v
 }
 
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
-  if (angular_velocity.isZero(0.0)) return angular_velocity;
+  const double speed = angular_velocity.norm();
+  if (speed == 0.0) return angular_velocity;
+  const double dt = std::min(dt_s, kLargestTurn / speed);
   const Vec3 momentum = angularMomentum(inertia, R_WB, angular_velocity);
-  Vec3 spin = angular_velocity;
-  for (int pass = 0; pass < kMidpointPasses; ++pass)
-    spin = angularVelocity(inertia, rotationBy((0.5 * dt_s) * spin) * R_WB, momentum);
-  return spin;
+  const Vec3& moments = inertia.principal_moments;
+  // 1/I = 1/I_middle + (the rest): the first turns the body about the momentum, whatever the others do.
+  const double low_rate = 1.0 / moments[0] - 1.0 / moments[1];
+  const double high_rate = 1.0 / moments[2] - 1.0 / moments[1];
+  Quat R = R_WB * Quat(inertia.principal_axes_B);
+  Vec3 momentum_P = R.conjugate() * momentum;
+  turnAboutAxis(2, high_rate, 0.5 * dt, R, momentum_P);
+  turnAboutAxis(0, low_rate, dt, R, momentum_P);
+  turnAboutAxis(2, high_rate, 0.5 * dt, R, momentum_P);
+  R = rotationBy((dt / moments[1]) * momentum) * R * Quat(inertia.principal_axes_B).conjugate();
+  return rotationOf(R * R_WB.conjugate()) / dt;
 }
 
 }  // namespace carom

@@ -1,7 +1,10 @@
 #include "engine/response/contact_solver.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/foundation/tolerances.h"
 
 namespace carom {
 namespace {
@@ -16,18 +19,14 @@ double solveNormal(ContactRow& row, std::span<ImpulseBody> bodies) {
   return std::abs(change) * row.response(0, 0);
 }
 
-// The friction impulse after one step: holding if the cone allows it. Otherwise a step against the sliding velocity,
-// scaled by one number so that its fixed point is parallel to that velocity whatever the shape of K, then shortened
-// to the cone.
+// One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that velocity
+// whatever the shape of K, then shortened to the cone.
 Vec2 frictionStep(const ContactRow& row, const Vec2& impulse, const Vec2& slip) {
   const double k11 = row.response(1, 1), k12 = row.response(1, 2), k22 = row.response(2, 2);
-  const double det = k11 * k22 - k12 * k12;
-  const Vec2 holding = impulse - Vec2(k22 * slip.x() - k12 * slip.y(), k11 * slip.y() - k12 * slip.x()) / det;
-  if (holding.norm() <= row.friction.static_coefficient * row.impulse.x()) return holding;
   const double half_difference = 0.5 * (k11 - k22);
   const double largest = 0.5 * (k11 + k22) + std::sqrt(half_difference * half_difference + k12 * k12);
   const Vec2 step = impulse - slip / largest;
-  const double limit = row.friction.dynamic_coefficient * row.impulse.x();
+  const double limit = row.coefficient * row.impulse.x();
   const double length = step.norm();
   return length > limit ? Vec2(step * (limit / length)) : step;
 }
@@ -43,6 +42,26 @@ double solveFriction(ContactRow& row, std::span<ImpulseBody> bodies) {
   return change.norm() * std::max(row.response(1, 1), row.response(2, 2));
 }
 
+// The impulse that holds the point: no sliding, the normal speed at its bound. Solved for all three parts at once,
+// because on rough ground normal and friction impulses, taken in turn, undo each other. False when the cone forbids it.
+bool holdPoint(ContactRow& row, std::span<ImpulseBody> bodies, double& change) {
+  const Vec3 miss = rowVelocity(row, bodies) - Vec3(row.lowest_speed, 0.0, 0.0);
+  const Vec3 step = -(row.inverse_response * miss);
+  const Vec3 held = row.impulse + step;
+  if (!(held.x() >= 0.0) || held.tail<2>().norm() > row.coefficient * held.x()) return false;
+  row.impulse = held;
+  applyToRow(row, step, bodies);
+  change = miss.norm();
+  return true;
+}
+
+double solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
+  double change = 0.0;
+  if (friction && holdPoint(row, bodies, change)) return change;
+  change = solveNormal(row, bodies);
+  return friction ? std::max(change, solveFriction(row, bodies)) : change;
+}
+
 }  // namespace
 
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
@@ -54,6 +73,9 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   row.response = frame.transpose() *
                  collisionMatrix(bodies[static_cast<std::size_t>(row.a)], bodies[static_cast<std::size_t>(row.b)], row.r_a, row.r_b) *
                  frame;
+  row.inverse_response = row.response.inverse();
+  const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
+  row.coefficient = slides ? row.friction.dynamic_coefficient : row.friction.static_coefficient;
 }
 
 void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies) {
@@ -76,9 +98,7 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     const bool forward = report.sweeps % 2 == 0;
     for (std::size_t i = 0; i < n; ++i) {
       ContactRow& row = rows[forward ? i : n - 1 - i];
-      double change = solveNormal(row, bodies);
-      if (settings.friction) change = std::max(change, solveFriction(row, bodies));
-      report.residual_mps = std::max(report.residual_mps, change);
+      report.residual_mps = std::max(report.residual_mps, solveRow(row, bodies, settings.friction));
     }
     ++report.sweeps;
     if (report.residual_mps <= settings.residual_mps) break;

@@ -33,8 +33,11 @@ struct ContactRow {
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
   Mat3 response = Mat3::Zero();  ///< K in the frame (n, t1, t2).
+  Mat3 inverse_response = Mat3::Zero();
+  double coefficient = 0.0;  ///< Of friction, for this solve.
 };
 
+/// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
 /// World-frame impulse on B for an impulse in the row's frame.
 inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {

@@ -246,11 +246,10 @@ class EventLoop {
     }
   }
 
-  // Its momentum is lost with its path: what it would do is not known, and kept it would grow from step to step.
+  // Its momentum stays: the contacts around it have just been solved together, and the next step solves them again.
   void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
     body.travel = Travel::kHeld;
-    body.momentum_velocity = {};
     body.path.velocity.setZero();
     body.path.acceleration.setZero();
     body.path.spin.setZero();

@@ -61,9 +61,14 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings) {
-  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i)
-    solveContacts(rows.subspan(assembly.island_begin[i], assembly.island_begin[i + 1] - assembly.island_begin[i]), bodies, settings);
+// `least_sweeps` for every island, and for small ones as many as their share of row visits allows.
+void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies, SolverSettings settings) {
+  const int least_sweeps = settings.sweeps;
+  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
+    const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
+    settings.sweeps = std::max(least_sweeps, tolerance::kSolverRowVisits / static_cast<int>(count));
+    solveContacts(rows.subspan(assembly.island_begin[i], count), bodies, settings);
+  }
 }
 
 Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs, double step_s) {

@@ -8,6 +8,8 @@
 namespace carom {
 namespace {
 
+constexpr double kLeastGravity = 0.01;  // m/s^2: 6 mm/s for parts a metre wide
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The bounds of a part in a pose.
@@ -74,7 +76,8 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&
   pair.body_b = b.body;
   pair.window = collisionWindow(*a.part, *b.part);
   // What gravity gives a body that falls through the window: slower approaches are lasting contact.
-  pair.collision_speed_mps = std::sqrt(2.0 * gravity.norm() * pair.window.ceiling);
+  // Without gravity a trace of it remains, or the rounding of a finished collision would be taken for another.
+  pair.collision_speed_mps = std::sqrt(2.0 * std::max(gravity.norm(), kLeastGravity) * pair.window.ceiling);
   return pair;
 }
 

@@ -133,6 +133,22 @@ TEST(ContactManifold, OfATiltedBox_KeepsTheDeepestPointAndTheGapsOfEach) {
   }
 }
 
+TEST(ContactManifold, OfManyPoints_KeepsTheDeepestAmongTheFour) {
+  Random random(85);
+  const Solid wheel = Solid::polyhedron(oracle::prism(24, 0.5, 0.3));
+  for (int i = 0; i < 200; ++i) {
+    const Quat tilt = turned(random.direction(), random.uniform(1e-4, 1.5e-3)) * turned(Vec3::UnitZ(), random.uniform(0, 3));
+    double lowest = 0;
+    for (const Vec3& v : wheel.parts()[0].core.vertices()) lowest = std::min(lowest, (tilt * v).z());
+    const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, wheel, {tilt, Vec3(0.1, -0.2, -lowest + 0.2e-3)});
+    ASSERT_GE(m.count, 4) << i;
+    double least = 1;
+    for (int k = 0; k < 4; ++k) least = std::min(least, m.points[static_cast<std::size_t>(k)].gap_m);
+    EXPECT_NEAR(least, 0.2e-3, 2e-9) << i;
+    EXPECT_GT(quadArea(m), 0.4) << "a square in the circle of radius 0.5 has 0.5";
+  }
+}
+
 TEST(ContactManifold, OfABoxTiltedOutOfReach_IsTheEdgeThatIsNear) {
   const Quat tilt = turned(Vec3::UnitY(), 0.05);  // the far edge is 50 mm up, k is 5 mm
   const double lowest = 0.5 * std::sin(0.05) + 0.3 * std::cos(0.05);

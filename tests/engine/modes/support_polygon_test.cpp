@@ -128,6 +128,13 @@ TEST(SupportMiss, CountsWhatPressesFromAbove) {
   EXPECT_NEAR(supportMiss(Vec3::Zero(), Vec3(0, 0, -20), contacts), 60.0 / 80.0 - 0.5, 1e-12);
 }
 
+TEST(SupportMiss, MovesTowardsTheLoadNotAwayFromIt) {
+  std::vector<BodyContact> contacts = fourFeet(Quat::Identity());
+  contacts.push_back({Vec3(1.0, 0.2, 0.5), Vec3(0, 0, -1), Vec3(0, 0, -60)});
+  // Weighted means of where 20 N and 60 N act: x = 0.825, y = 0.125.
+  EXPECT_NEAR(supportMiss(Vec3(0.3, -0.1, 0.2), Vec3(0, 0, -20), contacts), 0.325, 1e-12);
+}
+
 TEST(SupportMiss, OfABodyThatNothingHoldsUpIsInfinite) {
   EXPECT_TRUE(std::isinf(supportMiss(Vec3::Zero(), Vec3(0, 0, -20), {})));
   const std::vector<BodyContact> wall{{Vec3(-0.5, 0, 0), Vec3(1, 0, 0), Vec3(5, 0, 0)}};

@@ -145,19 +145,24 @@ TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
 }
 
 // With one point: what the static cone holds is held; beyond it the dynamic coefficient brakes.
+// A point that lay still when its row was prepared is held by the static coefficient, one that slid by the dynamic one.
 TEST(SolveContacts, TellsStaticFrictionFromDynamic) {
-  for (const double tangent : {0.59, 0.61}) {
-    Meeting m;
-    m.bodies = {immovable(), impulseBody(boxInertia(1.0, {1, 1, 1}), Quat::Identity(), Vec3::Zero(), {Vec3(tangent, 0, -1.0), Vec3::Zero()})};
-    ContactRow row;
-    row.a = 0;
-    row.b = 1;
-    row.friction = {0.6, 0.3};  // the point is the centre: no lever
-    prepareRow(row, m.bodies);
-    m.rows = {row};
-    solveContacts(m.rows, m.bodies, kThorough);
-    EXPECT_NEAR(m.bodies[1].velocity.linear.x(), tangent < 0.6 ? 0.0 : tangent - 0.3, 1e-12);
-  }
+  const double mu_s = 0.6, mu_d = 0.3;
+  for (const bool slid : {false, true})
+    for (const double tangent : {0.29, 0.31, 0.59, 0.61}) {
+      const Velocity pushed{Vec3(tangent, 0, -1.0), Vec3::Zero()};
+      Meeting m;
+      m.bodies = {immovable(), impulseBody(boxInertia(1.0, {1, 1, 1}), Quat::Identity(), Vec3::Zero(), slid ? pushed : Velocity{})};
+      ContactRow row;
+      row.a = 0;
+      row.b = 1;
+      row.friction = {mu_s, mu_d};  // the point is the centre: no lever
+      prepareRow(row, m.bodies);
+      m.bodies[1].velocity = pushed;
+      m.rows = {row};
+      solveContacts(m.rows, m.bodies, kThorough);
+      EXPECT_NEAR(m.bodies[1].velocity.linear.x(), std::max(0.0, tangent - (slid ? mu_d : mu_s)), 1e-12) << tangent << slid;
+    }
 }
 
 TEST(SolveContacts, ConvergesToTheSameVelocitiesInAnyOrder) {
