@@ -15,7 +15,8 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
     sum += c;
     squares += c.cwiseProduct(c);
   }
-  const Vec3 spread = squares - sum.cwiseProduct(sum) / static_cast<double>(std::max<std::size_t>(proxies.size(), 1));
+  const Vec3 spread =
+      squares - sum.cwiseProduct(sum) / static_cast<double>(std::max<std::size_t>(proxies.size(), 1));
   Eigen::Index axis = 0;
   spread.maxCoeff(&axis);
   return axis;
@@ -33,7 +34,8 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies) {
   const auto high = [&](int i) { return proxies[static_cast<std::size_t>(i)].bounds.high[axis]; };
   std::vector<int> order(proxies.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return low(i) < low(j) || (low(i) == low(j) && i < j); });
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return low(i) < low(j) || (low(i) == low(j) && i < j); });
 
   std::vector<IndexPair> pairs;
   std::vector<int> open;  // those whose interval on the axis has begun and not ended

@@ -13,9 +13,15 @@ struct Feature {
   friend bool operator==(const Feature&, const Feature&) = default;
 };
 
-inline Feature vertexFeature(int v) { return {FeatureKind::kVertex, v}; }
-inline Feature edgeFeature(int e) { return {FeatureKind::kEdge, e}; }
-inline Feature faceFeature(int f) { return {FeatureKind::kFace, f}; }
+inline Feature vertexFeature(int v) {
+  return {FeatureKind::kVertex, v};
+}
+inline Feature edgeFeature(int e) {
+  return {FeatureKind::kEdge, e};
+}
+inline Feature faceFeature(int f) {
+  return {FeatureKind::kFace, f};
+}
 
 struct FeaturePair {
   Feature a;

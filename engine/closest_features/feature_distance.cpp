@@ -31,13 +31,24 @@ struct Segment {
 
 Segment segmentOfA(const PolyhedronPair& pair, int e) {
   const Edge& edge = pair.a.edge(e);
-  return {e, edge.tail, edge.head, pair.a.vertex(edge.tail), pair.a.vertex(edge.head), edge.direction, edge.length_m};
+  return {e,
+          edge.tail,
+          edge.head,
+          pair.a.vertex(edge.tail),
+          pair.a.vertex(edge.head),
+          edge.direction,
+          edge.length_m};
 }
 
 Segment segmentOfB(const PolyhedronPair& pair, int e) {
   const Edge& edge = pair.b.edge(e);
-  return {e, edge.tail, edge.head, pair.toA(pair.b.vertex(edge.tail)), pair.toA(pair.b.vertex(edge.head)),
-          pair.R_AB * edge.direction, edge.length_m};
+  return {e,
+          edge.tail,
+          edge.head,
+          pair.toA(pair.b.vertex(edge.tail)),
+          pair.toA(pair.b.vertex(edge.head)),
+          pair.R_AB * edge.direction,
+          edge.length_m};
 }
 
 FeatureDistance measure(const FeaturePoint& on_a, const FeaturePoint& on_b) {
@@ -48,8 +59,9 @@ void keepCloser(FeatureDistance& best, const FeatureDistance& other) {
   if (other.distance_m < best.distance_m) best = other;
 }
 
-// E-E. The common perpendicular's feet when both lie inside; else an end of one against the other. Near-parallel
-// edges make the feet uncertain but not the distance, because every candidate is measured between points.
+// E-E. The common perpendicular's feet when both lie inside; else an end of one against the other.
+// Near-parallel edges make the feet uncertain but not the distance, because every candidate is measured
+// between points.
 FeatureDistance edgeEdge(const Segment& e1, const Segment& e2) {
   FeatureDistance best;
   best.distance_m = std::numeric_limits<double>::infinity();
@@ -89,7 +101,12 @@ FeatureDistance faceVertex(const PolyhedronPair& pair, int face, int vertex) {
   const Plane& plane = pair.a.plane(face);
   if (overFace(pair.a, face, on_b.p)) {
     const double height = plane.signedDistance(on_b.p);
-    return {{faceFeature(face), on_b.feature}, on_b.p - height * plane.normal, on_b.p, std::abs(height), false, height < 0.0};
+    return {{faceFeature(face), on_b.feature},
+            on_b.p - height * plane.normal,
+            on_b.p,
+            std::abs(height),
+            false,
+            height < 0.0};
   }
   FeatureDistance best;
   best.distance_m = std::numeric_limits<double>::infinity();
@@ -127,14 +144,17 @@ FeatureDistance unswapped(const PolyhedronPair& pair, const FeatureDistance& r) 
 
 }  // namespace
 
-PolyhedronPair::PolyhedronPair(const ConvexPolyhedron& a_in, const Pose& X_WA, const ConvexPolyhedron& b_in, const Pose& X_WB)
+PolyhedronPair::PolyhedronPair(const ConvexPolyhedron& a_in, const Pose& X_WA, const ConvexPolyhedron& b_in,
+                               const Pose& X_WB)
     : a(a_in), b(b_in) {
   const Mat3 R_AW = X_WA.rotation.toRotationMatrix().transpose();
   R_AB = R_AW * X_WB.rotation.toRotationMatrix();
   t_AB = R_AW * (X_WB.position - X_WA.position);
 }
 
-PolyhedronPair PolyhedronPair::swapped() const { return {b, a, R_AB.transpose(), -(R_AB.transpose() * t_AB)}; }
+PolyhedronPair PolyhedronPair::swapped() const {
+  return {b, a, R_AB.transpose(), -(R_AB.transpose() * t_AB)};
+}
 
 FeatureDistance featureDistance(const PolyhedronPair& pair, FeaturePair features) {
   const auto [fa, fb] = features;
@@ -145,7 +165,8 @@ FeatureDistance featureDistance(const PolyhedronPair& pair, FeaturePair features
   }
   if (fa.kind == kFace)
     return fb.kind == kVertex ? faceVertex(pair, fa.index, fb.index) : faceEdge(pair, fa.index, fb.index);
-  if (fa.kind == kEdge && fb.kind == kEdge) return edgeEdge(segmentOfA(pair, fa.index), segmentOfB(pair, fb.index));
+  if (fa.kind == kEdge && fb.kind == kEdge)
+    return edgeEdge(segmentOfA(pair, fa.index), segmentOfB(pair, fb.index));
   if (fa.kind == kEdge) {
     const FeaturePoint on_b{fb, pair.toA(pair.b.vertex(fb.index))};
     const Segment edge = segmentOfA(pair, fa.index);

@@ -1,9 +1,9 @@
 #pragma once
-// The closest points of two features, each taken as a closed set (an edge with its ends, a face with its boundary):
-// the five states of V-Clip (paper §2): V-V, V-E, V-F, E-E and E-F. The answer is reduced to the lowest features that
-// hold the points, by clipping an edge against the V-planes at its ends and a face against its sides.
-// For given poses the distance is a pure function of the feature pair; V-Clip's termination rests on that.
-// Tested in tests/engine/closest_features/feature_distance_test.cpp.
+// The closest points of two features, each taken as a closed set (an edge with its ends, a face with its
+// boundary): the five states of V-Clip (paper §2): V-V, V-E, V-F, E-E and E-F. The answer is reduced to the
+// lowest features that hold the points, by clipping an edge against the V-planes at its ends and a face
+// against its sides. For given poses the distance is a pure function of the feature pair; V-Clip's
+// termination rests on that. Tested in tests/engine/closest_features/feature_distance_test.cpp.
 
 #include "engine/closest_features/feature.h"
 #include "engine/solid/convex_polyhedron.h"
@@ -12,7 +12,8 @@ namespace carom {
 
 /// Two polyhedra and where the second stands in the frame of the first.
 struct PolyhedronPair {
-  PolyhedronPair(const ConvexPolyhedron& a_in, const Pose& X_WA, const ConvexPolyhedron& b_in, const Pose& X_WB);
+  PolyhedronPair(const ConvexPolyhedron& a_in, const Pose& X_WA, const ConvexPolyhedron& b_in,
+                 const Pose& X_WB);
 
   Vec3 toA(const Vec3& p_B) const { return R_AB * p_B + t_AB; }
   Vec3 toB(const Vec3& p_A) const { return R_AB.transpose() * (p_A - t_AB); }

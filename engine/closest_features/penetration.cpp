@@ -27,7 +27,8 @@ void tryFaces(const PolyhedronPair& pair, MinimumTranslation& best, bool swap) {
   }
 }
 
-// An edge of B in the frame of A, with its faces' normals negated: its arc on the Gauss map of the difference A - B.
+// An edge of B in the frame of A, with its faces' normals negated: its arc on the Gauss map of the difference
+// A - B.
 struct EdgeOfB {
   int index;
   Vec3 tail, direction, arc_left, arc_right;
@@ -36,7 +37,12 @@ struct EdgeOfB {
 
 EdgeOfB edgeOfB(const PolyhedronPair& pair, int e) {
   const Edge& edge = pair.b.edge(e);
-  EdgeOfB result{e, pair.toA(pair.b.vertex(edge.tail)), pair.R_AB * edge.direction, Vec3::Zero(), Vec3::Zero(), edge.left >= 0};
+  EdgeOfB result{e,
+                 pair.toA(pair.b.vertex(edge.tail)),
+                 pair.R_AB * edge.direction,
+                 Vec3::Zero(),
+                 Vec3::Zero(),
+                 edge.left >= 0};
   if (result.has_faces) {
     result.arc_left = -(pair.R_AB * pair.b.plane(edge.left).normal);
     result.arc_right = -(pair.R_AB * pair.b.plane(edge.right).normal);
@@ -44,9 +50,9 @@ EdgeOfB edgeOfB(const PolyhedronPair& pair, int e) {
   return result;
 }
 
-// Whether two edges make a face of the Minkowski difference: their arcs cross on the Gauss map. The left and right
-// normals of a convex edge satisfy n_l x n_r = sin(angle) * direction, so the directions stand for the arcs' planes.
-// A segment has no faces: its arc is the whole great circle.
+// Whether two edges make a face of the Minkowski difference: their arcs cross on the Gauss map. The left and
+// right normals of a convex edge satisfy n_l x n_r = sin(angle) * direction, so the directions stand for the
+// arcs' planes. A segment has no faces: its arc is the whole great circle.
 bool makesMinkowskiFace(const ConvexPolyhedron& a, const Edge& e1, const EdgeOfB& e2) {
   double left2 = 0.0;
   double right1 = 0.0;
@@ -100,12 +106,14 @@ MinimumTranslation minimumTranslation(const PolyhedronPair& pair) {
   tryFaces(pair.swapped(), best, true);
   tryEdges(pair, best);
   if (best.gap_m > -std::numeric_limits<double>::infinity()) return best;
-  // Cores without faces or crossing edges that meet (balls with one centre, capsules on one line): any direction
-  // across them separates the cores, so the rounding radii alone make the depth.
+  // Cores without faces or crossing edges that meet (balls with one centre, capsules on one line): any
+  // direction across them separates the cores, so the rounding radii alone make the depth.
   best.gap_m = 0.0;
   best.features = {vertexFeature(0), vertexFeature(0)};
-  if (pair.a.edgeCount() > 0) best.normal = tangentBasis(pair.a.edge(0).direction).t1;
-  else if (pair.b.edgeCount() > 0) best.normal = tangentBasis(pair.R_AB * pair.b.edge(0).direction).t1;
+  if (pair.a.edgeCount() > 0)
+    best.normal = tangentBasis(pair.a.edge(0).direction).t1;
+  else if (pair.b.edgeCount() > 0)
+    best.normal = tangentBasis(pair.R_AB * pair.b.edge(0).direction).t1;
   best.p_a = best.p_b = pair.a.vertex(0);
   return best;
 }

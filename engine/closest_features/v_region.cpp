@@ -3,12 +3,14 @@
 namespace carom {
 namespace {
 
-// A slope below this is rounding of a unit product: walking along it could not shorten the distance measurably.
+// A slope below this is rounding of a unit product: walking along it could not shorten the distance
+// measurably.
 constexpr double kFlatSlope = 1e-15;
 
 }  // namespace
 
-std::optional<Feature> neighbourAcrossVRegion(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction) {
+std::optional<Feature> neighbourAcrossVRegion(const ConvexPolyhedron& polyhedron, Feature feature,
+                                              const Vec3& direction) {
   double steepest = kFlatSlope * direction.norm();
   std::optional<Feature> neighbour;
   const auto consider = [&](double slope, Feature next) {
@@ -46,7 +48,8 @@ bool pointsInward(const ConvexPolyhedron& polyhedron, Feature feature, const Vec
     case FeatureKind::kFace:
       return sinksBelow(feature.index);
     case FeatureKind::kEdge:
-      return sinksBelow(polyhedron.edge(feature.index).left) && sinksBelow(polyhedron.edge(feature.index).right);
+      return sinksBelow(polyhedron.edge(feature.index).left) &&
+             sinksBelow(polyhedron.edge(feature.index).right);
     case FeatureKind::kVertex:
       break;
   }

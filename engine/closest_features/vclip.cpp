@@ -20,8 +20,8 @@ constexpr double kNoDirection = 1e-9;
 constexpr double kTouching = 1e-14;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
 constexpr double kSlack = 1e-12;
-// A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features this close
-// to level at a distance of the size, and closer in proportion, are looked at together.
+// A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
+// this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
 // Edges that cross at a larger angle have a well-defined common perpendicular.
 constexpr double kCrossingSine = 1e-3;
@@ -36,8 +36,8 @@ FeaturePair coldSeed(const PolyhedronPair& pair) {
   return {vertexFeature(va), vertexFeature(vb)};
 }
 
-// A point outside A whose way to a point of A's surface begins inside A: the face through which that way enters A, or
-// none when the point is inside. Frame of A.
+// A point outside A whose way to a point of A's surface begins inside A: the face through which that way
+// enters A, or none when the point is inside. Frame of A.
 std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& from, const Vec3& to) {
   std::optional<int> entry;
   double latest = -1.0;
@@ -54,11 +54,11 @@ std::optional<int> entryFace(const ConvexPolyhedron& a, const Vec3& from, const 
   return entry;
 }
 
-// The feature and what of the body's surface touches it and is almost level across `n`: edges and faces at its
-// vertices. More of them than fit stay out; they only serve to find a shorter way.
+// The feature and what of the body's surface touches it and is almost level across `n`: edges and faces at
+// its vertices. More of them than fit stay out; they only serve to find a shorter way.
 struct LevelNeighbours {
   LevelNeighbours(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& n, double level_sine) {
-        const auto visitVertex = [&](int v) {
+    const auto visitVertex = [&](int v) {
       for (int e : polyhedron.vertexEdges(v)) {
         const Edge& edge = polyhedron.edge(e);
         if (std::abs(edge.direction.dot(n)) > level_sine) continue;
@@ -87,7 +87,8 @@ struct LevelNeighbours {
  private:
   void add(Feature feature) {
     const std::span<const Feature> known = all();
-    if (count_ < features_.size() && std::find(known.begin(), known.end(), feature) == known.end()) features_[count_++] = feature;
+    if (count_ < features_.size() && std::find(known.begin(), known.end(), feature) == known.end())
+      features_[count_++] = feature;
   }
 
   std::array<Feature, 16> features_;
@@ -110,14 +111,17 @@ FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, Feature a, Featur
 // A vertex of the feature (of a face: any).
 int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
   switch (feature.kind) {
-    case FeatureKind::kVertex: return feature.index;
-    case FeatureKind::kEdge: return polyhedron.edge(feature.index).tail;
-    default: return polyhedron.faceVertices(feature.index)[0];
+    case FeatureKind::kVertex:
+      return feature.index;
+    case FeatureKind::kEdge:
+      return polyhedron.edge(feature.index).tail;
+    default:
+      return polyhedron.faceVertices(feature.index)[0];
   }
 }
 
-// The unit normal from A to B of features that are apart. A face's normal and the common perpendicular of two edges
-// are exact; the direction between the witnesses is as good as the distance is long.
+// The unit normal from A to B of features that are apart. A face's normal and the common perpendicular of two
+// edges are exact; the direction between the witnesses is as good as the distance is long.
 Vec3 normalBetween(const PolyhedronPair& pair, const FeatureDistance& d) {
   const auto [a, b] = d.features;
   if (a.kind == FeatureKind::kFace) return pair.a.plane(a.index).normal;
@@ -153,7 +157,8 @@ class Walk {
     if (pointsInward(pair_.a, here_.features.a, n)) return enterA();
     if (pointsInward(pair_.b, here_.features.b, minus_n_B)) return enterB();
     const bool doubtful = up_a || up_b || here_.distance_m < kShortDistance * scale_m_;
-    return doubtful && slack(n, minus_n_B) > kSlack * scale_m_ && moveAlongBoth(n, minus_n_B) ? Move::kTaken : Move::kStuck;
+    return doubtful && slack(n, minus_n_B) > kSlack * scale_m_ && moveAlongBoth(n, minus_n_B) ? Move::kTaken
+                                                                                              : Move::kStuck;
   }
 
   const FeatureDistance& here() const { return here_; }
@@ -168,7 +173,8 @@ class Walk {
     return true;
   }
 
-  // The way between the witnesses ends inside a body: the other witness is inside too, or the entry face is closer.
+  // The way between the witnesses ends inside a body: the other witness is inside too, or the entry face is
+  // closer.
   Move enterA() { return moveToEntry(entryFace(pair_.a, here_.p_b, here_.p_a), true); }
   Move enterB() { return moveToEntry(entryFace(pair_.b, pair_.toB(here_.p_a), pair_.toB(here_.p_b)), false); }
 
@@ -176,21 +182,23 @@ class Walk {
     common_is_on_a_ = !entered_a;
     if (!entry) return Move::kInside;
     const Feature face = faceFeature(*entry);
-    const bool moved = moveTo(entered_a ? FeaturePair{face, here_.features.b} : FeaturePair{here_.features.a, face});
+    const bool moved =
+        moveTo(entered_a ? FeaturePair{face, here_.features.b} : FeaturePair{here_.features.a, face});
     // Only rounding can deny the closer face: the witness then is in the surface, and the axes decide.
     return moved ? Move::kTaken : Move::kInside;
   }
 
-  // How much farther apart the witnesses are than the slab across n that is free of both bodies: the most by which
-  // the distance can be wrong.
+  // How much farther apart the witnesses are than the slab across n that is free of both bodies: the most by
+  // which the distance can be wrong.
   double slack(const Vec3& n, const Vec3& minus_n_B) const {
     const Vec3& far_a = pair_.a.vertex(pair_.a.support(n, vertexOf(pair_.a, here_.features.a)));
-    const Vec3 far_b = pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here_.features.b))));
+    const Vec3 far_b =
+        pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here_.features.b))));
     return here_.distance_m - n.dot(far_b - far_a);
   }
 
-  // Between almost parallel features a step on one body alone gains less than rounding (half the slope squared), a
-  // step on both together gains the slope itself.
+  // Between almost parallel features a step on one body alone gains less than rounding (half the slope
+  // squared), a step on both together gains the slope itself.
   bool moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
     const double level_sine = kLevelSine * std::sqrt(std::max(1.0, scale_m_ / here_.distance_m));
     const LevelNeighbours on_a(pair_.a, here_.features.a, n, level_sine);
@@ -238,9 +246,11 @@ struct CoreAnswer {
   FeaturePair features;
 };
 
-// The axes give the normal, and the depth of cores that intersect. Cores that merely touch keep the witnesses that the
-// walk found: the foot of a support vertex may lie beside its face when several vertices are equally far.
-CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, const Vec3* common, double touching_m) {
+// The axes give the normal, and the depth of cores that intersect. Cores that merely touch keep the witnesses
+// that the walk found: the foot of a support vertex may lie beside its face when several vertices are equally
+// far.
+CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, const Vec3* common,
+                    double touching_m) {
   const MinimumTranslation m = minimumTranslation(pair);
   if (m.gap_m < -touching_m) return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
   if (!common) return {found.distance_m, m.normal, found.p_a, found.p_b, found.features};
@@ -253,7 +263,8 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
                                 FeaturePair& tracked) {
   const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
   if (tracked.a.index < 0 || tracked.b.index < 0) tracked = coldSeed(pair);
-  // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours never needs.
+  // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
+  // never needs.
   const int bound = 100 + 2 * (a.core.edgeCount() + b.core.edgeCount());
 
   const double scale = pair.t_AB.norm() + a.core.width() + b.core.width();
@@ -273,7 +284,8 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   }
 
   const bool directed = !inside && found.distance_m > kNoDirection * scale;
-  const CoreAnswer core = directed ? CoreAnswer{found.distance_m, normalBetween(pair, found), found.p_a, found.p_b, found.features}
+  const CoreAnswer core = directed ? CoreAnswer{found.distance_m, normalBetween(pair, found), found.p_a,
+                                                found.p_b, found.features}
                                    : fromAxes(pair, found, inside ? &common : nullptr, kNoDirection * scale);
   tracked = core.features;
   result.features = core.features;
@@ -282,8 +294,11 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   result.distance_m = core.gap_m - a.radius_m - b.radius_m;
   result.p_A_W = R_WA * (core.p_a + a.radius_m * core.normal) + X_WA.position;
   result.p_B_W = R_WA * (core.p_b - b.radius_m * core.normal) + X_WA.position;
-  if (result.distance_m > kTouching * scale) result.status = Separation::kSeparated;
-  else result.status = result.distance_m >= -kTouching * scale ? Separation::kTouching : Separation::kPenetrating;
+  if (result.distance_m > kTouching * scale)
+    result.status = Separation::kSeparated;
+  else
+    result.status =
+        result.distance_m >= -kTouching * scale ? Separation::kTouching : Separation::kPenetrating;
   return result;
 }
 

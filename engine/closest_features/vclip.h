@@ -1,19 +1,22 @@
 #pragma once
-// V-Clip (paper §2; Mirtich 1997): the closest features of two convex parts, found by walking from a feature pair to
-// a neighbouring pair that is closer, until each witness lies in the V-region of the other's feature.
+// V-Clip (paper §2; Mirtich 1997): the closest features of two convex parts, found by walking from a feature
+// pair to a neighbouring pair that is closer, until each witness lies in the V-region of the other's feature.
 //
-// Why it ends, in floating point too: the distance of the two closed features is a pure function of the feature pair,
-// and a move is taken only if that number strictly falls; there are finitely many pairs. Where it ends is the answer:
-// by convexity two points each in the other's V-region are the closest points of the whole bodies, and a violated
-// V-region offers a closer pair. Three ways that rounding or degeneracy hide it are looked for at the end of a walk:
-// - the way between the witnesses runs inside a body (the classic local minimum behind a face; also at the flat edges
-//   of coplanar faces, whose V-planes do not tell out from in): the other witness is inside, or the way enters the
-//   body earlier, through a face that is closer;
-// - between almost parallel features a step on one body gains half the slope squared, below rounding, a step on both
+// Why it ends, in floating point too: the distance of the two closed features is a pure function of the
+// feature pair, and a move is taken only if that number strictly falls; there are finitely many pairs. Where
+// it ends is the answer: by convexity two points each in the other's V-region are the closest points of the
+// whole bodies, and a violated V-region offers a closer pair. Three ways that rounding or degeneracy hide it
+// are looked for at the end of a walk:
+// - the way between the witnesses runs inside a body (the classic local minimum behind a face; also at the
+// flat edges
+//   of coplanar faces, whose V-planes do not tell out from in): the other witness is inside, or the way
+//   enters the body earlier, through a face that is closer;
+// - between almost parallel features a step on one body gains half the slope squared, below rounding, a step
+// on both
 //   the slope itself: the free slab between the support planes bounds the error and asks for a step on both;
-// - witnesses too close together have no direction: the separating axes give it, and the depth if there is one.
-// A walk that reaches its bound all the same is counted and answered by exhaustive search.
-// Tested in tests/engine/closest_features/vclip_test.cpp.
+// - witnesses too close together have no direction: the separating axes give it, and the depth if there is
+// one. A walk that reaches its bound all the same is counted and answered by exhaustive search. Tested in
+// tests/engine/closest_features/vclip_test.cpp.
 
 #include "engine/closest_features/feature.h"
 #include "engine/solid/solid.h"
@@ -33,8 +36,8 @@ struct ClosestFeatures {
   bool reached_limit = false;  ///< The walk was cut short and the exhaustive search answered.
 };
 
-/// The closest features of two parts. `tracked` is where the walk starts and receives where it ended; a pair with
-/// index -1 starts it from the vertices that face each other.
+/// The closest features of two parts. `tracked` is where the walk starts and receives where it ended; a pair
+/// with index -1 starts it from the vertices that face each other.
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 FeaturePair& tracked);
 

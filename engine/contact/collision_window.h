@@ -1,7 +1,7 @@
 #pragma once
-// The collision window of paper §2.3, fig. 7: two distances epsilon1 < epsilon2. Between them a collision is solved
-// directly, without root finding; below epsilon1 no pair ever gets.
-// Tested in tests/engine/contact/collision_window_test.cpp.
+// The collision window of paper §2.3, fig. 7: two distances epsilon1 < epsilon2. Between them a collision is
+// solved directly, without root finding; below epsilon1 no pair ever gets. Tested in
+// tests/engine/contact/collision_window_test.cpp.
 
 #include <algorithm>
 
@@ -12,11 +12,11 @@ namespace carom {
 
 /// All in metres; 0 < floor < rest < landing < ceiling.
 struct CollisionWindow {
-  double floor = 0.0;    ///< epsilon1.
-  double rest = 0.0;     ///< The gap at which lasting contact is held.
-  double landing = 0.0;  ///< The gap at which a time of impact aims.
-  double ceiling = 0.0;  ///< epsilon2.
-  double manifold = 0.0; ///< The distance k of §2.4.
+  double floor = 0.0;     ///< epsilon1.
+  double rest = 0.0;      ///< The gap at which lasting contact is held.
+  double landing = 0.0;   ///< The gap at which a time of impact aims.
+  double ceiling = 0.0;   ///< epsilon2.
+  double manifold = 0.0;  ///< The distance k of §2.4.
 };
 
 inline CollisionWindow collisionWindow(const ConvexPart& a, const ConvexPart& b) {

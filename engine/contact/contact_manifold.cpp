@@ -17,7 +17,9 @@ struct Corner {
   std::uint64_t id;
 };
 
-std::uint64_t combineIds(std::uint64_t a, std::uint64_t b) { return (a * 0x9E3779B97F4A7C15ull) ^ (b + 0x632BE59BD9B4E019ull); }
+std::uint64_t combineIds(std::uint64_t a, std::uint64_t b) {
+  return (a * 0x9E3779B97F4A7C15ull) ^ (b + 0x632BE59BD9B4E019ull);
+}
 
 // One of the two parts, with what clipping asks of it in world terms.
 struct Placed {
@@ -40,8 +42,8 @@ struct Placed {
   }
   std::vector<int> edgesAt(Feature feature) const {
     if (feature.kind == FeatureKind::kEdge) return {feature.index};
-    const std::span<const int> edges =
-        feature.kind == FeatureKind::kVertex ? core.vertexEdges(feature.index) : core.faceEdges(feature.index);
+    const std::span<const int> edges = feature.kind == FeatureKind::kVertex ? core.vertexEdges(feature.index)
+                                                                            : core.faceEdges(feature.index);
     return {edges.begin(), edges.end()};
   }
 };
@@ -70,13 +72,16 @@ int edgeAcross(const Placed& part, Feature feature, const Vec3& normal) {
   return best;
 }
 
-// What of a part lies on a reference plane with this outward normal: a face, an edge, or nothing more than a point.
+// What of a part lies on a reference plane with this outward normal: a face, an edge, or nothing more than a
+// point.
 std::vector<Corner> lyingFeature(const Placed& part, Feature feature, const Vec3& normal) {
   std::vector<Corner> corners;
   if (const int f = faceTowards(part, feature, -normal); f >= 0) {
-    for (int v : part.core.faceVertices(f)) corners.push_back({part.vertex(v), static_cast<std::uint64_t>(v)});
+    for (int v : part.core.faceVertices(f))
+      corners.push_back({part.vertex(v), static_cast<std::uint64_t>(v)});
   } else if (const int e = edgeAcross(part, feature, normal); e >= 0) {
-    for (int v : {part.core.edge(e).tail, part.core.edge(e).head}) corners.push_back({part.vertex(v), static_cast<std::uint64_t>(v)});
+    for (int v : {part.core.edge(e).tail, part.core.edge(e).head})
+      corners.push_back({part.vertex(v), static_cast<std::uint64_t>(v)});
   }
   return corners;
 }
@@ -103,7 +108,8 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, std::uint64_t side_
 }
 
 // The points of `incident`'s lying feature over face f of `reference`, gaps measured along the face's normal.
-std::vector<ManifoldPoint> clipOverFace(const Placed& reference, int f, const Placed& incident, Feature feature, double k) {
+std::vector<ManifoldPoint> clipOverFace(const Placed& reference, int f, const Placed& incident,
+                                        Feature feature, double k) {
   const Vec3 normal = reference.faceNormal(f);
   const Vec3 on_face = reference.vertex(reference.core.faceVertices(f)[0]);
   const double radii = reference.radius_m + incident.radius_m;
@@ -113,7 +119,8 @@ std::vector<ManifoldPoint> clipOverFace(const Placed& reference, int f, const Pl
   for (int e : reference.core.faceEdges(f)) {
     const Vec3 into = reference.X_W.rotation * reference.core.intoFace(e, f);
     const Vec3 on_edge = reference.vertex(reference.core.edge(e).tail);
-    polygon = clip(polygon, static_cast<std::uint64_t>(e), [&](const Vec3& p) { return into.dot(p - on_edge); });
+    polygon =
+        clip(polygon, static_cast<std::uint64_t>(e), [&](const Vec3& p) { return into.dot(p - on_edge); });
     if (polygon.empty()) return {};
   }
   polygon = clip(polygon, (1ull << 31), [&](const Vec3& p) { return k - height(p); });
@@ -125,8 +132,8 @@ std::vector<ManifoldPoint> clipOverFace(const Placed& reference, int f, const Pl
   return points;
 }
 
-// Two edges that run alongside each other without a face to lie on (capsules, roof ridges): the ends of the stretch
-// they share.
+// Two edges that run alongside each other without a face to lie on (capsules, roof ridges): the ends of the
+// stretch they share.
 std::vector<ManifoldPoint> sharedStretch(const Placed& a, int ea, const Placed& b, int eb, const Vec3& n) {
   const Vec3 along = a.edgeDirection(ea);
   if (along.cross(b.edgeDirection(eb)).norm() > kLyingSine) return {};
@@ -150,10 +157,12 @@ std::vector<ManifoldPoint> sharedStretch(const Placed& a, int ea, const Placed& 
   return points;
 }
 
-double triangleArea(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a).norm(); }
+double triangleArea(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a).norm();
+}
 
-// Keeps the deepest point, the farthest from it, the farthest from their line, and the one that adds most area on the
-// other side.
+// Keeps the deepest point, the farthest from it, the farthest from their line, and the one that adds most
+// area on the other side.
 void reduce(std::vector<ManifoldPoint>& points, const Vec3& n) {
   if (points.size() <= ContactManifold::kFacePoints) return;
   std::vector<ManifoldPoint> kept;
@@ -220,11 +229,12 @@ ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart
     kept = p;
     kept.id = combineIds(p.id, reference_id);
   }
-  // A reference turned away from the contact's normal, or that lost the closest point beyond its rim, does not hold
-  // that point's motion; the point itself does.
+  // A reference turned away from the contact's normal, or that lost the closest point beyond its rim, does
+  // not hold that point's motion; the point itself does.
   const bool holds_closest = !points.empty() && points[0].n_W.dot(single.n_W) > 1.0 - kSameCosine &&
                              least <= closest.distance_m + kSameGap * window.floor;
-  if (!holds_closest) manifold.points[static_cast<std::size_t>(manifold.count++)] = {single.p_W, single.n_W, single.gap_m, 0};
+  if (!holds_closest)
+    manifold.points[static_cast<std::size_t>(manifold.count++)] = {single.p_W, single.n_W, single.gap_m, 0};
   return manifold;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Multi-point contact (paper §2.4, fig. 8): where a face or an edge of one part lies on a face of the other, it is
-// clipped against the V-region of that face and the parallel plane at distance k; the corners of what is left are the
-// points of contact. Each point carries an id made of features, so that it is recognised in the next step.
-// Tested in tests/engine/contact/contact_manifold_test.cpp.
+// Multi-point contact (paper §2.4, fig. 8): where a face or an edge of one part lies on a face of the other,
+// it is clipped against the V-region of that face and the parallel plane at distance k; the corners of what
+// is left are the points of contact. Each point carries an id made of features, so that it is recognised in
+// the next step. Tested in tests/engine/contact/contact_manifold_test.cpp.
 
 #include <array>
 #include <cstdint>
@@ -20,8 +20,9 @@ struct ManifoldPoint {
   std::uint64_t id = 0;
 };
 
-/// Up to four points with the normal of the reference face: the deepest, and those that span the largest area with it.
-/// The closest point with its own normal is always there; where it is none of the four, it is a fifth.
+/// Up to four points with the normal of the reference face: the deepest, and those that span the largest area
+/// with it. The closest point with its own normal is always there; where it is none of the four, it is a
+/// fifth.
 struct ContactManifold {
   static constexpr int kMaxPoints = 5;
   static constexpr int kFacePoints = 4;

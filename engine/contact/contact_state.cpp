@@ -8,10 +8,11 @@ namespace {
 // Edges closer to parallel than this have no usable product; the line between the witnesses serves instead.
 constexpr double kParallelSine = 1e-6;
 
-Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA, const ConvexPart& b,
-                    const Pose& X_WB) {
+Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
+                    const ConvexPart& b, const Pose& X_WB) {
   const Edge& base = a.core.edge(closest.features.a.index);
-  const Vec3 product = (X_WA.rotation * base.direction).cross(X_WB.rotation * b.core.edge(closest.features.b.index).direction);
+  const Vec3 product =
+      (X_WA.rotation * base.direction).cross(X_WB.rotation * b.core.edge(closest.features.b.index).direction);
   const double sine = product.norm();
   if (sine < kParallelSine) return closest.n_W;
   const Vec3 n = product / sine;
@@ -25,10 +26,14 @@ Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const P
 
 const char* contactStateName(ContactState state) {
   switch (state) {
-    case ContactState::kVertexVertex: return "V-V";
-    case ContactState::kVertexEdge: return "V-E";
-    case ContactState::kVertexFace: return "V-F";
-    case ContactState::kEdgeEdge: return "E-E";
+    case ContactState::kVertexVertex:
+      return "V-V";
+    case ContactState::kVertexEdge:
+      return "V-E";
+    case ContactState::kVertexFace:
+      return "V-F";
+    case ContactState::kEdgeEdge:
+      return "E-E";
   }
   return "?";
 }
@@ -41,8 +46,8 @@ ContactState contactStateOf(const FeaturePair& features) {
   return high == FeatureKind::kEdge ? ContactState::kVertexEdge : ContactState::kVertexVertex;
 }
 
-ContactPoint contactPoint(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA, const ConvexPart& b,
-                          const Pose& X_WB) {
+ContactPoint contactPoint(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
+                          const ConvexPart& b, const Pose& X_WB) {
   ContactPoint point{0.5 * (closest.p_A_W + closest.p_B_W), closest.n_W, closest.distance_m};
   switch (contactStateOf(closest.features)) {
     case ContactState::kVertexFace:

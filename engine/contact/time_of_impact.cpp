@@ -8,14 +8,15 @@
 namespace carom {
 namespace {
 
-constexpr int kAdvances = 1000;           // proven intervals per search
-constexpr int kProposals = 80;            // tries per interval, each shorter than the last
-constexpr double kLinearShrink = 0.9;     // paper §2.3: a linear decrement of 10 % guards Newton's step
-constexpr double kSmallestShare = 1e-10;  // of the searched interval: less progress than this is standing still
-constexpr double kFloorSlack = 0.02;      // of the floor: a slow approach is stopped this near to it
+constexpr int kAdvances = 1000;        // proven intervals per search
+constexpr int kProposals = 80;         // tries per interval, each shorter than the last
+constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
+constexpr double kSmallestShare =
+    1e-10;                            // of the searched interval: less progress than this is standing still
+constexpr double kFloorSlack = 0.02;  // of the floor: a slow approach is stopped this near to it
 
-// The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second derivative is
-// at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
+// The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
+// derivative is at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
 double lowerBound(double begin, double end, double k) {
   const double rise = end - begin;
   if (rise >= k) return begin;
@@ -25,7 +26,8 @@ double lowerBound(double begin, double end, double k) {
 
 class Search {
  public:
-  Search(const MovingPart& a, const MovingPart& b, const ImpactSearch& search) : a_(a), b_(b), search_(search) {}
+  Search(const MovingPart& a, const MovingPart& b, const ImpactSearch& search)
+      : a_(a), b_(b), search_(search) {}
 
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
     const Velocity va{a_.path->velocityAt(t), a_.path->spin};
@@ -48,20 +50,26 @@ class Search {
            a_.path->spin.squaredNorm() * a_.reach_m + b_.path->spin.squaredNorm() * b_.reach_m;
   }
 
-  // The longest interval from `begin`, among those Newton proposes, over which the gap along n stays >= floor.
-  double provenInterval(double begin, double gap, double speed, const Vec3& n, double floor, int& newton_steps) {
+  // The longest interval from `begin`, among those Newton proposes, over which the gap along n stays >=
+  // floor.
+  double provenInterval(double begin, double gap, double speed, const Vec3& n, double floor,
+                        int& newton_steps) {
     const double curvature = curvatureBound(n);
     // Aim between floor and gap when already low, else at the landing gap.
-    const double aim = std::max(floor + 0.25 * (gap - floor), std::min(search_.window.landing, floor + 0.75 * (gap - floor)));
+    const double aim = std::max(floor + 0.25 * (gap - floor),
+                                std::min(search_.window.landing, floor + 0.75 * (gap - floor)));
     double interval = search_.end_s - begin;
     for (int i = 0; i < kProposals; ++i) {
       const double end_gap = gapAlong(n, begin + interval);
       if (lowerBound(gap, end_gap, 0.5 * curvature * interval * interval) >= floor) return interval;
       ++newton_steps;
       double proposal = kLinearShrink * interval;
-      if (end_gap < aim) proposal = std::min(proposal, interval * (gap - aim) / (gap - end_gap));  // the chord
-      if (speed < 0.0) proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
-      else proposal *= 0.5;
+      if (end_gap < aim)
+        proposal = std::min(proposal, interval * (gap - aim) / (gap - end_gap));  // the chord
+      if (speed < 0.0)
+        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
+      else
+        proposal *= 0.5;
       interval = proposal;
     }
     return 0.0;
@@ -96,12 +104,14 @@ TimeOfImpact timeOfImpact(const MovingPart& a, const MovingPart& b, const Impact
     }
     if (result.time_s >= search.end_s) return result;
     if (speed < 0.0 && gap < (1.0 + kFloorSlack) * floor) break;
-    const double interval = looks.provenInterval(result.time_s, gap, speed, result.closest.n_W, floor, result.newton_steps);
+    const double interval =
+        looks.provenInterval(result.time_s, gap, speed, result.closest.n_W, floor, result.newton_steps);
     if (interval <= smallest) break;
     const bool last = result.time_s + interval >= search.end_s;
     result.time_s = last ? search.end_s : result.time_s + interval;
     if (last) return result;
-    result.closest = closestFeatures(*a.part, a.path->at(result.time_s), *b.part, b.path->at(result.time_s), tracked);
+    result.closest =
+        closestFeatures(*a.part, a.path->at(result.time_s), *b.part, b.path->at(result.time_s), tracked);
     ++result.queries;
   }
   result.outcome = TimeOfImpact::Outcome::kStopped;

@@ -1,14 +1,14 @@
 #pragma once
-// Collision time searching (paper §2.3, figs. 6 and 7): the first time at which two moving parts come into the
-// collision window fast enough to collide, or can be carried no further without leaving it downwards.
+// Collision time searching (paper §2.3, figs. 6 and 7): the first time at which two moving parts come into
+// the collision window fast enough to collide, or can be carried no further without leaving it downwards.
 //
-// The search never trusts d(t) between two looks at it. With the direction n of the closest features held fixed, the
-// gap along n between the parts bounds d(t) from below, and every vertex moves along n with a second derivative of at
-// most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B. A function with that bound stays above its chord less
-// M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower bound for all of it.
-// Newton's step towards the landing gap (with the paper's linear correction as its guard) only proposes the interval.
-// Invariant: up to the returned time the distance is >= the floor. Valid for any speed and any rotation.
-// Tested in tests/engine/contact/time_of_impact_test.cpp.
+// The search never trusts d(t) between two looks at it. With the direction n of the closest features held
+// fixed, the gap along n between the parts bounds d(t) from below, and every vertex moves along n with a
+// second derivative of at most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B. A function with that bound
+// stays above its chord less M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower
+// bound for all of it. Newton's step towards the landing gap (with the paper's linear correction as its
+// guard) only proposes the interval. Invariant: up to the returned time the distance is >= the floor. Valid
+// for any speed and any rotation. Tested in tests/engine/contact/time_of_impact_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 #include "engine/contact/collision_window.h"
@@ -31,9 +31,9 @@ struct ImpactSearch {
 
 struct TimeOfImpact {
   enum class Outcome : std::uint8_t {
-    kClear,    ///< No impact before the end.
-    kImpact,   ///< In the window and approaching faster than the collision speed.
-    kStopped   ///< Cannot be carried further: slow approach at the floor, or the search's bound.
+    kClear,   ///< No impact before the end.
+    kImpact,  ///< In the window and approaching faster than the collision speed.
+    kStopped  ///< Cannot be carried further: slow approach at the floor, or the search's bound.
   };
   Outcome outcome = Outcome::kClear;
   double time_s = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 // REQUIRE states what must hold if the program has no bug; it is on in every build and prints its values.
-// InputError is the other kind of failure: something a person gave us. Numerical outcomes are neither: they are
-// returned as a status. Tested in tests/engine/foundation/contract_test.cpp.
+// InputError is the other kind of failure: something a person gave us. Numerical outcomes are neither: they
+// are returned as a status. Tested in tests/engine/foundation/contract_test.cpp.
 
 #include <sstream>
 #include <stdexcept>
@@ -34,8 +34,8 @@ std::string printValues(const Values&... values) {
 
 }  // namespace carom
 
-#define REQUIRE(condition, ...)                                                                      \
-  do {                                                                                               \
-    if (!(condition))                                                                                \
-      ::carom::failContract(#condition, __FILE__, __LINE__, ::carom::printValues(__VA_ARGS__));      \
+#define REQUIRE(condition, ...)                                                                 \
+  do {                                                                                          \
+    if (!(condition))                                                                           \
+      ::carom::failContract(#condition, __FILE__, __LINE__, ::carom::printValues(__VA_ARGS__)); \
   } while (false)

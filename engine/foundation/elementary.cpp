@@ -13,17 +13,26 @@ constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 // Taylor sums on |x| <= pi/4: the first term left out is below 1e-17.
 double sineNear(double x) {
   const double s = x * x;
-  return x * (1.0 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 +
-         s * (-1.0 / 39916800 + s * (1.0 / 6227020800.0 + s * (-1.0 / 1307674368000.0))))))));
+  return x * (1.0 +
+              s * (-1.0 / 6 +
+                   s * (1.0 / 120 +
+                        s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800 +
+                                                                    s * (1.0 / 6227020800.0 +
+                                                                         s * (-1.0 / 1307674368000.0))))))));
 }
 double cosineNear(double x) {
   const double s = x * x;
-  return 1.0 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800 +
-         s * (1.0 / 479001600 + s * (-1.0 / 87178291200.0 + s * (1.0 / 20922789888000.0))))))));
+  return 1.0 +
+         s * (-1.0 / 2 +
+              s * (1.0 / 24 +
+                   s * (-1.0 / 720 + s * (1.0 / 40320 +
+                                          s * (-1.0 / 3628800 + s * (1.0 / 479001600 +
+                                                                     s * (-1.0 / 87178291200.0 +
+                                                                          s * (1.0 / 20922789888000.0))))))));
 }
 
-// The angle in [0, pi] with this sine >= 0 and cosine (both scaled alike). Newton's step on sin(target - angle) has a
-// cubic error: from at most 0.34 rad, four steps reach rounding.
+// The angle in [0, pi] with this sine >= 0 and cosine (both scaled alike). Newton's step on sin(target -
+// angle) has a cubic error: from at most 0.34 rad, four steps reach rounding.
 double angleOf(double sine, double cosine) {
   constexpr double kHalfPi = 1.5707963267948966;
   double angle = kHalfPi * (1.0 - cosine);
@@ -42,10 +51,14 @@ SineCosine sineCosine(double angle) {
   const double s = sineNear(x);
   const double c = cosineNear(x);
   switch (static_cast<long long>(quarter) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 

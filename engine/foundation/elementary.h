@@ -1,6 +1,7 @@
 #pragma once
-// Elementary functions whose bits we own: only additions and multiplications in a fixed order, so that the state of a
-// simulation does not depend on the C library. Tested in tests/engine/foundation/elementary_test.cpp.
+// Elementary functions whose bits we own: only additions and multiplications in a fixed order, so that the
+// state of a simulation does not depend on the C library. Tested in
+// tests/engine/foundation/elementary_test.cpp.
 
 #include "engine/foundation/frames.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 // Linear-algebra aliases and rigid transforms.
-// Frames are named by a trailing letter: p_W is a point in the world frame, X_WB maps body-frame points to the
-// world (p_W = X_WB * p_B). SI units, radians. Quaternions are unit and print as w, x, y, z.
-// Tested in tests/engine/foundation/frames_test.cpp.
+// Frames are named by a trailing letter: p_W is a point in the world frame, X_WB maps body-frame points to
+// the world (p_W = X_WB * p_B). SI units, radians. Quaternions are unit and print as w, x, y, z. Tested in
+// tests/engine/foundation/frames_test.cpp.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,22 +1,24 @@
 #pragma once
-// The tolerances that decide what the simulation does, in one place and in order. A length written "per metre" is
-// multiplied by the smaller width of the two parts concerned, at most one metre. Tolerances of one algorithm (rounding
-// of a slope, planarity of a face) stand in that algorithm's file with their reasons.
+// The tolerances that decide what the simulation does, in one place and in order. A length written "per
+// metre" is multiplied by the smaller width of the two parts concerned, at most one metre. Tolerances of one
+// algorithm (rounding of a slope, planarity of a face) stand in that algorithm's file with their reasons.
 
 namespace carom::tolerance {
 
 // The collision window (paper §2.3, fig. 7), lengths per metre: floor < rest gap < landing < ceiling.
-inline constexpr double kWindowFloor = 2.0e-4;    // epsilon1: no pair is ever closer
-inline constexpr double kRestGap = 1.0e-3;        // lasting contact is held here: 0.8 mm of slack for residuals
-inline constexpr double kRestBand = 0.1;         // of the rest gap, either way: gaps in this band are held as they are
-inline constexpr double kLandingGap = 1.5e-3;     // where a time of impact aims: between rest gap and ceiling
-inline constexpr double kWindowCeiling = 2.0e-3;  // epsilon2: closer than this, a collision is solved directly
+inline constexpr double kWindowFloor = 2.0e-4;  // epsilon1: no pair is ever closer
+inline constexpr double kRestGap = 1.0e-3;      // lasting contact is held here: 0.8 mm of slack for residuals
+inline constexpr double kRestBand =
+    0.1;  // of the rest gap, either way: gaps in this band are held as they are
+inline constexpr double kLandingGap = 1.5e-3;  // where a time of impact aims: between rest gap and ceiling
+inline constexpr double kWindowCeiling =
+    2.0e-3;  // epsilon2: closer than this, a collision is solved directly
 inline constexpr double kWindowLargestScale = 1.0;  // metres; larger bodies keep the window of a metre
 
 // Multi-point contact (paper §2.4, fig. 8).
-inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre: above the ceiling, so that a tilted
-                                                   // face keeps its far points while it settles
-inline constexpr double kLyingSine = 0.087;        // 5 degrees: an edge or face flatter than this lies on the face
+inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre: above the ceiling, so that a
+                                                   // tilted face keeps its far points while it settles
+inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatter than this lies on the face
 
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
@@ -26,17 +28,18 @@ inline constexpr double kGapGain = 0.2;            // share of the missing gap r
 inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopening
 
 // Events of one step and body.
-inline constexpr int kPairEvents = 8;      // up to here each event is solved between its two bodies
-inline constexpr int kEventsPerBody = 24;  // up to here together with all contacts around; then the body is held
+inline constexpr int kPairEvents = 8;  // up to here each event is solved between its two bodies
+inline constexpr int kEventsPerBody =
+    24;  // up to here together with all contacts around; then the body is held
 
 // Sliding (paper §2.4).
-inline constexpr double kSlipSpeed = 1e-5;         // m/s: below it the static coefficient of friction counts
-inline constexpr double kSlidingSpeed = 1e-3;      // m/s along the contact; slower is holding or rolling
+inline constexpr double kSlipSpeed = 1e-5;     // m/s: below it the static coefficient of friction counts
+inline constexpr double kSlidingSpeed = 1e-3;  // m/s along the contact; slower is holding or rolling
 
 // Resting mode (paper §2.5).
-inline constexpr double kRestSpeed = 0.02;        // m/s of any point: slower counts as lying still
-inline constexpr double kRestTime = 0.25;         // s of lying still before the test
-inline constexpr double kRestAcceleration = 1e-4; // of gravity: forces balanced better than this hold a body
-inline constexpr int kRestSweeps = 400;           // of the solver in that test
+inline constexpr double kRestSpeed = 0.02;         // m/s of any point: slower counts as lying still
+inline constexpr double kRestTime = 0.25;          // s of lying still before the test
+inline constexpr double kRestAcceleration = 1e-4;  // of gravity: forces balanced better than this hold a body
+inline constexpr int kRestSweeps = 400;            // of the solver in that test
 
 }  // namespace carom::tolerance

@@ -5,7 +5,9 @@
 
 namespace carom {
 
-Islands::Islands(int n) : parent_(static_cast<std::size_t>(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+Islands::Islands(int n) : parent_(static_cast<std::size_t>(n)) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
 
 int Islands::of(int i) const {
   while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];

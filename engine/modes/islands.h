@@ -1,6 +1,6 @@
 #pragma once
-// Islands: bodies that press on each other, directly or through others. An island comes to rest, and wakes, as one.
-// Tested in tests/engine/modes/islands_test.cpp.
+// Islands: bodies that press on each other, directly or through others. An island comes to rest, and wakes,
+// as one. Tested in tests/engine/modes/islands_test.cpp.
 
 #include <vector>
 

@@ -9,11 +9,12 @@
 namespace carom {
 namespace {
 
-// How far the effective force may pass beside the polygon, relative to the body's radius: contact points stand half a
-// gap beside the true ones. The balance of forces (2) is what decides; this spares it most hopeless cases.
+// How far the effective force may pass beside the polygon, relative to the body's radius: contact points
+// stand half a gap beside the true ones. The balance of forces (2) is what decides; this spares it most
+// hopeless cases.
 constexpr double kSupportSlack = 0.05;
-// The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold a body
-// whose centre is not above its contacts, and (2) alone decides.
+// The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold
+// a body whose centre is not above its contacts, and (2) alone decides.
 constexpr double kLevelSine = 0.05;
 
 bool standsOnLevelContacts(std::span<const BodyContact> contacts, const Vec3& weight) {
@@ -54,7 +55,8 @@ bool conesBalanceGravity(const RestQuestion& q) {
   const double allowed = tolerance::kRestAcceleration * gravity_speed;
   solveContacts(rows, bodies, {tolerance::kRestSweeps, 0.01 * allowed, true});
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].velocity.linear.norm() + bodies[i].velocity.angular.norm() * q.radii[i] > allowed) return false;
+    if (bodies[i].velocity.linear.norm() + bodies[i].velocity.angular.norm() * q.radii[i] > allowed)
+      return false;
   return true;
 }
 
@@ -64,6 +66,8 @@ bool liesStill(const Velocity& velocity, double radius_m) {
   return velocity.linear.norm() + velocity.angular.norm() * radius_m < tolerance::kRestSpeed;
 }
 
-bool canRest(const RestQuestion& question) { return forcesPassThroughSupports(question) && conesBalanceGravity(question); }
+bool canRest(const RestQuestion& question) {
+  return forcesPassThroughSupports(question) && conesBalanceGravity(question);
+}
 
 }  // namespace carom

@@ -1,9 +1,10 @@
 #pragma once
-// Resting mode (paper §2.5). An island that has lain still for a while rests when (1) the effective force on each of
-// its bodies that stand on level contacts passes through the body's support polygon, and (2) the contacts can balance
-// gravity within their friction cones. DEVIATES: the paper asks only for (1) and low kinetic energy, which would freeze a box on a steep incline.
-// (2) is asked of the contact solver itself: from zero velocity, one step's gravity must leave zero velocity.
-// Tested in tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp.
+// Resting mode (paper §2.5). An island that has lain still for a while rests when (1) the effective force on
+// each of its bodies that stand on level contacts passes through the body's support polygon, and (2) the
+// contacts can balance gravity within their friction cones. DEVIATES: the paper asks only for (1) and low
+// kinetic energy, which would freeze a box on a steep incline. (2) is asked of the contact solver itself:
+// from zero velocity, one step's gravity must leave zero velocity. Tested in
+// tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp.
 
 #include <span>
 
@@ -16,9 +17,9 @@ bool liesStill(const Velocity& velocity, double radius_m);
 
 /// One island: rows refer to `bodies`; those with zero inverse mass are what it lies on.
 struct RestQuestion {
-  std::span<const ContactRow> rows;      ///< With the impulses of the last step as the guess.
+  std::span<const ContactRow> rows;  ///< With the impulses of the last step as the guess.
   std::span<const ImpulseBody> bodies;
-  std::span<const double> radii;         ///< Of the bodies, metres.
+  std::span<const double> radii;  ///< Of the bodies, metres.
   Vec3 gravity = Vec3::Zero();
   double step_s = 0.0;
 };

@@ -9,7 +9,9 @@ namespace {
 // A contact holds a body up when its normal leans against the weight by more than this cosine.
 constexpr double kUpwards = 1e-3;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 double distanceToSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a;
@@ -22,13 +24,17 @@ double distanceToSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
 
 // Andrew's monotone chain.
 std::vector<Vec2> convexCover(std::vector<Vec2> points) {
-  const auto before = [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); };
+  const auto before = [](const Vec2& a, const Vec2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  };
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Vec2> cover;
   const auto append = [&](const Vec2& p, std::size_t fixed) {
-    while (cover.size() >= fixed + 2 && cross(cover.back() - cover[cover.size() - 2], p - cover.back()) <= 0.0) cover.pop_back();
+    while (cover.size() >= fixed + 2 &&
+           cross(cover.back() - cover[cover.size() - 2], p - cover.back()) <= 0.0)
+      cover.pop_back();
     cover.push_back(p);
   };
   for (const Vec2& p : points) append(p, 0);

@@ -12,8 +12,8 @@ namespace {
 // A rotation by more than this has no reliable axis: near a whole turn it looks like none.
 constexpr double kLargestTurn = 2.0;
 
-// Turns the body about one of its principal axes by the flow of the energy L_i^2 / 2 (1/I_i - 1/I_reference): the
-// angular momentum in the body turns the other way.
+// Turns the body about one of its principal axes by the flow of the energy L_i^2 / 2 (1/I_i - 1/I_reference):
+// the angular momentum in the body turns the other way.
 void turnAboutAxis(int axis, double rate_per_momentum, double dt_s, Quat& R, Vec3& momentum_P) {
   Vec3 turn = Vec3::Zero();
   turn[axis] = rate_per_momentum * momentum_P[axis] * dt_s;

@@ -10,9 +10,9 @@ namespace carom {
 struct Inertia {
   double mass_kg = 0.0;
   double inverse_mass = 0.0;
-  Mat3 tensor_B = Mat3::Zero();          ///< kg m^2 about the centre of mass.
+  Mat3 tensor_B = Mat3::Zero();  ///< kg m^2 about the centre of mass.
   Mat3 inverse_tensor_B = Mat3::Zero();
-  Mat3 principal_axes_B = Mat3::Identity();   ///< Columns: right-handed, by rising moment.
+  Mat3 principal_axes_B = Mat3::Identity();  ///< Columns: right-handed, by rising moment.
   Vec3 principal_moments = Vec3::Zero();
 };
 Inertia inertiaOf(double density_kgpm3, double volume, const Mat3& unit_inertia);
@@ -32,11 +32,11 @@ Vec3 angularMomentum(const Inertia& inertia, const Quat& R_WB, const Vec3& angul
 Vec3 angularVelocity(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum);
 double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& velocity);
 
-/// The constant spin that carries a free body from `R_WB` to where `dt_s` seconds of torque-free rotation leave it, by
-/// splitting the kinetic energy into a part that turns the body about its angular momentum and two that turn it about
-/// principal axes, each solved exactly: time-reversible, second order, exact for a body with an axis of symmetry. With
-/// omega recomputed from the conserved angular momentum at the end, that momentum is exact and the energy bounded.
-/// Beyond two radians a step the spin of the first two is kept.
+/// The constant spin that carries a free body from `R_WB` to where `dt_s` seconds of torque-free rotation
+/// leave it, by splitting the kinetic energy into a part that turns the body about its angular momentum and
+/// two that turn it about principal axes, each solved exactly: time-reversible, second order, exact for a
+/// body with an axis of symmetry. With omega recomputed from the conserved angular momentum at the end, that
+/// momentum is exact and the energy bounded. Beyond two radians a step the spin of the first two is kept.
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
 
 }  // namespace carom

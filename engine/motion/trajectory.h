@@ -1,7 +1,7 @@
 #pragma once
-// The path of a body over a time interval: constant acceleration and constant spin, evaluated exactly at any instant.
-// In flight the acceleration is gravity (an exact parabola); in lasting contact it is zero.
-// Tested in tests/engine/motion/trajectory_test.cpp.
+// The path of a body over a time interval: constant acceleration and constant spin, evaluated exactly at any
+// instant. In flight the acceleration is gravity (an exact parabola); in lasting contact it is zero. Tested
+// in tests/engine/motion/trajectory_test.cpp.
 
 #include "engine/foundation/elementary.h"
 #include "engine/foundation/frames.h"
@@ -10,10 +10,10 @@ namespace carom {
 
 struct Trajectory {
   double start_s = 0.0;
-  Pose X_WB;                            ///< At `start_s`.
-  Vec3 velocity = Vec3::Zero();         ///< Of the centre of mass at `start_s`.
+  Pose X_WB;                     ///< At `start_s`.
+  Vec3 velocity = Vec3::Zero();  ///< Of the centre of mass at `start_s`.
   Vec3 acceleration = Vec3::Zero();
-  Vec3 spin = Vec3::Zero();             ///< rad/s, world frame, constant.
+  Vec3 spin = Vec3::Zero();  ///< rad/s, world frame, constant.
 
   Pose at(double t_s) const {
     const double t = t_s - start_s;

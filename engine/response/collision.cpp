@@ -10,16 +10,19 @@ constexpr int kSweeps = 400;
 constexpr double kConverged = 1e-12;  // of the approach speed
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
-double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before, std::span<const ImpulseBody> bodies) {
+double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before,
+                       std::span<const ImpulseBody> bodies) {
   double gain = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) gain += rows[i].impulse.dot(before[i] + rowVelocity(rows[i], bodies));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    gain += rows[i].impulse.dot(before[i] + rowVelocity(rows[i], bodies));
   return gain;
 }
 
-// Takes back the share of the restitution phase that would leave more energy than there was. Velocities between the
-// end of compression and the end of restitution are linear in the share, so the energy is a convex parabola of it.
-void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before, const std::vector<Vec3>& compressed,
-                    std::span<ImpulseBody> bodies) {
+// Takes back the share of the restitution phase that would leave more energy than there was. Velocities
+// between the end of compression and the end of restitution are linear in the share, so the energy is a
+// convex parabola of it.
+void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
+                    const std::vector<Vec3>& compressed, std::span<ImpulseBody> bodies) {
   std::vector<Vec3> whole(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) whole[i] = rows[i].impulse;
   const auto setShare = [&](double share) {
@@ -41,7 +44,8 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
 
 }  // namespace
 
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution) {
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                        std::span<const double> restitution) {
   CollisionReport report;
   std::vector<Vec3> before(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

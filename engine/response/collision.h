@@ -1,9 +1,9 @@
 #pragma once
-// A collision at one or more points, of two bodies or more, (paper §2.1 and §2.4) with restitution and Coulomb friction:
-// compression to rest with friction, then every compressed point leaves with e times its approach speed, friction
-// acting on. For a single frictionless point this is the paper's j. Kinetic energy never grows: compression with
-// friction only dissipates, and restitution is cut back where it would return more than was there.
-// Tested in tests/engine/response/collision_test.cpp.
+// A collision at one or more points, of two bodies or more, (paper §2.1 and §2.4) with restitution and
+// Coulomb friction: compression to rest with friction, then every compressed point leaves with e times its
+// approach speed, friction acting on. For a single frictionless point this is the paper's j. Kinetic energy
+// never grows: compression with friction only dissipates, and restitution is cut back where it would return
+// more than was there. Tested in tests/engine/response/collision_test.cpp.
 
 #include <span>
 
@@ -12,12 +12,14 @@
 namespace carom {
 
 struct CollisionReport {
-  double approach_mps = 0.0;   ///< The most negative separating speed before.
-  double impulse_Ns = 0.0;     ///< Sum of the normal impulses.
+  double approach_mps = 0.0;  ///< The most negative separating speed before.
+  double impulse_Ns = 0.0;    ///< Sum of the normal impulses.
   bool restitution_cut = false;
 };
 
-/// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to. `restitution`: one a row.
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution);
+/// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to. `restitution`: one a
+/// row.
+CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                        std::span<const double> restitution);
 
 }  // namespace carom

@@ -19,8 +19,8 @@ double solveNormal(ContactRow& row, std::span<ImpulseBody> bodies) {
   return std::abs(change) * row.response(0, 0);
 }
 
-// One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that velocity
-// whatever the shape of K, then shortened to the cone.
+// One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that
+// velocity whatever the shape of K, then shortened to the cone.
 Vec2 frictionStep(const ContactRow& row, const Vec2& impulse, const Vec2& slip) {
   const double k11 = row.response(1, 1), k12 = row.response(1, 2), k22 = row.response(2, 2);
   const double half_difference = 0.5 * (k11 - k22);
@@ -42,8 +42,9 @@ double solveFriction(ContactRow& row, std::span<ImpulseBody> bodies) {
   return change.norm() * std::max(row.response(1, 1), row.response(2, 2));
 }
 
-// The impulse that holds the point: no sliding, the normal speed at its bound. Solved for all three parts at once,
-// because on rough ground normal and friction impulses, taken in turn, undo each other. False when the cone forbids it.
+// The impulse that holds the point: no sliding, the normal speed at its bound. Solved for all three parts at
+// once, because on rough ground normal and friction impulses, taken in turn, undo each other. False when the
+// cone forbids it.
 bool holdPoint(ContactRow& row, std::span<ImpulseBody> bodies, double& change) {
   const Vec3 miss = rowVelocity(row, bodies) - Vec3(row.lowest_speed, 0.0, 0.0);
   const Vec3 step = -(row.inverse_response * miss);
@@ -71,7 +72,8 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   Mat3 frame;
   frame << row.n, row.t1, row.t2;
   row.response = frame.transpose() *
-                 collisionMatrix(bodies[static_cast<std::size_t>(row.a)], bodies[static_cast<std::size_t>(row.b)], row.r_a, row.r_b) *
+                 collisionMatrix(bodies[static_cast<std::size_t>(row.a)],
+                                 bodies[static_cast<std::size_t>(row.b)], row.r_a, row.r_b) *
                  frame;
   row.inverse_response = row.response.inverse();
   const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
@@ -90,7 +92,8 @@ Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
   return {row.n.dot(v), row.t1.dot(v), row.t2.dot(v)};
 }
 
-SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings) {
+SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                           const SolverSettings& settings) {
   SolverReport report;
   const std::size_t n = rows.size();
   while (report.sweeps < settings.sweeps) {

@@ -1,10 +1,10 @@
 #pragma once
-// Simultaneous impulses at many contact points: block Gauss-Seidel on accumulated impulses with the true Coulomb cone
-// (paper §2.4: an impulse at every colliding point; §3: friction in every collision).
-// For each row: separating speed >= `lowest_speed`, normal impulse >= 0, complementary; the friction impulse opposes
-// the sliding velocity, at most the static coefficient's share when it can hold the point, else the dynamic one's.
-// Order matters to the path, not to the converged answer; rows are swept forwards and backwards in turn.
-// Tested in tests/engine/response/contact_solver_test.cpp.
+// Simultaneous impulses at many contact points: block Gauss-Seidel on accumulated impulses with the true
+// Coulomb cone (paper §2.4: an impulse at every colliding point; §3: friction in every collision). For each
+// row: separating speed >= `lowest_speed`, normal impulse >= 0, complementary; the friction impulse opposes
+// the sliding velocity, at most the static coefficient's share when it can hold the point, else the dynamic
+// one's. Order matters to the path, not to the converged answer; rows are swept forwards and backwards in
+// turn. Tested in tests/engine/response/contact_solver_test.cpp.
 
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ struct ContactRow {
   Vec3 r_a = Vec3::Zero();
   Vec3 r_b = Vec3::Zero();
   Friction friction;
-  double lowest_speed = 0.0;  ///< m/s: the separating speed must not be below this.
+  double lowest_speed = 0.0;    ///< m/s: the separating speed must not be below this.
   Vec3 impulse = Vec3::Zero();  ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
 
   // Filled by `prepareRow`.
@@ -48,8 +48,8 @@ void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBod
 Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies);
 
 struct SolverSettings {
-  int sweeps = 0;              ///< At most.
-  double residual_mps = 0.0;   ///< A sweep that changes no row's speed by more has converged.
+  int sweeps = 0;             ///< At most.
+  double residual_mps = 0.0;  ///< A sweep that changes no row's speed by more has converged.
   bool friction = true;
 };
 
@@ -58,6 +58,7 @@ struct SolverReport {
   double residual_mps = 0.0;  ///< The largest change of speed in the last sweep.
 };
 
-SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings);
+SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                           const SolverSettings& settings);
 
 }  // namespace carom

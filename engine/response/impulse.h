@@ -1,8 +1,8 @@
 #pragma once
-// The impulse of one contact point (paper §2.1, after Baraff): how bodies answer to an impulse at a point, and the
-// frictionless j of the paper's formula. DEVIATES: -(1 + e) for the printed -(1 - e), and n . [(J^-1 (r x n)) x r]
-// with the world-frame tensor for the printed (r x n)^2 / J.
-// Tested in tests/engine/response/impulse_test.cpp.
+// The impulse of one contact point (paper §2.1, after Baraff): how bodies answer to an impulse at a point,
+// and the frictionless j of the paper's formula. DEVIATES: -(1 + e) for the printed -(1 - e), and n . [(J^-1
+// (r x n)) x r] with the world-frame tensor for the printed (r x n)^2 / J. Tested in
+// tests/engine/response/impulse_test.cpp.
 
 #include "engine/motion/rigid_body.h"
 
@@ -22,11 +22,12 @@ struct ImpulseBody {
   }
 };
 
-/// K, 1/kg: the change of the relative velocity at a point is K times the impulse on B (and its opposite on A).
+/// K, 1/kg: the change of the relative velocity at a point is K times the impulse on B (and its opposite on
+/// A).
 Mat3 collisionMatrix(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b);
 
 /// The paper's j, N s along n (A to B): brings the separating speed u to -e u. Zero when u >= 0.
-double frictionlessImpulse(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b, const Vec3& n,
-                           double restitution);
+double frictionlessImpulse(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b,
+                           const Vec3& n, double restitution);
 
 }  // namespace carom

@@ -29,8 +29,8 @@ struct Body {
   Pose X_WB;          ///< At the time of the last finished step.
   Velocity velocity;  ///< At the time of the last finished step.
 
-  // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They differ in
-  // lasting contact, where the path also reopens gaps without giving the body energy.
+  // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They
+  // differ in lasting contact, where the path also reopens gaps without giving the body energy.
   Travel travel = Travel::kStill;
   Trajectory path;
   Velocity momentum_velocity;  ///< At path.start_s.
@@ -44,12 +44,14 @@ struct Body {
     Velocity v = momentum_velocity;
     if (travel == Travel::kBallistic) v.linear += (t_s - path.start_s) * path.acceleration;
     if (!v.angular.isZero(0.0))
-      v.angular = angularVelocity(inertia, path.at(t_s).rotation, angularMomentum(inertia, path.X_WB.rotation, v.angular));
+      v.angular = angularVelocity(inertia, path.at(t_s).rotation,
+                                  angularMomentum(inertia, path.X_WB.rotation, v.angular));
     return v;
   }
 
   ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {
-    return {v, X.position, inertia.inverse_mass, is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
+    return {v, X.position, inertia.inverse_mass,
+            is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
   }
 };
 

@@ -6,10 +6,12 @@
 namespace carom {
 
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
-                const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies, std::vector<SourcedRow>& rows) {
+                const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
+                std::vector<SourcedRow>& rows) {
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
-  const ContactManifold manifold = contactManifold(*request.closest, *shapes[index(pair.shapes.a)].part, request.X_WA,
-                                                   *shapes[index(pair.shapes.b)].part, request.X_WB, pair.window);
+  const ContactManifold manifold =
+      contactManifold(*request.closest, *shapes[index(pair.shapes.a)].part, request.X_WA,
+                      *shapes[index(pair.shapes.b)].part, request.X_WB, pair.window);
   for (const ManifoldPoint& point : manifold.view()) {
     SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m};
     ContactRow& row = sourced.row;
@@ -25,10 +27,13 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
 }
 
 Friction combinedFriction(const Material& a, const Material& b) {
-  return {std::sqrt(a.static_friction * b.static_friction), std::sqrt(a.dynamic_friction * b.dynamic_friction)};
+  return {std::sqrt(a.static_friction * b.static_friction),
+          std::sqrt(a.dynamic_friction * b.dynamic_friction)};
 }
 
-double combinedRestitution(const Material& a, const Material& b) { return std::max(a.restitution, b.restitution); }
+double combinedRestitution(const Material& a, const Material& b) {
+  return std::max(a.restitution, b.restitution);
+}
 
 GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s) {
   const double band = tolerance::kRestBand * window.rest;

@@ -29,17 +29,19 @@ struct RowRequest {
 
 /// Appends the rows of a pair; the solver's `bodies` prepare them.
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
-                const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies, std::vector<SourcedRow>& rows);
+                const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
+                std::vector<SourcedRow>& rows);
 
 /// The contact coefficients of two materials: friction is the geometric mean, restitution the larger.
 Friction combinedFriction(const Material& a, const Material& b);
 double combinedRestitution(const Material& a, const Material& b);
 
-/// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more contacts than it
-/// needs can lie still on all of them; above the band it may close to the rest gap.
+/// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
+/// contacts than it needs can lie still on all of them; above the band it may close to the rest gap.
 struct GapSpeeds {
   double momentum = 0.0;  ///< The separating speed must not be below this.
-  double path = 0.0;      ///< The same for the path, which also reopens gaps below the band; that gives no energy.
+  double path =
+      0.0;  ///< The same for the path, which also reopens gaps below the band; that gives no energy.
 };
 GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s);
 

@@ -15,7 +15,9 @@ constexpr int kPathSweeps = 200;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr int kClusterHops = 3;         // how far from the event contacts are solved together
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 struct Event {
   double time_s = 0.0;
@@ -25,12 +27,14 @@ struct Event {
 };
 
 struct Later {
-  bool operator()(const Event& x, const Event& y) const { return std::tie(x.time_s, x.pair) > std::tie(y.time_s, y.pair); }
+  bool operator()(const Event& x, const Event& y) const {
+    return std::tie(x.time_s, x.pair) > std::tie(y.time_s, y.pair);
+  }
 };
 
 // Bodies whose impulses are solved together at one instant, and the rows between them.
 struct Cluster {
-  std::vector<int> members;           ///< Bodies of the world; the solver's list is in the same order.
+  std::vector<int> members;  ///< Bodies of the world; the solver's list is in the same order.
   std::vector<ImpulseBody> bodies;
   std::vector<SourcedRow> sources;
   std::vector<ContactRow> rows;
@@ -39,8 +43,8 @@ struct Cluster {
 
 class EventLoop {
  public:
-  EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table, const WorldSettings& settings,
-            StepCounters& counters)
+  EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
+            const WorldSettings& settings, StepCounters& counters)
       : bodies_(bodies), shapes_(shapes), table_(table), settings_(settings), counters_(counters) {}
 
   void run() {
@@ -65,11 +69,12 @@ class EventLoop {
     if (a.path.still() && b.path.still()) return;
     const Shape& shape_a = shapes_[at(pair.shapes.a)];
     const Shape& shape_b = shapes_[at(pair.shapes.b)];
-    const ImpactSearch search{pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s), settings_.step_s};
+    const ImpactSearch search{pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s),
+                              settings_.step_s};
     const ClosestFeatures closest = search.begin_s > 0.0 ? closestAt(pair, search.begin_s) : pair.closest;
     Event event{0.0, index, version,
-                timeOfImpact({shape_a.part, &a.path, shape_a.reach_m}, {shape_b.part, &b.path, shape_b.reach_m}, search,
-                             closest, pair.tracked)};
+                timeOfImpact({shape_a.part, &a.path, shape_a.reach_m},
+                             {shape_b.part, &b.path, shape_b.reach_m}, search, closest, pair.tracked)};
     counters_.distance_queries += event.impact.queries;
     if (event.impact.outcome == TimeOfImpact::Outcome::kClear) return;
     event.time_s = event.impact.time_s;
@@ -79,7 +84,8 @@ class EventLoop {
   ClosestFeatures closestAt(ShapePair& pair, double time_s) {
     ++counters_.distance_queries;
     return closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
-                           *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s), pair.tracked);
+                           *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s),
+                           pair.tracked);
   }
 
   void resolve(const Event& event) {
@@ -118,8 +124,8 @@ class EventLoop {
     return cluster;
   }
 
-  // The event's bodies and what is in contact with them, over a few hops: two bodies at a time would pass an impulse
-  // to and fro between three that touch.
+  // The event's bodies and what is in contact with them, over a few hops: two bodies at a time would pass an
+  // impulse to and fro between three that touch.
   Cluster contactCluster(const Event& event) {
     Cluster cluster;
     cluster.opens_gaps = true;
@@ -170,11 +176,12 @@ class EventLoop {
   void addPair(Cluster& cluster, int index, const ClosestFeatures& closest, double time_s) {
     const ShapePair& pair = table_.pairs()[at(index)];
     const auto local = [&](int body) {
-      return static_cast<int>(std::find(cluster.members.begin(), cluster.members.end(), body) - cluster.members.begin());
+      return static_cast<int>(std::find(cluster.members.begin(), cluster.members.end(), body) -
+                              cluster.members.begin());
     };
     std::vector<SourcedRow> rows;
-    appendRows({index, local(pair.body_a), local(pair.body_b), &closest, bodies_[at(pair.body_a)].path.at(time_s),
-                bodies_[at(pair.body_b)].path.at(time_s)},
+    appendRows({index, local(pair.body_a), local(pair.body_b), &closest,
+                bodies_[at(pair.body_a)].path.at(time_s), bodies_[at(pair.body_b)].path.at(time_s)},
                pair, bodies_, shapes_, cluster.bodies, rows);
     for (const SourcedRow& sourced : rows) {
       if (sourced.gap_m > std::max(closest.distance_m, pair.window.ceiling)) continue;
@@ -199,16 +206,18 @@ class EventLoop {
     if (!approaches) return;
     collide(cluster.rows, cluster.bodies, restitution);
     for (std::size_t i = 0; i < cluster.members.size(); ++i)
-      if (!bodies_[at(cluster.members[i])].is_static) bodies_[at(cluster.members[i])].momentum_velocity = cluster.bodies[i].velocity;
+      if (!bodies_[at(cluster.members[i])].is_static)
+        bodies_[at(cluster.members[i])].momentum_velocity = cluster.bodies[i].velocity;
   }
 
-  // New paths with the velocities after the collision. Where gaps are to reopen, gravity is given for the rest of the
-  // step and the contacts bound the paths once more.
+  // New paths with the velocities after the collision. Where gaps are to reopen, gravity is given for the
+  // rest of the step and the contacts bound the paths once more.
   void setPaths(Cluster& cluster, double time_s) {
     const double rest_of_step = settings_.step_s - time_s;
     for (std::size_t i = 0; i < cluster.members.size(); ++i) {
       Body& body = bodies_[at(cluster.members[i])];
-      if (body.is_static || body.travel == Travel::kHeld) continue;  // held: momentum may change, the path may not
+      if (body.is_static || body.travel == Travel::kHeld)
+        continue;  // held: momentum may change, the path may not
       body.path.velocity = body.momentum_velocity.linear;
       body.path.spin = body.momentum_velocity.angular;
       if (!cluster.opens_gaps || body.travel != Travel::kBallistic) continue;
@@ -233,7 +242,8 @@ class EventLoop {
       ContactRow row = cluster.rows[i];
       if (paths[at(row.a)].inverse_mass == 0.0 && paths[at(row.b)].inverse_mass == 0.0) continue;
       const ShapePair& pair = table_.pairs()[at(cluster.sources[i].pair)];
-      row.lowest_speed = std::max(0.0, gapSpeeds(cluster.sources[i].gap_m, pair.window, settings_.step_s).path);
+      row.lowest_speed =
+          std::max(0.0, gapSpeeds(cluster.sources[i].gap_m, pair.window, settings_.step_s).path);
       row.impulse.setZero();
       prepareRow(row, paths);
       rows.push_back(row);
@@ -246,7 +256,8 @@ class EventLoop {
     }
   }
 
-  // Its momentum stays: the contacts around it have just been solved together, and the next step solves them again.
+  // Its momentum stays: the contacts around it have just been solved together, and the next step solves them
+  // again.
   void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
     body.travel = Travel::kHeld;

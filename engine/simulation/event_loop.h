@@ -1,15 +1,16 @@
 #pragma once
-// Advancing to the next time of impact (paper §1 and §2.3), pair by pair: an event moves only the two bodies that it
-// concerns to its time and gives them new paths from there; only their pairs are searched anew. The others wait on
-// their own paths. A body that has had its budget of events is held at its last safe time: accuracy is lost and
-// counted, the gap is not. Internal to the simulation floor. Tested through tests/engine/simulation/.
+// Advancing to the next time of impact (paper §1 and §2.3), pair by pair: an event moves only the two bodies
+// that it concerns to its time and gives them new paths from there; only their pairs are searched anew. The
+// others wait on their own paths. A body that has had its budget of events is held at its last safe time:
+// accuracy is lost and counted, the gap is not. Internal to the simulation floor. Tested through
+// tests/engine/simulation/.
 
 #include "engine/simulation/lasting_contact.h"
 
 namespace carom {
 
-/// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or where it
-/// began, if lower) throughout.
+/// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
+/// where it began, if lower) throughout.
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                const WorldSettings& settings, StepCounters& counters);
 

@@ -11,10 +11,13 @@ namespace {
 constexpr int kPathSweeps = 20;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
-// The rows of the step with where they came from, and what is kept of them. Rows of one island stand together; each
-// island is solved on its own, so that one that converges slowly does not keep the others sweeping.
+// The rows of the step with where they came from, and what is kept of them. Rows of one island stand
+// together; each island is solved on its own, so that one that converges slowly does not keep the others
+// sweeping.
 struct Assembly {
   LastingContacts contacts;
   std::vector<SourcedRow> sources;
@@ -33,7 +36,8 @@ void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
 void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::vector<Body>& bodies,
              const std::vector<Shape>& shapes, double step_s) {
   std::vector<SourcedRow> rows;
-  appendRows({index, pair.body_a, pair.body_b, &pair.closest, bodies[at(pair.body_a)].X_WB, bodies[at(pair.body_b)].X_WB},
+  appendRows({index, pair.body_a, pair.body_b, &pair.closest, bodies[at(pair.body_a)].X_WB,
+              bodies[at(pair.body_b)].X_WB},
              pair, bodies, shapes, assembly.contacts.bodies, rows);
   for (SourcedRow& sourced : rows) {
     ContactRow& row = sourced.row;
@@ -55,14 +59,16 @@ void sortByIsland(Assembly& assembly) {
   std::stable_sort(assembly.sources.begin(), assembly.sources.end(),
                    [&](const SourcedRow& x, const SourcedRow& y) { return islandOf(x) < islandOf(y); });
   for (std::size_t i = 0; i < assembly.sources.size(); ++i) {
-    if (i == 0 || islandOf(assembly.sources[i]) != islandOf(assembly.sources[i - 1])) assembly.island_begin.push_back(i);
+    if (i == 0 || islandOf(assembly.sources[i]) != islandOf(assembly.sources[i - 1]))
+      assembly.island_begin.push_back(i);
     assembly.contacts.rows.push_back(assembly.sources[i].row);
   }
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
 // `least_sweeps` for every island, and for small ones as many as their share of row visits allows.
-void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies, SolverSettings settings) {
+void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                  SolverSettings settings) {
   const int least_sweeps = settings.sweeps;
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
@@ -71,7 +77,8 @@ void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::spa
   }
 }
 
-Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs, double step_s) {
+Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                  std::vector<ShapePair>& pairs, double step_s) {
   Assembly assembly;
   assembly.contacts.touched.assign(bodies.size(), 0);
   for (const Body& body : bodies) {
@@ -94,12 +101,15 @@ Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& sha
 
 void giveGravity(LastingContacts& contacts, const std::vector<Body>& bodies, const WorldSettings& settings) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves()) contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
+    if (bodies[i].moves())
+      contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
 }
 
-// The path of a pressed body: the mean of the velocities before and after, which is exact for constant friction, but
-// never into a gap: the same contacts once more, as bounds on the path alone, so that reopening a gap gives no energy.
-void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<ShapePair>& pairs, double step_s) {
+// The path of a pressed body: the mean of the velocities before and after, which is exact for constant
+// friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that reopening
+// a gap gives no energy.
+void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<ShapePair>& pairs,
+              double step_s) {
   std::vector<ImpulseBody> paths = assembly.contacts.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
@@ -109,7 +119,8 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
   std::vector<ContactRow> rows = assembly.contacts.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].impulse.setZero();
-    rows[i].lowest_speed = gapSpeeds(assembly.sources[i].gap_m, pairs[at(assembly.sources[i].pair)].window, step_s).path;
+    rows[i].lowest_speed =
+        gapSpeeds(assembly.sources[i].gap_m, pairs[at(assembly.sources[i].pair)].window, step_s).path;
   }
   solveIslands(assembly, rows, paths, {kPathSweeps, kPathResidual, false});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -160,8 +171,9 @@ bool isLasting(const ShapePair& pair, double step_s) {
   return pair.closest.distance_m <= pair.window.ceiling + pair.collision_speed_mps * step_s;
 }
 
-LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
-                                     const WorldSettings& settings, StepCounters& counters) {
+LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                     std::vector<ShapePair>& pairs, const WorldSettings& settings,
+                                     StepCounters& counters) {
   Assembly assembly = assemble(bodies, shapes, pairs, settings.step_s);
   LastingContacts& contacts = assembly.contacts;
   giveGravity(contacts, bodies, settings);

@@ -1,8 +1,8 @@
 #pragma once
-// Lasting contact (paper §2.4): bodies close together that approach slowly get gravity once per step and an impulse at
-// every point of contact, solved together; their paths for the step follow. Faster approaches are left to the time of
-// impact, which gives them their restitution. Internal to the simulation floor.
-// Tested through tests/engine/simulation/ and tests/physics/.
+// Lasting contact (paper §2.4): bodies close together that approach slowly get gravity once per step and an
+// impulse at every point of contact, solved together; their paths for the step follow. Faster approaches are
+// left to the time of impact, which gives them their restitution. Internal to the simulation floor. Tested
+// through tests/engine/simulation/ and tests/physics/.
 
 #include <vector>
 
@@ -24,10 +24,11 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts);
 /// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
 bool isLasting(const ShapePair& pair, double step_s);
 
-/// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must come with
-/// ballistic paths that start at the beginning of the step; resting ones do not give way.
-LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes, std::vector<ShapePair>& pairs,
-                                     const WorldSettings& settings, StepCounters& counters);
+/// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must
+/// come with ballistic paths that start at the beginning of the step; resting ones do not give way.
+LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                     std::vector<ShapePair>& pairs, const WorldSettings& settings,
+                                     StepCounters& counters);
 
 /// Makes a body that rested move again.
 void wake(Body& body);

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kLeastGravity = 0.01;  // m/s^2: 6 mm/s for parts a metre wide
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 // The bounds of a part in a pose.
 Bounds boundsAt(const ConvexPart& part, const Pose& X) {
@@ -27,7 +29,8 @@ Bounds boundsAt(const ConvexPart& part, const Pose& X) {
   return bounds;
 }
 
-// Everything the part can touch along its path: its bounds moved along the parabola and grown by what rotation can do.
+// Everything the part can touch along its path: its bounds moved along the parabola and grown by what
+// rotation can do.
 Bounds sweptBounds(const Shape& shape, const Trajectory& path, double end_s) {
   Bounds bounds = boundsAt(*shape.part, path.X_WB);
   const double dt = end_s - path.start_s;
@@ -53,7 +56,8 @@ double pairingMargin(const Shape& shape) {
 
 }  // namespace
 
-void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) {
+void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                             double end_s) {
   const bool first = proxies_.size() != shapes.size();
   proxies_.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -66,8 +70,8 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   }
 }
 
-ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&, const std::vector<Shape>& shapes,
-                              const Vec3& gravity) const {
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&,
+                              const std::vector<Shape>& shapes, const Vec3& gravity) const {
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   const Shape& a = shapes[at(shapes_of_pair.a)];
@@ -76,7 +80,8 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&
   pair.body_b = b.body;
   pair.window = collisionWindow(*a.part, *b.part);
   // What gravity gives a body that falls through the window: slower approaches are lasting contact.
-  // Without gravity a trace of it remains, or the rounding of a finished collision would be taken for another.
+  // Without gravity a trace of it remains, or the rounding of a finished collision would be taken for
+  // another.
   pair.collision_speed_mps = std::sqrt(2.0 * std::max(gravity.norm(), kLeastGravity) * pair.window.ceiling);
   return pair;
 }
@@ -86,9 +91,10 @@ void PairTable::link(std::size_t pair) {
   of_body_[at(pairs_[pair].body_b)].push_back(static_cast<int>(pair));
 }
 
-void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity,
-                        StepCounters& counters) {
-  std::sort(pairs_.begin(), pairs_.end(), [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
+void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                        const Vec3& gravity, StepCounters& counters) {
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
   std::vector<ShapePair> fresh;
   auto old = pairs_.begin();
   for (const IndexPair& shapes_of_pair : candidatePairs(proxies_)) {
@@ -98,8 +104,9 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
       continue;
     }
     ShapePair pair = makePair(shapes_of_pair, bodies, shapes, gravity);
-    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
-                                   *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
+    pair.closest =
+        closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
+                        *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
     ++counters.distance_queries;
     counters.iteration_limits += pair.closest.reached_limit;
     fresh.push_back(pair);
@@ -123,10 +130,14 @@ std::size_t PairTable::extend(int body, double time_s, double end_s, const std::
       const int low = static_cast<int>(std::min(i, j));
       const int high = static_cast<int>(std::max(i, j));
       const std::vector<int>& known = of_body_[at(body)];
-      if (std::any_of(known.begin(), known.end(), [&](int p) { return pairs_[at(p)].shapes == IndexPair{low, high}; })) continue;
+      if (std::any_of(known.begin(), known.end(), [&](int p) {
+            return pairs_[at(p)].shapes == IndexPair{low, high};
+          }))
+        continue;
       ShapePair pair = makePair({low, high}, bodies, shapes, gravity);
-      pair.closest = closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
-                                     *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
+      pair.closest =
+          closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
+                          *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
       ++counters.distance_queries;
       pairs_.push_back(pair);
       link(pairs_.size() - 1);
@@ -135,7 +146,8 @@ std::size_t PairTable::extend(int body, double time_s, double end_s, const std::
   return first_new;
 }
 
-bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) const {
+bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                 double end_s) const {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Body& body = bodies[at(shapes[i].body)];
     if (body.moves() && !proxies_[i].bounds.contains(sweptBounds(shapes[i], body.path, end_s))) return true;
@@ -143,12 +155,14 @@ bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vec
   return false;
 }
 
-void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, StepCounters& counters) {
+void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                        StepCounters& counters) {
   for (ShapePair& pair : pairs_) {
     const Body& a = bodies[at(pair.body_a)];
     const Body& b = bodies[at(pair.body_b)];
     if (!a.moves() && !b.moves()) continue;
-    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part, b.X_WB, pair.tracked);
+    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
+                                   b.X_WB, pair.tracked);
     ++counters.distance_queries;
     counters.iteration_limits += pair.closest.reached_limit;
   }

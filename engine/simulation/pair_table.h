@@ -1,7 +1,7 @@
 #pragma once
-// The candidate pairs of shapes and what is remembered of each from step to step: tracked features, the closest
-// features at the current time, and the impulses of its contact points. Internal to the simulation floor.
-// Tested through tests/engine/simulation/.
+// The candidate pairs of shapes and what is remembered of each from step to step: tracked features, the
+// closest features at the current time, and the impulses of its contact points. Internal to the simulation
+// floor. Tested through tests/engine/simulation/.
 
 #include <array>
 #include <vector>
@@ -34,15 +34,17 @@ class PairTable {
  public:
   /// The bounds each shape sweeps from its path's start to `end_s`, with a margin of the collision window.
   void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s);
-  /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the bodies'
-  /// poses of the last finished step.
-  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters);
+  /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the
+  /// bodies' poses of the last finished step.
+  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity,
+               StepCounters& counters);
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
   /// Returns the index of the first new pair.
   std::size_t extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
                      const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters);
   /// Whether some body's path leaves the bounds it was paired by.
-  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s) const;
+  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                        double end_s) const;
   /// Queries the closest features again where a body moved.
   void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, StepCounters& counters);
 
@@ -52,8 +54,8 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                     const Vec3& gravity) const;
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const Vec3& gravity) const;
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;

@@ -11,7 +11,9 @@ constexpr double kRoom = 1.5;
 // Deeper than this, relative to the smaller body, bodies overlap; less is rounding of poses that touch.
 constexpr double kOverlap = 1e-9;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 double overlapDepth(const ShapePair& pair) {
   const double scale = pair.window.rest / tolerance::kRestGap;
@@ -30,21 +32,24 @@ Body& yielding(std::vector<Body>& bodies, const ShapePair& pair, const Vec3& gra
 
 }  // namespace
 
-std::vector<Overlap> separateTouching(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                                      const Vec3& gravity) {
+std::vector<Overlap> separateTouching(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                      PairTable& table, const Vec3& gravity) {
   StepCounters counters;
   std::vector<Overlap> overlaps;
   for (const ShapePair& pair : table.pairs())
-    if (const double depth = overlapDepth(pair); depth > 0.0) overlaps.push_back({pair.body_a, pair.body_b, depth});
-  std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& x, const Overlap& y) { return x.depth_m > y.depth_m; });
+    if (const double depth = overlapDepth(pair); depth > 0.0)
+      overlaps.push_back({pair.body_a, pair.body_b, depth});
+  std::sort(overlaps.begin(), overlaps.end(),
+            [](const Overlap& x, const Overlap& y) { return x.depth_m > y.depth_m; });
   if (!overlaps.empty()) return overlaps;
 
   bool changed = true;
   for (int pass = 0; changed && pass < kPasses; ++pass) {
     changed = false;
     for (ShapePair& pair : table.pairs()) {
-      pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
-                                     *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
+      pair.closest =
+          closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
+                          *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
       const double missing = pair.window.floor - pair.closest.distance_m;
       if (missing <= 0.0) continue;
       double direction = 1.0;
@@ -56,7 +61,8 @@ std::vector<Overlap> separateTouching(std::vector<Body>& bodies, const std::vect
   }
   table.requery(bodies, shapes, counters);
   for (const ShapePair& pair : table.pairs())
-    if (pair.closest.distance_m <= 0.0) overlaps.push_back({pair.body_a, pair.body_b, -pair.closest.distance_m});
+    if (pair.closest.distance_m <= 0.0)
+      overlaps.push_back({pair.body_a, pair.body_b, -pair.closest.distance_m});
   return overlaps;
 }
 

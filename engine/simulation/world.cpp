@@ -19,11 +19,14 @@
 namespace carom {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
-  REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9, d.X_WB.rotation.norm());
+  REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9,
+          d.X_WB.rotation.norm());
   REQUIRE(d.linear_velocity.allFinite() && d.angular_velocity.allFinite());
   REQUIRE(d.is_static || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
   REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
@@ -34,12 +37,18 @@ void requireDescription(const BodyDescription& d, std::size_t solids) {
 
 const char* modeName(Mode mode) {
   switch (mode) {
-    case Mode::kStatic: return "static";
-    case Mode::kFree: return "free";
-    case Mode::kColliding: return "colliding";
-    case Mode::kSliding: return "sliding";
-    case Mode::kContact: return "contact";
-    case Mode::kResting: return "resting";
+    case Mode::kStatic:
+      return "static";
+    case Mode::kFree:
+      return "free";
+    case Mode::kColliding:
+      return "colliding";
+    case Mode::kSliding:
+      return "sliding";
+    case Mode::kContact:
+      return "contact";
+    case Mode::kResting:
+      return "resting";
   }
   return "?";
 }
@@ -95,7 +104,8 @@ void World::Impl::finishStep() {
     if (!body.moves()) continue;
     body.velocity = body.velocityAt(settings.step_s);
     body.X_WB = body.path.at(settings.step_s);
-    REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() && body.velocity.angular.allFinite());
+    REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
+            body.velocity.angular.allFinite());
   }
 }
 
@@ -109,7 +119,8 @@ void World::Impl::accumulateStillness() {
 Islands World::Impl::joinPressing(const LastingContacts& contacts) const {
   Islands islands(static_cast<int>(bodies.size()));
   for (const ContactRow& row : contacts.rows)
-    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static) islands.join(row.a, row.b);
+    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static)
+      islands.join(row.a, row.b);
   return islands;
 }
 
@@ -169,10 +180,14 @@ void World::Impl::restIslands(const LastingContacts& contacts) {
 void World::Impl::updateModes(const LastingContacts& contacts) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
-    if (body.is_static) body.mode = Mode::kStatic;
-    else if (body.resting) body.mode = Mode::kResting;
-    else if (body.collided) body.mode = Mode::kColliding;
-    else body.mode = body.travel == Travel::kBallistic ? Mode::kFree : Mode::kContact;
+    if (body.is_static)
+      body.mode = Mode::kStatic;
+    else if (body.resting)
+      body.mode = Mode::kResting;
+    else if (body.collided)
+      body.mode = Mode::kColliding;
+    else
+      body.mode = body.travel == Travel::kBallistic ? Mode::kFree : Mode::kContact;
   }
   for (const ContactRow& row : contacts.rows) {
     if (!slides(row, contacts.bodies)) continue;
@@ -210,7 +225,8 @@ int World::addBody(const BodyDescription& description) {
   body.is_static = description.is_static;
   body.material = description.material;
   body.radius_m = solid.radius();
-  if (!body.is_static) body.inertia = inertiaOf(description.material.density_kgpm3, solid.volume(), solid.unitInertia());
+  if (!body.is_static)
+    body.inertia = inertiaOf(description.material.density_kgpm3, solid.volume(), solid.unitInertia());
   body.X_WB = description.X_WB;
   body.mode = body.is_static ? Mode::kStatic : Mode::kFree;
   if (!body.is_static) body.velocity = {description.linear_velocity, description.angular_velocity};
@@ -245,7 +261,8 @@ void World::step() {
   w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
 
   // Impulses of lasting contact; what they press awake takes part in them.
-  LastingContacts contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  LastingContacts contacts =
+      solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
   while (wakePressed(w.bodies, contacts)) {  // each time an island fewer rests
     w.planFlight();
     contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
@@ -268,12 +285,24 @@ void World::step() {
   ++w.steps;
 }
 
-double World::time() const { return impl_->steps * impl_->settings.step_s; }
-int World::stepCount() const { return impl_->steps; }
-const WorldSettings& World::settings() const { return impl_->settings; }
-std::span<const Solid> World::solids() const { return impl_->solids; }
-std::span<const BodyState> World::states() const { return impl_->states; }
-std::span<const BodyDescription> World::bodies() const { return impl_->descriptions; }
+double World::time() const {
+  return impl_->steps * impl_->settings.step_s;
+}
+int World::stepCount() const {
+  return impl_->steps;
+}
+const WorldSettings& World::settings() const {
+  return impl_->settings;
+}
+std::span<const Solid> World::solids() const {
+  return impl_->solids;
+}
+std::span<const BodyState> World::states() const {
+  return impl_->states;
+}
+std::span<const BodyDescription> World::bodies() const {
+  return impl_->descriptions;
+}
 double World::mass(int body) const {
   const Body& b = impl_->bodies[at(body)];
   return b.is_static ? std::numeric_limits<double>::infinity() : b.inertia.mass_kg;
@@ -285,7 +314,8 @@ Audit World::audit() const {
   audit.time_s = time();
   audit.last_step = w.counters;
   audit.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (const ShapePair& pair : w.table.pairs()) audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
+  for (const ShapePair& pair : w.table.pairs())
+    audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
   for (const Body& body : w.bodies) {
     if (body.is_static) continue;
     const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;

@@ -1,9 +1,10 @@
 #pragma once
 // The world: bodies that share solids, and the fixed step of the paper:
-//   external forces -> candidate pairs -> closest features -> impulses -> advance to the next time of impact -> modes
+//   external forces -> candidate pairs -> closest features -> impulses -> advance to the next time of impact
+//   -> modes
 // Invariant: after `start` has accepted the bodies, every pair keeps a gap > 0 at every instant (DESIGN: the
-// collision window). Deterministic: the same calls give the same bits. Nothing in here draws, prints or reads a clock.
-// Tested in tests/engine/simulation/ and tests/physics/.
+// collision window). Deterministic: the same calls give the same bits. Nothing in here draws, prints or reads
+// a clock. Tested in tests/engine/simulation/ and tests/physics/.
 
 #include <cstdint>
 #include <memory>
@@ -95,8 +96,8 @@ class World {
   int addSolid(Solid solid);
   int addBody(const BodyDescription& description);
 
-  /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest first;
-  /// when there are any the world must not be stepped.
+  /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest
+  /// first; when there are any the world must not be stepped.
   std::vector<Overlap> start();
   /// Advances by exactly one step.
   void step();

@@ -16,8 +16,8 @@ extern "C" {
 namespace carom {
 namespace {
 
-// Facets whose centrum lies within this distance of a neighbour's plane (relative to the size) become one face:
-// above the rounding of double input, below what a distance is asked to be right to.
+// Facets whose centrum lies within this distance of a neighbour's plane (relative to the size) become one
+// face: above the rounding of double input, below what a distance is asked to be right to.
 constexpr double kCoplanar = 1e-11;
 // Thinner than this relative to its size, a point set spans no volume.
 constexpr double kFlat = 1e-7;
@@ -53,13 +53,15 @@ Spread measureSpread(std::span<const Vec3> points) {
 }
 
 void refuseFlat(std::span<const Vec3> points) {
-  if (points.size() < 4) throw InputError("a hull needs at least 4 points, got " + std::to_string(points.size()));
+  if (points.size() < 4)
+    throw InputError("a hull needs at least 4 points, got " + std::to_string(points.size()));
   for (const Vec3& p : points)
     if (!p.allFinite()) throw InputError("a point has a coordinate that is not finite");
   const Spread spread = measureSpread(points);
   if (!(spread.size > 0.0)) throw InputError("all points coincide: no volume");
   if (!(spread.width > kFlat * spread.size)) throw InputError("all points lie on one line: no volume");
-  if (!(spread.thickness > kFlat * spread.size)) throw InputError("all points lie in one plane: a flat mesh has no volume");
+  if (!(spread.thickness > kFlat * spread.size))
+    throw InputError("all points lie in one plane: a flat mesh has no volume");
 }
 
 // Owns qhull's state: freed on every way out.
@@ -70,7 +72,8 @@ class QhullRun {
     qh_zero(&state_, sink_);
     char options[64];
     std::snprintf(options, sizeof options, "qhull C-%.3g", kCoplanar * size);
-    status_ = qh_new_qhull(&state_, 3, static_cast<int>(points.size()), coordinates_.data(), False, options, nullptr, sink_);
+    status_ = qh_new_qhull(&state_, 3, static_cast<int>(points.size()), coordinates_.data(), False, options,
+                           nullptr, sink_);
   }
   ~QhullRun() {
     qh_freeqhull(&state_, !qh_ALL);
@@ -95,7 +98,8 @@ class QhullRun {
 Hull convexHull(std::span<const Vec3> points) {
   refuseFlat(points);
   QhullRun run(points, measureSpread(points).size);
-  if (run.status() != 0) throw InputError("no convex hull: qhull gave up with code " + std::to_string(run.status()));
+  if (run.status() != 0)
+    throw InputError("no convex hull: qhull gave up with code " + std::to_string(run.status()));
 
   qhT* qh = run.state();  // the name qhull's iteration macros ask for
   std::vector<Vec3> vertices;
@@ -128,7 +132,8 @@ Hull convexHull(std::span<const Vec3> points) {
     Vec3 normal = Vec3::Zero();
     const Vec3 base = vertices[static_cast<std::size_t>(loop[0])];
     for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-      normal += (vertices[static_cast<std::size_t>(loop[i])] - base).cross(vertices[static_cast<std::size_t>(loop[i + 1])] - base);
+      normal += (vertices[static_cast<std::size_t>(loop[i])] - base)
+                    .cross(vertices[static_cast<std::size_t>(loop[i + 1])] - base);
     if (normal.dot(base - center) < 0.0) std::reverse(loop.begin(), loop.end());
   }
   HullReport report;

@@ -1,7 +1,7 @@
 #pragma once
-// The convex hull of a point set or mesh, through qhull; facets coplanar within a tolerance become one face and
-// their planes are refitted. The only file that names qhull is convex_hull.cpp.
-// Tested in tests/engine/solid/convex_hull_test.cpp.
+// The convex hull of a point set or mesh, through qhull; facets coplanar within a tolerance become one face
+// and their planes are refitted. The only file that names qhull is convex_hull.cpp. Tested in
+// tests/engine/solid/convex_hull_test.cpp.
 
 #include <span>
 
@@ -21,8 +21,8 @@ struct Hull {
   HullReport report;
 };
 
-/// The hull of at least four points that span a volume. Throws InputError for non-finite, too few, coincident,
-/// collinear or coplanar ("flat") points. Cost O(n log n).
+/// The hull of at least four points that span a volume. Throws InputError for non-finite, too few,
+/// coincident, collinear or coplanar ("flat") points. Cost O(n log n).
 Hull convexHull(std::span<const Vec3> points);
 
 }  // namespace carom

@@ -10,14 +10,16 @@
 namespace carom {
 namespace {
 
-// A face may be bent, and a neighbour stand out of its plane, by this much relative to the polyhedron's radius:
-// far above rounding (1e-15), far below the distances that matter (1e-9).
+// A face may be bent, and a neighbour stand out of its plane, by this much relative to the polyhedron's
+// radius: far above rounding (1e-15), far below the distances that matter (1e-9).
 constexpr double kPlanarity = 1e-9;
 
 // An edge climbs along a direction if its slope is above the rounding of the product of two unit vectors.
 constexpr double kLevelSlope = 1e-15;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 // Newell's normal: robust for any planar polygon, whatever its first corner looks like.
 Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {
@@ -66,8 +68,10 @@ ConvexPolyhedron ConvexPolyhedron::segment(const Vec3& a, const Vec3& b) {
   return result;
 }
 
-ConvexPolyhedron ConvexPolyhedron::fromFaces(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& loops) {
-  if (vertices.size() < 4 || loops.size() < 4) throw InputError("a polyhedron needs at least 4 vertices and 4 faces");
+ConvexPolyhedron ConvexPolyhedron::fromFaces(std::vector<Vec3> vertices,
+                                             const std::vector<std::vector<int>>& loops) {
+  if (vertices.size() < 4 || loops.size() < 4)
+    throw InputError("a polyhedron needs at least 4 vertices and 4 faces");
   for (const Vec3& v : vertices)
     if (!v.allFinite()) throw InputError("a vertex has a coordinate that is not finite");
   ConvexPolyhedron result;
@@ -103,7 +107,8 @@ void ConvexPolyhedron::buildEdges(const std::vector<std::vector<int>>& loops) {
     }
   }
   std::sort(halves.begin(), halves.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return std::array{x.low, x.high, x.forward ? 0 : 1, x.face} < std::array{y.low, y.high, y.forward ? 0 : 1, y.face};
+    return std::array{x.low, x.high, x.forward ? 0 : 1, x.face} <
+           std::array{y.low, y.high, y.forward ? 0 : 1, y.face};
   });
   face_edges_.assign(face_vertices_.size(), -1);
   if (halves.size() % 2 != 0) throw InputError("the surface is not closed");
@@ -111,7 +116,8 @@ void ConvexPolyhedron::buildEdges(const std::vector<std::vector<int>>& loops) {
     const HalfEdge& left = halves[i];
     const HalfEdge& right = halves[i + 1];
     const bool paired = left.low == right.low && left.high == right.high && left.forward && !right.forward;
-    if (!paired || left.low == left.high) throw InputError("the surface is not closed, or its faces disagree in orientation");
+    if (!paired || left.low == left.high)
+      throw InputError("the surface is not closed, or its faces disagree in orientation");
     Edge e;
     e.tail = left.low;
     e.head = left.high;
@@ -141,13 +147,15 @@ void ConvexPolyhedron::buildVertexEdges() {
 }
 
 void ConvexPolyhedron::validate() const {
-  if (vertexCount() - edgeCount() + faceCount() != 2) throw InputError("the surface is not that of one convex body (Euler)");
+  if (vertexCount() - edgeCount() + faceCount() != 2)
+    throw InputError("the surface is not that of one convex body (Euler)");
   Vec3 center = Vec3::Zero();
   for (const Vec3& v : vertices_) center += v;
   center /= static_cast<double>(vertices_.size());
   const double tolerance = kPlanarity * radiusAbout(center);
   for (int f = 0; f < faceCount(); ++f) {
-    if (plane(f).signedDistance(center) >= 0.0) throw InputError("a face is turned inside out, or the solid is flat");
+    if (plane(f).signedDistance(center) >= 0.0)
+      throw InputError("a face is turned inside out, or the solid is flat");
     for (int v : faceVertices(f))
       if (std::abs(plane(f).signedDistance(vertex(v))) > tolerance) throw InputError("a face is not planar");
     // Local convexity at every edge makes a closed surface convex everywhere.
@@ -160,8 +168,8 @@ void ConvexPolyhedron::validate() const {
 }
 
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
-  // Slopes, not heights: along an edge much shorter than the solid the difference of two heights is all rounding.
-  // A slope above its own rounding means a truly higher vertex, so this ends.
+  // Slopes, not heights: along an edge much shorter than the solid the difference of two heights is all
+  // rounding. A slope above its own rounding means a truly higher vertex, so this ends.
   const double level = kLevelSlope * direction.norm();
   int best = start;
   for (bool climbing = true; climbing;) {

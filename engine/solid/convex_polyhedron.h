@@ -1,9 +1,9 @@
 #pragma once
-// A convex polyhedron with the neighbourhood of its features (paper §2: a face has edges; an edge has two vertices
-// and two faces; a vertex has the edges that lead into it). Features live in contiguous arrays; there is no limit
-// on their number. A single point (ball core) and a segment (capsule core) are the two degenerate members: no face.
-// Invariants, checked by `validate`: closed and manifold (Euler V - E + F = 2), convex, planar faces, finite.
-// Tested in tests/engine/solid/convex_polyhedron_test.cpp.
+// A convex polyhedron with the neighbourhood of its features (paper §2: a face has edges; an edge has two
+// vertices and two faces; a vertex has the edges that lead into it). Features live in contiguous arrays;
+// there is no limit on their number. A single point (ball core) and a segment (capsule core) are the two
+// degenerate members: no face. Invariants, checked by `validate`: closed and manifold (Euler V - E + F = 2),
+// convex, planar faces, finite. Tested in tests/engine/solid/convex_polyhedron_test.cpp.
 
 #include <cstdint>
 #include <span>
@@ -13,16 +13,17 @@
 
 namespace carom {
 
-/// An edge: from `tail` to `head`; `left` is the face that runs through it tail to head counter-clockwise seen from
-/// outside, `right` the one that runs head to tail; both -1 on a segment.
+/// An edge: from `tail` to `head`; `left` is the face that runs through it tail to head counter-clockwise
+/// seen from outside, `right` the one that runs head to tail; both -1 on a segment.
 struct Edge {
   int tail = -1;
   int head = -1;
   int left = -1;
   int right = -1;
-  Vec3 direction = Vec3::Zero();   ///< Unit, tail to head.
+  Vec3 direction = Vec3::Zero();  ///< Unit, tail to head.
   double length_m = 0.0;
-  Vec3 into_left = Vec3::Zero();   ///< Unit, in the left face, perpendicular to the edge, pointing into the face.
+  Vec3 into_left =
+      Vec3::Zero();  ///< Unit, in the left face, perpendicular to the edge, pointing into the face.
   Vec3 into_right = Vec3::Zero();  ///< The same for the right face.
 };
 
@@ -60,14 +61,16 @@ class ConvexPolyhedron {
   std::span<const int> vertexEdges(int v) const { return slice(vertex_edges_, vertex_begin_, v); }
 
   /// The unit direction that leads from face f's edge into the face.
-  const Vec3& intoFace(int e, int f) const { return edge(e).left == f ? edge(e).into_left : edge(e).into_right; }
+  const Vec3& intoFace(int e, int f) const {
+    return edge(e).left == f ? edge(e).into_left : edge(e).into_right;
+  }
   /// The face on the other side of edge e.
   int faceAcross(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }
   /// The other end of edge e.
   int otherEnd(int e, int v) const { return edge(e).tail == v ? edge(e).head : edge(e).tail; }
 
-  /// A vertex farthest along `direction` (any length), by hill climbing from `start`; the answer does not depend on
-  /// `start` unless several vertices are equally far to rounding.
+  /// A vertex farthest along `direction` (any length), by hill climbing from `start`; the answer does not
+  /// depend on `start` unless several vertices are equally far to rounding.
   int support(const Vec3& direction, int start = 0) const;
 
   /// The largest distance of a vertex from `p`, metres.

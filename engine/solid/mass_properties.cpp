@@ -21,9 +21,10 @@ MassProperties MassProperties::combined(const MassProperties& a, const MassPrope
   return sum;
 }
 
-// Signed tetrahedra between a reference point and a fan of each face: for a tetrahedron with one corner at the
-// origin and the others at a, b, c (det = a . b x c), volume = det/6, first moment = det/24 (a+b+c), and the second
-// moment is det/120 (sum v v^T + s s^T), s = a+b+c (the divergence theorem on monomials of degree <= 2).
+// Signed tetrahedra between a reference point and a fan of each face: for a tetrahedron with one corner at
+// the origin and the others at a, b, c (det = a . b x c), volume = det/6, first moment = det/24 (a+b+c), and
+// the second moment is det/120 (sum v v^T + s s^T), s = a+b+c (the divergence theorem on monomials of degree
+// <= 2).
 MassProperties polyhedronMass(const ConvexPolyhedron& polyhedron) {
   const Vec3 reference = polyhedron.vertex(0);  // near the body: no cancellation far from the origin
   double volume = 0.0;
@@ -65,7 +66,8 @@ MassProperties capsuleMass(const Vec3& a, const Vec3& b, double radius_m) {
   const double caps = 4.0 / 3.0 * std::numbers::pi * r2 * radius_m;
   // A half ball's centroid is 3/8 r from its flat side.
   const double along = 0.5 * cylinder * r2 + 0.4 * caps * r2;
-  const double across = cylinder * (0.25 * r2 + h * h / 12.0) + caps * (0.4 * r2 + 0.25 * h * h + 0.375 * h * radius_m);
+  const double across =
+      cylinder * (0.25 * r2 + h * h / 12.0) + caps * (0.4 * r2 + 0.25 * h * h + 0.375 * h * radius_m);
   const Vec3 u = axis / h;
   const Mat3 uu = u * u.transpose();
   return {cylinder + caps, 0.5 * (a + b), along * uu + across * (Mat3::Identity() - uu)};

@@ -1,6 +1,6 @@
 #pragma once
-// Exact mass properties of a polyhedron by integrating over its faces (divergence theorem), and of ball and capsule
-// in closed form. Tested against closed forms in tests/engine/solid/mass_properties_test.cpp.
+// Exact mass properties of a polyhedron by integrating over its faces (divergence theorem), and of ball and
+// capsule in closed form. Tested against closed forms in tests/engine/solid/mass_properties_test.cpp.
 
 #include "engine/solid/convex_polyhedron.h"
 

@@ -23,8 +23,10 @@ MassProperties partMass(const ConvexPart& part) {
 Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
   if (parts_.empty()) throw InputError("a solid needs at least one part");
   mass_ = partMass(parts_[0]);
-  for (std::size_t i = 1; i < parts_.size(); ++i) mass_ = MassProperties::combined(mass_, partMass(parts_[i]));
-  if (!(mass_.mass > 0.0) || !mass_.inertia.allFinite()) throw InputError("a solid needs a positive finite volume");
+  for (std::size_t i = 1; i < parts_.size(); ++i)
+    mass_ = MassProperties::combined(mass_, partMass(parts_[i]));
+  if (!(mass_.mass > 0.0) || !mass_.inertia.allFinite())
+    throw InputError("a solid needs a positive finite volume");
   origin_B_ = -mass_.center;
   for (ConvexPart& part : parts_) {
     part.core = part.core.translated(origin_B_);
@@ -33,21 +35,30 @@ Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
   mass_.center = Vec3::Zero();
 }
 
-Solid Solid::box(const Vec3& size_m) { return Solid({{boxPolyhedron(size_m), 0.0}}); }
-Solid Solid::ball(double radius_m) { return Solid({{ConvexPolyhedron::point(Vec3::Zero()), radius_m}}); }
+Solid Solid::box(const Vec3& size_m) {
+  return Solid({{boxPolyhedron(size_m), 0.0}});
+}
+Solid Solid::ball(double radius_m) {
+  return Solid({{ConvexPolyhedron::point(Vec3::Zero()), radius_m}});
+}
 Solid Solid::capsule(double radius_m, double length_m) {
   const Vec3 half(0.0, 0.0, 0.5 * length_m);
   return Solid({{ConvexPolyhedron::segment(-half, half), radius_m}});
 }
-Solid Solid::polyhedron(ConvexPolyhedron p) { return Solid({{std::move(p), 0.0}}); }
+Solid Solid::polyhedron(ConvexPolyhedron p) {
+  return Solid({{std::move(p), 0.0}});
+}
 
 ConvexPolyhedron boxPolyhedron(const Vec3& size_m) {
-  if (!size_m.allFinite() || !(size_m.minCoeff() > 0.0)) throw InputError("a box needs three positive finite sizes");
+  if (!size_m.allFinite() || !(size_m.minCoeff() > 0.0))
+    throw InputError("a box needs three positive finite sizes");
   std::vector<Vec3> vertices;
   for (int i = 0; i < 8; ++i)
-    vertices.push_back(0.5 * Vec3((i & 1 ? 1 : -1) * size_m.x(), (i & 2 ? 1 : -1) * size_m.y(), (i & 4 ? 1 : -1) * size_m.z()));
+    vertices.push_back(0.5 * Vec3((i & 1 ? 1 : -1) * size_m.x(), (i & 2 ? 1 : -1) * size_m.y(),
+                                  (i & 4 ? 1 : -1) * size_m.z()));
   return ConvexPolyhedron::fromFaces(
-      std::move(vertices), {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
+      std::move(vertices),
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
 }
 
 }  // namespace carom

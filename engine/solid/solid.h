@@ -1,8 +1,9 @@
 #pragma once
-// A solid: one or more convex parts that move as one body. A part is a convex core grown by a rounding radius, so a
-// point is a ball and a segment a capsule for one and the same algorithm. The solid's own frame B has its origin in
-// the centre of mass; `origin_B()` remembers where the origin of the frame it was described in went.
-// Solids are immutable; bodies refer to them by index. Tested in tests/engine/solid/solid_test.cpp.
+// A solid: one or more convex parts that move as one body. A part is a convex core grown by a rounding
+// radius, so a point is a ball and a segment a capsule for one and the same algorithm. The solid's own frame
+// B has its origin in the centre of mass; `origin_B()` remembers where the origin of the frame it was
+// described in went. Solids are immutable; bodies refer to them by index. Tested in
+// tests/engine/solid/solid_test.cpp.
 
 #include <vector>
 
@@ -22,8 +23,8 @@ struct ConvexPart {
 
 class Solid {
  public:
-  /// Builds a solid from parts given in one common frame, and moves it so that its centre of mass is the origin.
-  /// A part is a polyhedron without rounding, a point with a radius, or a segment with a radius.
+  /// Builds a solid from parts given in one common frame, and moves it so that its centre of mass is the
+  /// origin. A part is a polyhedron without rounding, a point with a radius, or a segment with a radius.
   /// Throws InputError when there is no part or the volume is not positive.
   explicit Solid(std::vector<ConvexPart> parts);
 

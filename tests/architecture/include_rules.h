@@ -1,6 +1,6 @@
 #pragma once
-// Which file may include what: the floors of the engine low to high, the renderer beside them, the demos on top, and
-// one file for each third-party library. A file is judged from its path and its text alone.
+// Which file may include what: the floors of the engine low to high, the renderer beside them, the demos on
+// top, and one file for each third-party library. A file is judged from its path and its text alone.
 
 #include <algorithm>
 #include <map>
@@ -19,8 +19,8 @@ struct Source {
 /// The engine's floors with their height; equal heights must not see each other.
 inline const std::map<std::string, int>& floorHeights() {
   static const std::map<std::string, int> heights{
-      {"foundation", 0}, {"solid", 1},   {"closest_features", 2}, {"motion", 2}, {"broad_phase", 2}, {"environment", 3},
-      {"contact", 3},    {"response", 4}, {"modes", 5},           {"simulation", 6}};
+      {"foundation", 0},  {"solid", 1},   {"closest_features", 2}, {"motion", 2}, {"broad_phase", 2},
+      {"environment", 3}, {"contact", 3}, {"response", 4},         {"modes", 5},  {"simulation", 6}};
   return heights;
 }
 
@@ -60,7 +60,8 @@ inline std::vector<Include> includesOf(const std::string& text) {
   int line = 0;
   for (std::string row; std::getline(in, row);) {
     ++line;
-    if (std::smatch match; std::regex_match(row, match, pattern)) includes.push_back({line, match[2], match[1] == "\""});
+    if (std::smatch match; std::regex_match(row, match, pattern))
+      includes.push_back({line, match[2], match[1] == "\""});
   }
   return includes;
 }
@@ -105,8 +106,10 @@ inline std::vector<std::string> violations(const std::vector<Source>& sources) {
   std::vector<std::string> json_files;
   for (const Source& source : sources)
     for (const auto& [line, header, quoted] : includesOf(source.text)) {
-      const std::string problem = quoted ? arrowProblem(source.path, header) : libraryProblem(source.path, header);
-      if (!problem.empty()) found.push_back(source.path + ":" + std::to_string(line) + ": " + header + ": " + problem);
+      const std::string problem =
+          quoted ? arrowProblem(source.path, header) : libraryProblem(source.path, header);
+      if (!problem.empty())
+        found.push_back(source.path + ":" + std::to_string(line) + ": " + header + ": " + problem);
       const bool known = !json_files.empty() && json_files.back() == source.path;
       if (header.starts_with("nlohmann/") && !known) json_files.push_back(source.path);
     }

@@ -36,7 +36,8 @@ TEST(Tree, NoIncludePointsUpOrSideways) {
 
 TEST(Tree, EveryFolderOfTheEngineIsAKnownFloor) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(CAROM_SOURCE_DIR) + "/engine"))
-    EXPECT_TRUE(!entry.is_directory() || floorHeights().contains(entry.path().filename().string())) << entry.path();
+    EXPECT_TRUE(!entry.is_directory() || floorHeights().contains(entry.path().filename().string()))
+        << entry.path();
 }
 
 TEST(Tree, EveryHeaderIsIncludedOnce) {
@@ -82,7 +83,8 @@ TEST(IncludeRules, JudgeEachArrow) {
       {"renderer/solid_mesh.cpp", R"(#include "engine/solid/solid.h")", ""},
       {"renderer/solid_mesh.cpp", R"(#include "renderer/image.h")", ""},
       {"renderer/frame_renderer.cpp", R"(#include "engine/simulation/world.h")", "foundation and solid only"},
-      {"renderer/frame_renderer.cpp", R"(#include "engine/motion/rigid_body.h")", "foundation and solid only"},
+      {"renderer/frame_renderer.cpp", R"(#include "engine/motion/rigid_body.h")",
+       "foundation and solid only"},
       {"renderer/frame_renderer.cpp", R"(#include "demos/scene.h")", "only demos"},
       {"demos/main.cpp", R"(#include "engine/simulation/world.h")", ""},
       {"demos/main.cpp", R"(#include "renderer/image.h")", ""},
@@ -119,7 +121,8 @@ TEST(IncludeRules, LetOneFileNameTheJsonLibrary) {
 }
 
 TEST(IncludeRules, ReportTheLine) {
-  const std::vector<std::string> found = violations({{"engine/solid/solid.h", "// head\n\n#include \"engine/modes/resting.h\"\n"}});
+  const std::vector<std::string> found =
+      violations({{"engine/solid/solid.h", "// head\n\n#include \"engine/modes/resting.h\"\n"}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0], "engine/solid/solid.h:3: engine/modes/resting.h: points up");
 }

@@ -1,5 +1,5 @@
-// The shipped scenes in motion: the invariant of the engine, watched in every frame by an oracle that shares no code with
-// V-Clip; the same bits in every run; and scenes that say they settle do come to rest.
+// The shipped scenes in motion: the invariant of the engine, watched in every frame by an oracle that shares
+// no code with V-Clip; the same bits in every run; and scenes that say they settle do come to rest.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,8 @@ namespace carom::demos {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
-constexpr double kInTheWindow = 3e-4;  // m: below the margin by which the smallest shipped parts (0.1 m) are paired
+constexpr double kInTheWindow =
+    3e-4;  // m: below the margin by which the smallest shipped parts (0.1 m) are paired
 
 // Steps a scene to its end and shows `look` the world at every frame.
 template <typename Look>
@@ -38,9 +39,11 @@ TEST_P(EveryShippedScene, NeverOverlapsInAnyFrame) {
     const oracle::SmallestGap gap = oracle::smallestGap(world);
     smallest = std::min(smallest, gap.gap_m);
     ASSERT_GT(gap.gap_m, 0.0) << made.names[static_cast<std::size_t>(gap.body_a)] << " and "
-                              << made.names[static_cast<std::size_t>(gap.body_b)] << " at " << world.time() << " s";
-    // The engine speaks of candidate pairs only: it may not see the closest pair of a loose scene, but it may not see
-    // it closer either, and within the collision window it must see it (poses in metres: rounding far below 1e-9).
+                              << made.names[static_cast<std::size_t>(gap.body_b)] << " at " << world.time()
+                              << " s";
+    // The engine speaks of candidate pairs only: it may not see the closest pair of a loose scene, but it may
+    // not see it closer either, and within the collision window it must see it (poses in metres: rounding far
+    // below 1e-9).
     ASSERT_GT(world.audit().smallest_gap_m, gap.gap_m - 1e-9) << world.time();
     if (gap.gap_m < kInTheWindow) {
       ASSERT_NEAR(world.audit().smallest_gap_m, gap.gap_m, 1e-9) << world.time();
@@ -61,11 +64,12 @@ TEST_P(EveryShippedScene, HasTheSameStateInEveryRun) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryShippedScene, testing::ValuesIn(shippedScenes()), [](const auto& scene) {
-  std::string name = scene.param.stem().string();
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryShippedScene, testing::ValuesIn(shippedScenes()),
+                         [](const auto& scene) {
+                           std::string name = scene.param.stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(RestingScene, EndsWithEveryBodyExactlyAtRest) {
   const Scene scene = readSceneFile(findScene("resting"));

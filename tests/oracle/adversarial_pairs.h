@@ -1,6 +1,6 @@
 #pragma once
-// Pairs of convex parts in poses that closest-feature algorithms are known to get wrong, and general ones beside them.
-// The same seed gives the same pairs. Used by tests/engine/closest_features/.
+// Pairs of convex parts in poses that closest-feature algorithms are known to get wrong, and general ones
+// beside them. The same seed gives the same pairs. Used by tests/engine/closest_features/.
 
 #include <string>
 #include <utility>
@@ -10,25 +10,27 @@
 namespace carom::oracle {
 
 enum class Family {
-  kGeneral,        ///< Random hulls of 8 to 250 vertices, from far apart to deep inside each other.
-  kLattice,        ///< Boxes, plain and of triangles, on exact lattice poses: everything parallel, much of it coplanar.
-  kNearlyParallel, ///< A face over a face, tilted by 1e-15 to 1e-3.
-  kNeedles,        ///< Aspect ratios up to 1e4.
-  kSizeRatio,      ///< 1e-3 against 100.
-  kGons,           ///< Prisms and spikes over 200-gons: large faces, vertices of high degree.
-  kNearlyFlat,     ///< Dihedral angles within 1e-8 to 1e-3 of flat.
-  kShortEdges,     ///< Boxes whose corners are cut at 1e-8 to 1e-3 of their size.
-  kTouching,       ///< Gaps of exactly or almost zero.
-  kConcentric,     ///< Deep inside each other, many at the very same pose.
-  kFarAway,        ///< 1e4 sizes from the origin.
-  kDrifted,        ///< Rotations whose quaternions have drifted from unit length by up to 1e-12.
-  kRounded,        ///< Balls and capsules among the polyhedra.
+  kGeneral,  ///< Random hulls of 8 to 250 vertices, from far apart to deep inside each other.
+  kLattice,  ///< Boxes, plain and of triangles, on exact lattice poses: everything parallel, much of it
+             ///< coplanar.
+  kNearlyParallel,  ///< A face over a face, tilted by 1e-15 to 1e-3.
+  kNeedles,         ///< Aspect ratios up to 1e4.
+  kSizeRatio,       ///< 1e-3 against 100.
+  kGons,            ///< Prisms and spikes over 200-gons: large faces, vertices of high degree.
+  kNearlyFlat,      ///< Dihedral angles within 1e-8 to 1e-3 of flat.
+  kShortEdges,      ///< Boxes whose corners are cut at 1e-8 to 1e-3 of their size.
+  kTouching,        ///< Gaps of exactly or almost zero.
+  kConcentric,      ///< Deep inside each other, many at the very same pose.
+  kFarAway,         ///< 1e4 sizes from the origin.
+  kDrifted,         ///< Rotations whose quaternions have drifted from unit length by up to 1e-12.
+  kRounded,         ///< Balls and capsules among the polyhedra.
   kCount
 };
 
 inline const char* familyName(Family family) {
-  static const char* names[] = {"general",     "lattice",     "nearly parallel", "needles",    "size ratio", "gons",    "nearly flat",
-                                "short edges", "touching",    "concentric",      "far away",   "drifted",    "rounded"};
+  static const char* names[] = {"general",  "lattice",     "nearly parallel", "needles",  "size ratio",
+                                "gons",     "nearly flat", "short edges",     "touching", "concentric",
+                                "far away", "drifted",     "rounded"};
   return names[static_cast<std::size_t>(family)];
 }
 
@@ -40,7 +42,9 @@ struct PosedPair {
 
   /// A length that the pair's rounding is relative to, metres.
   double scale() const {
-    const auto reach = [](const ConvexPart& part) { return part.core.radiusAbout(Vec3::Zero()) + part.radius_m; };
+    const auto reach = [](const ConvexPart& part) {
+      return part.core.radiusAbout(Vec3::Zero()) + part.radius_m;
+    };
     return reach(*a) + reach(*b) + (X_WA.position - X_WB.position).norm();
   }
 };
@@ -51,19 +55,32 @@ class AdversarialPairs {
 
   PosedPair next(Family family) {
     switch (family) {
-      case Family::kLattice: return latticePair();
-      case Family::kNearlyParallel: return nearlyParallelPair();
-      case Family::kNeedles: return looselyPosed(pick(needles_), coin() ? pick(needles_) : pick(small_));
-      case Family::kSizeRatio: return swappedByChance(looselyPosed(pick(tiny_), pick(huge_)));
-      case Family::kGons: return looselyPosed(pick(gons_), coin() ? pick(gons_) : pick(small_));
-      case Family::kNearlyFlat: return looselyPosed(pick(flat_), coin() ? pick(flat_) : pick(boxes_));
-      case Family::kShortEdges: return coin() ? stacked(pick(cut_), pick(cut_)) : looselyPosed(pick(cut_), pick(cut_));
-      case Family::kTouching: return touchingPair();
-      case Family::kConcentric: return concentricPair();
-      case Family::kFarAway: return farAwayPair();
-      case Family::kDrifted: return driftedPair();
-      case Family::kRounded: return swappedByChance(looselyPosed(pick(rounded_), coin() ? pick(rounded_) : pick(small_)));
-      default: return generalPair();
+      case Family::kLattice:
+        return latticePair();
+      case Family::kNearlyParallel:
+        return nearlyParallelPair();
+      case Family::kNeedles:
+        return looselyPosed(pick(needles_), coin() ? pick(needles_) : pick(small_));
+      case Family::kSizeRatio:
+        return swappedByChance(looselyPosed(pick(tiny_), pick(huge_)));
+      case Family::kGons:
+        return looselyPosed(pick(gons_), coin() ? pick(gons_) : pick(small_));
+      case Family::kNearlyFlat:
+        return looselyPosed(pick(flat_), coin() ? pick(flat_) : pick(boxes_));
+      case Family::kShortEdges:
+        return coin() ? stacked(pick(cut_), pick(cut_)) : looselyPosed(pick(cut_), pick(cut_));
+      case Family::kTouching:
+        return touchingPair();
+      case Family::kConcentric:
+        return concentricPair();
+      case Family::kFarAway:
+        return farAwayPair();
+      case Family::kDrifted:
+        return driftedPair();
+      case Family::kRounded:
+        return swappedByChance(looselyPosed(pick(rounded_), coin() ? pick(rounded_) : pick(small_)));
+      default:
+        return generalPair();
     }
   }
   /// A pair of random hulls of at most 20 vertices: cheap for exhaustive oracles.
@@ -75,10 +92,14 @@ class AdversarialPairs {
   using Parts = std::vector<ConvexPart>;
 
   bool coin() { return random_.integer(0, 1) == 1; }
-  const ConvexPart& pick(const Parts& parts) { return parts[static_cast<std::size_t>(random_.integer(0, static_cast<int>(parts.size()) - 1))]; }
+  const ConvexPart& pick(const Parts& parts) {
+    return parts[static_cast<std::size_t>(random_.integer(0, static_cast<int>(parts.size()) - 1))];
+  }
   static double reach(const ConvexPart& part) { return part.core.radiusAbout(Vec3::Zero()) + part.radius_m; }
 
-  static void add(Parts& parts, ConvexPolyhedron core, double radius_m = 0.0) { parts.push_back({std::move(core), radius_m}); }
+  static void add(Parts& parts, ConvexPolyhedron core, double radius_m = 0.0) {
+    parts.push_back({std::move(core), radius_m});
+  }
   static ConvexPolyhedron scaled(const ConvexPolyhedron& p, double factor) {
     std::vector<Vec3> vertices;
     for (const Vec3& v : p.vertices()) vertices.push_back(factor * v);
@@ -94,7 +115,8 @@ class AdversarialPairs {
     add(small_, icosahedron());
     add(small_, octahedron());
     add(small_, tetrahedron());
-    for (int n : {32, 62, 100, 160, 252}) add(large_, randomHull(random_, n, Vec3(1, random_.uniform(0.3, 1), random_.uniform(0.3, 1))));
+    for (int n : {32, 62, 100, 160, 252})
+      add(large_, randomHull(random_, n, Vec3(1, random_.uniform(0.3, 1), random_.uniform(0.3, 1))));
     for (const Vec3& size : {Vec3(1, 1, 1), Vec3(1, 2, 1), Vec3(0.5, 1, 0.25), Vec3(2, 2, 0.5)}) {
       add(boxes_, boxPolyhedron(size));
       add(boxes_, triangulatedBox(size));
@@ -169,7 +191,8 @@ class AdversarialPairs {
 
   Quat quarterTurns() {
     const double quarter = std::numbers::pi / 2;
-    const Quat q = turned(Vec3::UnitZ(), quarter * random_.integer(0, 3)) * turned(Vec3::UnitX(), quarter * random_.integer(0, 3));
+    const Quat q = turned(Vec3::UnitZ(), quarter * random_.integer(0, 3)) *
+                   turned(Vec3::UnitX(), quarter * random_.integer(0, 3));
     return q * turned(Vec3::UnitY(), quarter * random_.integer(0, 3));
   }
 
@@ -178,7 +201,8 @@ class AdversarialPairs {
     PosedPair pair{&pick(boxes_), &pick(boxes_), Pose{}, Pose{}};
     pair.X_WA.rotation = quarterTurns();
     pair.X_WB = {quarterTurns(), Vec3(step(), step(), step())};
-    if (random_.integer(0, 3) == 0) pair.X_WB.rotation = turned(Vec3::UnitZ(), std::numbers::pi / 4) * pair.X_WB.rotation;
+    if (random_.integer(0, 3) == 0)
+      pair.X_WB.rotation = turned(Vec3::UnitZ(), std::numbers::pi / 4) * pair.X_WB.rotation;
     return pair;
   }
 
@@ -222,7 +246,9 @@ class AdversarialPairs {
     PosedPair pair{&a, &b, random_.pose(1.0), Pose{}};
     pair.X_WB = pair.X_WA;
     if (coin()) pair.X_WB.position += random_.logUniform(1e-16, 1e-1) * random_.direction();
-    if (coin()) pair.X_WB.rotation = (pair.X_WB.rotation * turned(random_.direction(), random_.logUniform(1e-16, 1.0))).normalized();
+    if (coin())
+      pair.X_WB.rotation =
+          (pair.X_WB.rotation * turned(random_.direction(), random_.logUniform(1e-16, 1.0))).normalized();
     return pair;
   }
 

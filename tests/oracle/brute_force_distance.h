@@ -1,6 +1,6 @@
 #pragma once
-// Oracle: the distance of two parts by trying every vertex against every triangle and every edge against every edge,
-// in long double; parts that intersect are told by the separating axes, which give their depth.
+// Oracle: the distance of two parts by trying every vertex against every triangle and every edge against
+// every edge, in long double; parts that intersect are told by the separating axes, which give their depth.
 // Tested against closed forms in tests/oracle/oracle_test.cpp.
 
 #include <algorithm>
@@ -20,10 +20,11 @@ inline Real pointSegmentSquared(const Vec3R& p, const Vec3R& a, const Vec3R& b) 
   return (p - (a + nearestParameter(p, a, d) * d)).squaredNorm();
 }
 
-/// Every candidate is a pair of points on the segments, so near-parallel ones cannot give less than the truth.
+/// Every candidate is a pair of points on the segments, so near-parallel ones cannot give less than the
+/// truth.
 inline Real segmentSegmentSquared(const Vec3R& a, const Vec3R& b, const Vec3R& c, const Vec3R& d) {
-  Real best = std::min({pointSegmentSquared(a, c, d), pointSegmentSquared(b, c, d), pointSegmentSquared(c, a, b),
-                        pointSegmentSquared(d, a, b)});
+  Real best = std::min({pointSegmentSquared(a, c, d), pointSegmentSquared(b, c, d),
+                        pointSegmentSquared(c, a, b), pointSegmentSquared(d, a, b)});
   const Vec3R u = b - a;
   const Vec3R v = d - c;
   const Real determinant = u.cross(v).squaredNorm();
@@ -43,8 +44,8 @@ inline Real segmentSegmentSquared(const Vec3R& a, const Vec3R& b, const Vec3R& c
 inline Real pointTriangleSquared(const Vec3R& p, const Vec3R& a, const Vec3R& b, const Vec3R& c) {
   const Vec3R n = (b - a).cross(c - a);
   const Real area_squared = n.squaredNorm();
-  const bool above = area_squared > 0 && n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
-                     n.dot((a - c).cross(p - c)) >= 0;
+  const bool above = area_squared > 0 && n.dot((b - a).cross(p - a)) >= 0 &&
+                     n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
   if (above) {
     const Real height = n.dot(p - a);
     return height * height / area_squared;
@@ -57,7 +58,8 @@ inline Real pointCoreSquared(const Vec3R& p, const PlacedConvex& core) {
   Real best = std::numeric_limits<Real>::infinity();
   const std::vector<Vec3R>& v = core.vertices;
   if (!core.triangles.empty())
-    for (const auto& t : core.triangles) best = std::min(best, pointTriangleSquared(p, v[t[0]], v[t[1]], v[t[2]]));
+    for (const auto& t : core.triangles)
+      best = std::min(best, pointTriangleSquared(p, v[t[0]], v[t[1]], v[t[2]]));
   else if (!core.edges.empty())
     for (const auto& e : core.edges) best = std::min(best, pointSegmentSquared(p, v[e[0]], v[e[1]]));
   else
@@ -65,18 +67,21 @@ inline Real pointCoreSquared(const Vec3R& p, const PlacedConvex& core) {
   return best;
 }
 
-/// The distance of the cores' surfaces: that of the cores when they are disjoint. Rounding radii are left out.
+/// The distance of the cores' surfaces: that of the cores when they are disjoint. Rounding radii are left
+/// out.
 inline Real surfaceDistance(const PlacedConvex& a, const PlacedConvex& b) {
   Real best = std::numeric_limits<Real>::infinity();
   for (const Vec3R& p : a.vertices) best = std::min(best, pointCoreSquared(p, b));
   for (const Vec3R& p : b.vertices) best = std::min(best, pointCoreSquared(p, a));
   for (const auto& e : a.edges)
     for (const auto& f : b.edges)
-      best = std::min(best, segmentSegmentSquared(a.vertices[e[0]], a.vertices[e[1]], b.vertices[f[0]], b.vertices[f[1]]));
+      best = std::min(best, segmentSegmentSquared(a.vertices[e[0]], a.vertices[e[1]], b.vertices[f[0]],
+                                                  b.vertices[f[1]]));
   return std::sqrt(best);
 }
 
-/// The signed gap of two parts, rounding radii subtracted: their distance, or minus their exact penetration depth.
+/// The signed gap of two parts, rounding radii subtracted: their distance, or minus their exact penetration
+/// depth.
 inline Real signedGap(const PlacedConvex& a, const PlacedConvex& b) {
   Real gap = 0;
   if (!a.flat() || !b.flat()) gap = largestAxisGap(a, b).gap_m;

@@ -9,8 +9,12 @@
 namespace carom::oracle {
 namespace {
 
-ConvexPart cube() { return {boxPolyhedron(Vec3::Ones()), 0.0}; }
-Pose at(double x, double y, double z, const Quat& rotation = Quat::Identity()) { return {rotation, Vec3(x, y, z)}; }
+ConvexPart cube() {
+  return {boxPolyhedron(Vec3::Ones()), 0.0};
+}
+Pose at(double x, double y, double z, const Quat& rotation = Quat::Identity()) {
+  return {rotation, Vec3(x, y, z)};
+}
 
 TEST(BruteForce, CubesApart_AreTheFaceEdgeAndVertexDistance) {
   const PlacedConvex a = place(cube(), Pose{});
@@ -33,7 +37,8 @@ TEST(BruteForce, OverlappingCubes_AreMinusTheLeastDepth) {
 }
 
 TEST(BruteForce, CrossedEdgesInside_NeedTheEdgeAxes) {
-  const Quat qa = turned(Vec3::UnitX(), std::numbers::pi / 4), qb = turned(Vec3::UnitY(), std::numbers::pi / 4);
+  const Quat qa = turned(Vec3::UnitX(), std::numbers::pi / 4),
+             qb = turned(Vec3::UnitY(), std::numbers::pi / 4);
   const AxisGap gap = largestAxisGap(place(cube(), at(0, 0, 0, qa)), place(cube(), at(0, 0, 1.3, qb)));
   EXPECT_NEAR(double(gap.gap_m), 1.3 - std::numbers::sqrt2, 1e-15);
   EXPECT_NEAR(double(gap.axis.z()), 1.0, 1e-15);
@@ -44,9 +49,12 @@ TEST(BruteForce, BallsAndCapsules_FollowFromTheirCores) {
   const ConvexPart capsule{ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.5};
   EXPECT_NEAR(double(signedGap(place(ball, Pose{}), place(ball, at(3, 4, 0)))), 4.5, 1e-15);
   EXPECT_NEAR(double(signedGap(place(ball, Pose{}), place(capsule, at(0, 3, -5)))), 5.0 - 0.75, 1e-15);
-  EXPECT_NEAR(double(signedGap(place(capsule, Pose{}), place(capsule, at(0.3, 2, 0, turned(Vec3::UnitX(), 1.0))))),
-              std::hypot(0.3, 2.0 - std::sin(1.0)) - 1.0, 1e-15);  // the tilted one's end against the other's side
-  EXPECT_NEAR(double(signedGap(place(capsule, Pose{}), place(capsule, at(2, 0, 0, turned(Vec3::UnitX(), 1.0))))), 1.0, 1e-15);
+  EXPECT_NEAR(
+      double(signedGap(place(capsule, Pose{}), place(capsule, at(0.3, 2, 0, turned(Vec3::UnitX(), 1.0))))),
+      std::hypot(0.3, 2.0 - std::sin(1.0)) - 1.0, 1e-15);  // the tilted one's end against the other's side
+  EXPECT_NEAR(
+      double(signedGap(place(capsule, Pose{}), place(capsule, at(2, 0, 0, turned(Vec3::UnitX(), 1.0))))), 1.0,
+      1e-15);
   EXPECT_NEAR(double(signedGap(place(cube(), Pose{}), place(ball, at(0, 0, 0.6)))), 0.1 - 0.25, 1e-15);
   EXPECT_NEAR(double(signedGap(place(cube(), Pose{}), place(ball, at(0, 0.1, 0.4)))), -0.1 - 0.25, 1e-15);
 }
@@ -82,7 +90,8 @@ TEST(WitnessCertificate, CommonPointsAgreeWithTheSeparatingAxes) {
 
 TEST(OverlapOracle, NamesTheClosestPairOfAll) {
   const Solid box = Solid::box(Vec3::Ones()), ball = Solid::ball(0.5);
-  std::vector<PlacedSolid> bodies{{&box, at(0, 0, 0), true}, {&box, at(0, 0, 1.01), false}, {&ball, at(0, 3, 0), false}};
+  std::vector<PlacedSolid> bodies{
+      {&box, at(0, 0, 0), true}, {&box, at(0, 0, 1.01), false}, {&ball, at(0, 3, 0), false}};
   SmallestGap smallest = smallestGap(bodies);
   EXPECT_NEAR(smallest.gap_m, 0.01, 1e-15);
   EXPECT_EQ(smallest.body_a, 0);

@@ -1,7 +1,7 @@
 #pragma once
-// Oracle: the smallest gap over every pair of bodies, by brute force and separating axes; for checking a world frame
-// by frame. Pairs whose bounding balls are farther apart than the smallest gap so far are passed over.
-// Tested in tests/oracle/oracle_test.cpp.
+// Oracle: the smallest gap over every pair of bodies, by brute force and separating axes; for checking a
+// world frame by frame. Pairs whose bounding balls are farther apart than the smallest gap so far are passed
+// over. Tested in tests/oracle/oracle_test.cpp.
 
 #include <limits>
 #include <span>
@@ -19,7 +19,8 @@ struct PlacedSolid {
 };
 
 struct SmallestGap {
-  double gap_m = std::numeric_limits<double>::infinity();  ///< Negative: minus the depth of the deepest overlap.
+  double gap_m =
+      std::numeric_limits<double>::infinity();  ///< Negative: minus the depth of the deepest overlap.
   int body_a = -1;
   int body_b = -1;
 };
@@ -48,7 +49,8 @@ inline SmallestGap smallestGap(const World& world) {
   std::vector<PlacedSolid> bodies;
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const BodyDescription& body = world.bodies()[i];
-    bodies.push_back({&world.solids()[static_cast<std::size_t>(body.solid)], world.states()[i].X_WB, body.is_static});
+    bodies.push_back(
+        {&world.solids()[static_cast<std::size_t>(body.solid)], world.states()[i].X_WB, body.is_static});
   }
   return smallestGap(bodies);
 }

@@ -1,7 +1,7 @@
 #pragma once
-// A convex part as the oracles see it: plain lists of world points in long double, with the face normals computed
-// afresh from the corners. The oracles of this folder share nothing with V-Clip but the part's lists of vertices,
-// edges and face loops. Tested in tests/oracle/oracle_test.cpp.
+// A convex part as the oracles see it: plain lists of world points in long double, with the face normals
+// computed afresh from the corners. The oracles of this folder share nothing with V-Clip but the part's lists
+// of vertices, edges and face loops. Tested in tests/oracle/oracle_test.cpp.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@ struct PlacedConvex {
   std::vector<Vec3R> face_normals;                    ///< Unit, outwards.
   std::vector<Vec3R> face_points;                     ///< One corner of each face.
   std::vector<Vec3R> edge_directions;                 ///< Unit; parallel edges are listed once.
-  Real radius_m = 0;                                  ///< The part is everything within this distance of the core.
+  Real radius_m = 0;  ///< The part is everything within this distance of the core.
 
   bool flat() const { return face_normals.empty(); }  ///< A point or a segment.
 };
@@ -32,7 +32,8 @@ inline Vec3R areaVector(std::span<const int> loop, const std::vector<Vec3R>& ver
   Vec3R sum = Vec3R::Zero();
   const Vec3R& base = vertices[static_cast<std::size_t>(loop[0])];
   for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-    sum += (vertices[static_cast<std::size_t>(loop[i])] - base).cross(vertices[static_cast<std::size_t>(loop[i + 1])] - base);
+    sum += (vertices[static_cast<std::size_t>(loop[i])] - base)
+               .cross(vertices[static_cast<std::size_t>(loop[i + 1])] - base);
   return sum;
 }
 
@@ -51,14 +52,17 @@ inline PlacedConvex place(const ConvexPart& part, const Pose& X_WP) {
       placed.triangles.push_back({static_cast<std::size_t>(loop[0]), static_cast<std::size_t>(loop[i]),
                                   static_cast<std::size_t>(loop[i + 1])});
   }
-  constexpr Real kSameDirection = 1e-17L;  // sine of the angle: below it the directions differ by rounding only
+  constexpr Real kSameDirection =
+      1e-17L;  // sine of the angle: below it the directions differ by rounding only
   for (int e = 0; e < part.core.edgeCount(); ++e) {
     const Edge& edge = part.core.edge(e);
-    const std::array<std::size_t, 2> ends{static_cast<std::size_t>(edge.tail), static_cast<std::size_t>(edge.head)};
+    const std::array<std::size_t, 2> ends{static_cast<std::size_t>(edge.tail),
+                                          static_cast<std::size_t>(edge.head)};
     placed.edges.push_back(ends);
     const Vec3R d = (placed.vertices[ends[1]] - placed.vertices[ends[0]]).normalized();
     bool known = false;
-    for (const Vec3R& other : placed.edge_directions) known = known || d.cross(other).squaredNorm() < kSameDirection * kSameDirection;
+    for (const Vec3R& other : placed.edge_directions)
+      known = known || d.cross(other).squaredNorm() < kSameDirection * kSameDirection;
     if (!known) placed.edge_directions.push_back(d);
   }
   return placed;

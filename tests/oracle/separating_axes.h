@@ -1,8 +1,8 @@
 #pragma once
-// Oracle: the separating-axis theorem by brute force. Every face normal of both parts and every cross product of their
-// edge directions is an axis; all vertices are projected on each. The largest gap is positive exactly when the cores
-// are disjoint, and is minus the exact penetration depth when they intersect.
-// At least one of the parts must have faces. Tested in tests/oracle/oracle_test.cpp.
+// Oracle: the separating-axis theorem by brute force. Every face normal of both parts and every cross product
+// of their edge directions is an axis; all vertices are projected on each. The largest gap is positive
+// exactly when the cores are disjoint, and is minus the exact penetration depth when they intersect. At least
+// one of the parts must have faces. Tested in tests/oracle/oracle_test.cpp.
 
 #include <limits>
 

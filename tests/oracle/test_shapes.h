@@ -1,6 +1,6 @@
 #pragma once
-// Solids and poses for tests: regular solids, prisms, triangulated boxes, random hulls, and a random generator whose
-// numbers are the same everywhere (the standard library's distributions are not).
+// Solids and poses for tests: regular solids, prisms, triangulated boxes, random hulls, and a random
+// generator whose numbers are the same everywhere (the standard library's distributions are not).
 
 #include <array>
 #include <cmath>
@@ -19,9 +19,13 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
 
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
   /// From low to high inclusive.
-  int integer(int low, int high) { return low + static_cast<int>(bits_() % static_cast<std::uint64_t>(high - low + 1)); }
+  int integer(int low, int high) {
+    return low + static_cast<int>(bits_() % static_cast<std::uint64_t>(high - low + 1));
+  }
   /// Each power of ten between the bounds equally likely.
   double logUniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   Vec3 direction() {
@@ -50,7 +54,9 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-inline Quat turned(const Vec3& axis, double radians) { return Quat(Eigen::AngleAxisd(radians, axis.normalized())); }
+inline Quat turned(const Vec3& axis, double radians) {
+  return Quat(Eigen::AngleAxisd(radians, axis.normalized()));
+}
 
 /// The box's six faces as twelve triangles: coplanar neighbours, flat edges.
 inline ConvexPolyhedron triangulatedBox(const Vec3& size_m) {
@@ -72,7 +78,8 @@ inline ConvexPolyhedron prism(int n, double radius_m, double height_m) {
     const double angle = 2.0 * std::numbers::pi * k / n;
     vertices.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), -0.5 * height_m);
   }
-  for (int k = 0; k < n; ++k) vertices.emplace_back(vertices[static_cast<std::size_t>(k)] + Vec3(0, 0, height_m));
+  for (int k = 0; k < n; ++k)
+    vertices.emplace_back(vertices[static_cast<std::size_t>(k)] + Vec3(0, 0, height_m));
   for (int k = 0; k < n; ++k) {
     loops[0].push_back(n - 1 - k);
     loops[1].push_back(n + k);
@@ -119,8 +126,12 @@ inline std::vector<Vec3> dodecahedronPoints() {
   return p;  // edge length 2 / phi
 }
 
-inline ConvexPolyhedron icosahedron() { return convexHull(icosahedronPoints()).polyhedron; }
-inline ConvexPolyhedron dodecahedron() { return convexHull(dodecahedronPoints()).polyhedron; }
+inline ConvexPolyhedron icosahedron() {
+  return convexHull(icosahedronPoints()).polyhedron;
+}
+inline ConvexPolyhedron dodecahedron() {
+  return convexHull(dodecahedronPoints()).polyhedron;
+}
 
 /// The hull of n random points on an ellipsoid with these half axes: all n are vertices.
 inline ConvexPolyhedron randomHull(Random& random, int n, const Vec3& half_axes = Vec3::Ones()) {

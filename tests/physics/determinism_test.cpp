@@ -11,7 +11,10 @@ std::vector<std::uint64_t> hashesOfAPile() {
   w.addPlane(rubbing(0.5, 0.3), Quat::Identity(), 5.0);
   for (int i = 0; i < 12; ++i)
     w.add({Solid::polyhedron(oracle::randomHull(random, 12, Vec3(0.3, 0.25, 0.2))),
-           {random.rotation(), Vec3(0.5 * (i % 2), 0.5 * (i / 2 % 2), 0.6 + 0.6 * (i / 4))}, Vec3::Zero(), random.direction(), rubbing(0.4, 0.2)});
+           {random.rotation(), Vec3(0.5 * (i % 2), 0.5 * (i / 2 % 2), 0.6 + 0.6 * (i / 4))},
+           Vec3::Zero(),
+           random.direction(),
+           rubbing(0.4, 0.2)});
   w.start();
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < 240; ++i) {
@@ -31,7 +34,11 @@ TEST(Determinism, ReadingTheWorldDoesNotChangeIt) {
   const auto run = [](bool watched) {
     SmallWorld w;
     w.addPlane(rubbing(0.5, 0.3));
-    w.add({Solid::box({0.3, 0.2, 0.4}), {oracle::turned({1, 2, 3}, 0.6), Vec3(0, 0, 1)}, Vec3(1, 0, 0), Vec3(1, 2, 3), rubbing(0.4, 0.2)});
+    w.add({Solid::box({0.3, 0.2, 0.4}),
+           {oracle::turned({1, 2, 3}, 0.6), Vec3(0, 0, 1)},
+           Vec3(1, 0, 0),
+           Vec3(1, 2, 3),
+           rubbing(0.4, 0.2)});
     w.start();
     for (int i = 0; i < 480; ++i) {
       w.step();
@@ -52,8 +59,11 @@ TEST(Determinism, BodiesThatNeverMeetDoNotFeelTheOrderInWhichTheyWereAdded) {
     std::vector<int> bodies(4);
     for (int k = 0; k < 4; ++k) {
       const int i = reversed ? 3 - k : k;
-      bodies[static_cast<std::size_t>(i)] = w.add({Solid::box({0.3, 0.2, 0.4}), {oracle::turned({1, 2, 3}, 0.6 * i), Vec3(3.0 * i, 0, 1)}, Vec3(0, 0.2 * i, 0),
-                                                   Vec3(i, 2, 3), rubbing(0.4, 0.2)});
+      bodies[static_cast<std::size_t>(i)] = w.add({Solid::box({0.3, 0.2, 0.4}),
+                                                   {oracle::turned({1, 2, 3}, 0.6 * i), Vec3(3.0 * i, 0, 1)},
+                                                   Vec3(0, 0.2 * i, 0),
+                                                   Vec3(i, 2, 3),
+                                                   rubbing(0.4, 0.2)});
     }
     w.start();
     w.run(0.4);

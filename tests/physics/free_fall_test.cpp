@@ -5,7 +5,8 @@
 namespace carom::physics {
 namespace {
 
-// Each step rounds position and velocity once or twice: after n steps the error is below 4 n eps (|x| + |v| T).
+// Each step rounds position and velocity once or twice: after n steps the error is below 4 n eps (|x| + |v|
+// T).
 double roundingBound(int steps, const Vec3& x, const Vec3& v, double seconds) {
   return 4.0 * steps * 0x1p-53 * (x.norm() + v.norm() * seconds + 0.5 * kGravity * seconds * seconds);
 }
@@ -17,7 +18,10 @@ TEST_P(FreeFall, FollowsTheParabolaToRounding) {
   for (const bool spinning : {false, true}) {
     SmallWorld w(GetParam());
     const Vec3 x0(1.3, -2.7, 40.0), v0(3.1, -1.9, 11.3);
-    const int body = w.add({Solid::box({0.3, 0.7, 0.2}), {oracle::turned({1, 2, 3}, 0.7), x0}, v0, spinning ? Vec3(2.0, -5.0, 1.0) : Vec3::Zero()});
+    const int body = w.add({Solid::box({0.3, 0.7, 0.2}),
+                            {oracle::turned({1, 2, 3}, 0.7), x0},
+                            v0,
+                            spinning ? Vec3(2.0, -5.0, 1.0) : Vec3::Zero()});
     w.start();
     while (w.time() < seconds - 1e-9) {
       w.step();
@@ -43,7 +47,10 @@ TEST_P(FreeFall, KeepsTheEnergyOfAThrownBall) {
 
 TEST_P(FreeFall, KeepsTheAngularMomentumOfATumblingBox) {
   SmallWorld w(GetParam(), Vec3::Zero());
-  const int body = w.add({Solid::box({0.1, 0.5, 1.1}), {oracle::turned({3, -1, 2}, 1.1), Vec3::Zero()}, Vec3::Zero(), Vec3(1.0, 7.0, -2.0)});
+  const int body = w.add({Solid::box({0.1, 0.5, 1.1}),
+                          {oracle::turned({3, -1, 2}, 1.1), Vec3::Zero()},
+                          Vec3::Zero(),
+                          Vec3(1.0, 7.0, -2.0)});
   w.start();
   const Vec3 before = w.world().audit().angular_momentum;
   const Vec3 spin = w.spin(body);

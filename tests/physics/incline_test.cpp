@@ -6,7 +6,9 @@ namespace carom::physics {
 namespace {
 
 // The plane falls off along x after it was turned by `heading` about the vertical.
-Quat inclineTilt(double angle, double heading) { return oracle::turned(Vec3::UnitZ(), heading) * oracle::turned(Vec3::UnitY(), angle); }
+Quat inclineTilt(double angle, double heading) {
+  return oracle::turned(Vec3::UnitZ(), heading) * oracle::turned(Vec3::UnitY(), angle);
+}
 
 struct Descent {
   double acceleration_mps2 = 0.0;  ///< Down the slope.
@@ -15,7 +17,8 @@ struct Descent {
   double turned = 0.0;
 };
 
-Descent downTheIncline(const Solid& solid, double height, const Quat& tilt, const Quat& turn, double friction, double rate, double seconds) {
+Descent downTheIncline(const Solid& solid, double height, const Quat& tilt, const Quat& turn, double friction,
+                       double rate, double seconds) {
   SmallWorld w(rate);
   w.addPlane(rubbing(friction), tilt);
   const Pose X{tilt * turn, tilt * Vec3(-3.0, 0.5, height)};
@@ -36,8 +39,8 @@ TEST_P(Incline, SlidingBlockAcceleratesByGTimesSineLessFriction) {
       for (double turn : {0.0, 0.6}) {
         const double angle = radians(30.0);
         const double expected = kGravity * (std::sin(angle) - friction * std::cos(angle));
-        const Descent run = downTheIncline(Solid::box(size), 0.1 + restGap(0.2), inclineTilt(angle, heading), oracle::turned(Vec3::UnitZ(), turn),
-                                       friction, GetParam(), 1.0);
+        const Descent run = downTheIncline(Solid::box(size), 0.1 + restGap(0.2), inclineTilt(angle, heading),
+                                           oracle::turned(Vec3::UnitZ(), turn), friction, GetParam(), 1.0);
         SCOPED_TRACE(testing::Message() << "mu " << friction << " heading " << heading << " turn " << turn);
         EXPECT_NEAR(run.acceleration_mps2 / expected, 1.0, 1e-4);
         EXPECT_LT(run.aside_mps2, 1e-4 * expected);
@@ -50,10 +53,11 @@ TEST_P(Incline, RollingBallAcceleratesByFiveSeventhsOfGTimesSine) {
     const double angle = radians(angle_deg), radius = 0.25;
     const double expected = 5.0 / 7.0 * kGravity * std::sin(angle);
     for (double friction : {1.02 * 2.0 / 7.0 * std::tan(angle), 0.8}) {
-      const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.7), oracle::turned({1, 2, 3}, 1.0),
-                                     friction, GetParam(), 1.0);
+      const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.7),
+                                         oracle::turned({1, 2, 3}, 1.0), friction, GetParam(), 1.0);
       SCOPED_TRACE(testing::Message() << "angle " << angle_deg << " mu " << friction);
-      // The contact point lies half a gap below the ball: r + g/2 takes the place of r in the lever, 0.5 gap / r of it.
+      // The contact point lies half a gap below the ball: r + g/2 takes the place of r in the lever, 0.5 gap
+      // / r of it.
       const double lever = restGap(0.5) / radius;
       EXPECT_NEAR(run.acceleration_mps2 / expected, 1.0, 1e-4 + lever);
       EXPECT_NEAR(run.spin_rate.y() * radius / expected, 1.0, 1e-4 + lever);
@@ -64,7 +68,8 @@ TEST_P(Incline, RollingBallAcceleratesByFiveSeventhsOfGTimesSine) {
 
 TEST_P(Incline, SlippingBallAcceleratesLikeABlockAndSpinsByFriction) {
   const double angle = radians(40.0), radius = 0.25, friction = 0.1;
-  const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.3), Quat::Identity(), friction, GetParam(), 1.0);
+  const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.3),
+                                     Quat::Identity(), friction, GetParam(), 1.0);
   EXPECT_NEAR(run.acceleration_mps2 / (kGravity * (std::sin(angle) - friction * std::cos(angle))), 1.0, 1e-4);
   const double spin_rate = 2.5 * friction * kGravity * std::cos(angle) / radius;
   EXPECT_NEAR(run.spin_rate.y() / spin_rate, 1.0, 1e-4 + restGap(0.5) / radius);

@@ -35,7 +35,11 @@ TEST_P(Restitution, ApexFallsByTheSquareOfIt) {
       const double h = 1.0, ceiling = windowCeiling(b.width_m);
       SmallWorld w(rate);
       w.addPlane(rubbing(0.3, 0.0));
-      const int body = w.add({b.solid, {b.rotation, Vec3(0.3, -0.2, b.lowest_m + h)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.3, e)});
+      const int body = w.add({b.solid,
+                              {b.rotation, Vec3(0.3, -0.2, b.lowest_m + h)},
+                              Vec3::Zero(),
+                              Vec3::Zero(),
+                              rubbing(0.3, e)});
       w.start();
       int bounces = 0;
       double expected = h, vz = 0.0;
@@ -46,8 +50,10 @@ TEST_P(Restitution, ApexFallsByTheSquareOfIt) {
           expected *= e * e;
         }
         vz = w.velocity(body).z();
-        ASSERT_GE(apex(w, body, b.lowest_m), expected - 1e-9) << b.name << " e " << e << " bounce " << bounces;
-        ASSERT_LE(apex(w, body, b.lowest_m), expected + ceiling) << b.name << " e " << e << " bounce " << bounces;
+        ASSERT_GE(apex(w, body, b.lowest_m), expected - 1e-9)
+            << b.name << " e " << e << " bounce " << bounces;
+        ASSERT_LE(apex(w, body, b.lowest_m), expected + ceiling)
+            << b.name << " e " << e << " bounce " << bounces;
       }
       const double period = 2.0 * std::sqrt(2.0 * h / kGravity);
       EXPECT_GE(bounces, e == 1.0 ? static_cast<int>(20.0 / period) - 1 : (e == 0.5 ? 2 : 7)) << b.name;
@@ -59,14 +65,16 @@ TEST_P(Restitution, OfOneKeepsTheEnergyForTwentySeconds) {
   for (const Bouncer& b : bouncers()) {
     SmallWorld w(GetParam());
     w.addPlane(rubbing(0.3));
-    w.add({b.solid, {b.rotation, Vec3(0, 0, b.lowest_m + 0.5)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.3, 1.0)});
+    w.add(
+        {b.solid, {b.rotation, Vec3(0, 0, b.lowest_m + 0.5)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.3, 1.0)});
     w.start();
     const Audit begin = w.world().audit();
     const double energy = begin.kinetic_energy_J + begin.potential_energy_J;
     while (w.time() < 20.0) {
       w.step();
       const Audit now = w.world().audit();
-      ASSERT_NEAR(now.kinetic_energy_J + now.potential_energy_J, energy, 1e-9 * energy) << b.name << " at " << w.time();
+      ASSERT_NEAR(now.kinetic_energy_J + now.potential_energy_J, energy, 1e-9 * energy)
+          << b.name << " at " << w.time();
     }
   }
 }
@@ -74,7 +82,11 @@ TEST_P(Restitution, OfOneKeepsTheEnergyForTwentySeconds) {
 TEST_P(Restitution, OfZeroLeavesABallOnTheFloorAtItsRestGap) {
   SmallWorld w(GetParam());
   w.addPlane(rubbing(0.3));
-  const int ball = w.add({Solid::ball(0.25), {Quat::Identity(), Vec3(0, 0, 1.25)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.3, 0.0)});
+  const int ball = w.add({Solid::ball(0.25),
+                          {Quat::Identity(), Vec3(0, 0, 1.25)},
+                          Vec3::Zero(),
+                          Vec3::Zero(),
+                          rubbing(0.3, 0.0)});
   w.start();
   const double landing = std::sqrt(2.0 * 1.0 / kGravity);
   while (w.time() < landing + 2.0 / GetParam()) w.step();

@@ -1,4 +1,5 @@
-// Coulomb friction on a level floor: a block thrown along it stops after v^2 / 2 mu g, whichever way it is headed.
+// Coulomb friction on a level floor: a block thrown along it stops after v^2 / 2 mu g, whichever way it is
+// headed.
 
 #include "tests/physics/small_world.h"
 
@@ -46,7 +47,8 @@ void expectCoulombStop(const Slide& s, double allowed) {
   const double expected = s.speed_mps * s.speed_mps / (2.0 * s.friction * kGravity);
   const Vec3 heading(std::cos(radians(s.heading_deg)), std::sin(radians(s.heading_deg)), 0.0);
   const Vec3 aside = stop.path - stop.path.dot(heading) * heading;
-  SCOPED_TRACE(testing::Message() << "rate " << s.rate_hz << " mu " << s.friction << " heading " << s.heading_deg << " turn " << s.turn_deg);
+  SCOPED_TRACE(testing::Message() << "rate " << s.rate_hz << " mu " << s.friction << " heading "
+                                  << s.heading_deg << " turn " << s.turn_deg);
   EXPECT_TRUE(stop.rests);
   EXPECT_NEAR(stop.path.dot(heading) / expected, 1.0, allowed);
   EXPECT_LT(aside.norm(), allowed * expected);
@@ -56,7 +58,8 @@ void expectCoulombStop(const Slide& s, double allowed) {
 
 TEST(SlidingBlock, StopsAtTheCoulombDistance_AtEveryHeading) {
   for (double friction : {0.2, 0.5, 0.8})
-    for (double heading : {0.0, 30.0, 45.0, 77.0}) expectCoulombStop({240.0, friction, heading, 0.0, 3.0}, kAllowed);
+    for (double heading : {0.0, 30.0, 45.0, 77.0})
+      expectCoulombStop({240.0, friction, heading, 0.0, 3.0}, kAllowed);
 }
 
 TEST(SlidingBlock, StopsAtTheCoulombDistance_WhicheverWayItIsTurned) {
@@ -77,7 +80,11 @@ TEST(SlidingBlock, IsBrakedByTheMeanOfTheDynamicCoefficients) {
   SmallWorld w;
   w.addPlane({1.2, 0.9, 0.0, 1000.0});
   const Vec3 size(0.6, 0.5, 0.2);
-  const int block = w.add({Solid::box(size), lyingBox(size, Quat::Identity(), 0.4), Vec3(3, 0, 0), Vec3::Zero(), {0.8, 0.1, 0.0, 1000.0}});
+  const int block = w.add({Solid::box(size),
+                           lyingBox(size, Quat::Identity(), 0.4),
+                           Vec3(3, 0, 0),
+                           Vec3::Zero(),
+                           {0.8, 0.1, 0.0, 1000.0}});
   w.start();
   w.run(0.5);
   EXPECT_NEAR(w.velocity(block).x(), 3.0 - 0.3 * kGravity * 0.5, 1e-4 * 3.0);
@@ -88,7 +95,8 @@ TEST(SlidingBlock, WithoutFrictionKeepsItsSpeed) {
   SmallWorld w;
   w.addPlane(rubbing(0.0));
   const Vec3 size(0.6, 0.5, 0.2);
-  const int block = w.add({Solid::box(size), lyingBox(size, Quat::Identity(), 0.4), Vec3(2, 1, 0), Vec3::Zero(), rubbing(0.0)});
+  const int block = w.add(
+      {Solid::box(size), lyingBox(size, Quat::Identity(), 0.4), Vec3(2, 1, 0), Vec3::Zero(), rubbing(0.0)});
   w.start();
   w.run(5.0);
   EXPECT_LT((w.velocity(block) - Vec3(2, 1, 0)).norm(), 1e-9);

@@ -1,6 +1,6 @@
 #pragma once
-// A world in a few lines for the tests of this folder: bodies given by solid, pose and velocity, a floor or an incline
-// whose top is a plane through the origin, and what the tests ask of a body.
+// A world in a few lines for the tests of this folder: bodies given by solid, pose and velocity, a floor or
+// an incline whose top is a plane through the origin, and what the tests ask of a body.
 
 #include <gtest/gtest.h>
 
@@ -26,13 +26,18 @@ struct Placement {
 };
 
 /// Equal static and dynamic friction.
-inline Material rubbing(double friction, double restitution = 0.0) { return {friction, friction, restitution, 1000.0}; }
+inline Material rubbing(double friction, double restitution = 0.0) {
+  return {friction, friction, restitution, 1000.0};
+}
 
-inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+inline double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
 
 class SmallWorld {
  public:
-  explicit SmallWorld(double rate_hz = 240.0, const Vec3& gravity = Vec3(0.0, 0.0, -kGravity), bool resting_mode = true)
+  explicit SmallWorld(double rate_hz = 240.0, const Vec3& gravity = Vec3(0.0, 0.0, -kGravity),
+                      bool resting_mode = true)
       : world_(WorldSettings{1.0 / rate_hz, gravity, resting_mode}) {}
 
   int add(const Placement& p) {
@@ -43,7 +48,8 @@ class SmallWorld {
   /// A large static box whose top face is the plane through the origin with normal turned by `tilt` from z.
   int addPlane(const Material& material, const Quat& tilt = Quat::Identity(), double half_width_m = 50.0) {
     const Vec3 size(2.0 * half_width_m, 2.0 * half_width_m, 2.0);
-    Placement plane{Solid::box(size), {tilt, tilt * Vec3(0.0, 0.0, -1.0)}, Vec3::Zero(), Vec3::Zero(), material, true};
+    Placement plane{
+        Solid::box(size), {tilt, tilt * Vec3(0.0, 0.0, -1.0)}, Vec3::Zero(), Vec3::Zero(), material, true};
     return add(plane);
   }
 
@@ -69,12 +75,16 @@ class SmallWorld {
 };
 
 /// The gap at which a part of this width is held over a large one.
-inline double restGap(double width_m) { return tolerance::kRestGap * std::min(width_m, tolerance::kWindowLargestScale); }
+inline double restGap(double width_m) {
+  return tolerance::kRestGap * std::min(width_m, tolerance::kWindowLargestScale);
+}
 /// The widest gap at which such a part can be struck.
-inline double windowCeiling(double width_m) { return tolerance::kWindowCeiling * std::min(width_m, tolerance::kWindowLargestScale); }
+inline double windowCeiling(double width_m) {
+  return tolerance::kWindowCeiling * std::min(width_m, tolerance::kWindowLargestScale);
+}
 
-/// The pose of a box lying on the plane of `addPlane` at its rest gap, turned about the plane's normal by `heading`,
-/// its centre over the point `p` of the plane (plane coordinates).
+/// The pose of a box lying on the plane of `addPlane` at its rest gap, turned about the plane's normal by
+/// `heading`, its centre over the point `p` of the plane (plane coordinates).
 inline Pose lyingBox(const Vec3& size_m, const Quat& tilt, double heading, const Vec2& p = Vec2::Zero()) {
   const double height = 0.5 * size_m.z() + restGap(size_m.minCoeff());
   return {tilt * oracle::turned(Vec3::UnitZ(), heading), tilt * Vec3(p.x(), p.y(), height)};

@@ -13,8 +13,10 @@ struct Outcome {
   bool rests = false;
 };
 
-Outcome leaveOnSlope(double tangent, double static_friction, double dynamic_friction, double heading, double turn, double rate) {
-  const Quat tilt = oracle::turned(Vec3::UnitZ(), heading) * oracle::turned(Vec3::UnitY(), std::atan(tangent));
+Outcome leaveOnSlope(double tangent, double static_friction, double dynamic_friction, double heading,
+                     double turn, double rate) {
+  const Quat tilt =
+      oracle::turned(Vec3::UnitZ(), heading) * oracle::turned(Vec3::UnitY(), std::atan(tangent));
   const Material material{static_friction, dynamic_friction, 0.0, 1000.0};
   const Vec3 size(0.6, 0.5, 0.2);
   SmallWorld w(rate);

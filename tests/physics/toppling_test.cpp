@@ -1,4 +1,5 @@
-// Toppling: a block that cannot slide falls over exactly when the weight's line leaves its base, tan(angle) > b / h.
+// Toppling: a block that cannot slide falls over exactly when the weight's line leaves its base, tan(angle) >
+// b / h.
 
 #include "tests/physics/small_world.h"
 

@@ -12,8 +12,11 @@ int dropTower(SmallWorld& w, int stories, double drop_m, std::vector<int>& boxes
   const int floor = w.addPlane(rubbing(0.5), Quat::Identity(), 10.0);
   for (int i = 0; i < stories; ++i) {
     const Quat turn = oracle::turned(Vec3::UnitZ(), 0.11 * i);
-    boxes.push_back(w.add({Solid::box({0.5, 0.5, 0.4}), {turn, Vec3(0.01 * (i % 2), -0.008 * (i % 3), 0.2 + drop_m + i * (0.4 + drop_m))},
-                           Vec3::Zero(), Vec3::Zero(), rubbing(0.5)}));
+    boxes.push_back(w.add({Solid::box({0.5, 0.5, 0.4}),
+                           {turn, Vec3(0.01 * (i % 2), -0.008 * (i % 3), 0.2 + drop_m + i * (0.4 + drop_m))},
+                           Vec3::Zero(),
+                           Vec3::Zero(),
+                           rubbing(0.5)}));
   }
   w.start();
   return floor;
@@ -25,7 +28,8 @@ TEST_P(Tower, OfFiveComesToRestWithVelocitiesOfExactlyZero) {
   dropTower(w, 5, 0.02, boxes);
   w.run(5.0);
   for (int b : boxes) {
-    EXPECT_TRUE(w.rests(b)) << "box " << b << " " << modeName(w.state(b).mode) << " v " << w.velocity(b).transpose();
+    EXPECT_TRUE(w.rests(b)) << "box " << b << " " << modeName(w.state(b).mode) << " v "
+                            << w.velocity(b).transpose();
     const double height = 0.2 + (b - 1) * 0.4;
     EXPECT_NEAR(w.position(b).z(), height + b * restGap(0.4), 5.0 * restGap(0.4)) << "box " << b;
     EXPECT_LT(w.position(b).head<2>().norm(), 0.03) << "box " << b;
@@ -54,8 +58,13 @@ TEST_P(Tower, AtRestIsWokenByAnImpactAndRestsAgain) {
   SmallWorld w(GetParam());
   w.addPlane(rubbing(0.5), Quat::Identity(), 20.0);
   const Vec3 size(0.5, 0.5, 0.4);
-  const int box = w.add({Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(), rubbing(0.5)});
-  const int ball = w.add({Solid::ball(0.1), {Quat::Identity(), Vec3(-12.0, 0.02, 2.55)}, Vec3(9.6, 0, 4.0), Vec3::Zero(), rubbing(0.5)});
+  const int box = w.add(
+      {Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(), rubbing(0.5)});
+  const int ball = w.add({Solid::ball(0.1),
+                          {Quat::Identity(), Vec3(-12.0, 0.02, 2.55)},
+                          Vec3(9.6, 0, 4.0),
+                          Vec3::Zero(),
+                          rubbing(0.5)});
   w.start();
   w.run(1.0);
   ASSERT_TRUE(w.rests(box));
@@ -75,9 +84,14 @@ TEST_P(Tower, WakesWhenWhatItLiesOnIsStruckAway) {
   SmallWorld w(GetParam());
   w.addPlane(rubbing(0.1), Quat::Identity(), 20.0);
   const Vec3 size(0.4, 0.4, 0.4);
-  const int lower = w.add({Solid::box(size), {Quat::Identity(), Vec3(0, 0, 0.2004)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.1)});
-  const int upper = w.add({Solid::box(size), {Quat::Identity(), Vec3(0, 0, 0.6008)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.1)});
-  const int hammer = w.add({Solid::box({0.3, 0.3, 0.3}), {Quat::Identity(), Vec3(-15.0, 0, 0.1504)}, Vec3(12.0, 0, 0), Vec3::Zero(),
+  const int lower = w.add(
+      {Solid::box(size), {Quat::Identity(), Vec3(0, 0, 0.2004)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.1)});
+  const int upper = w.add(
+      {Solid::box(size), {Quat::Identity(), Vec3(0, 0, 0.6008)}, Vec3::Zero(), Vec3::Zero(), rubbing(0.1)});
+  const int hammer = w.add({Solid::box({0.3, 0.3, 0.3}),
+                            {Quat::Identity(), Vec3(-15.0, 0, 0.1504)},
+                            Vec3(12.0, 0, 0),
+                            Vec3::Zero(),
                             {0.1, 0.1, 0.0, 8000.0}});
   w.start();
   w.run(1.0);

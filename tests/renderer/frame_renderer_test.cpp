@@ -121,7 +121,8 @@ TEST_F(Frame, WhereNothingStandsInTheLightTheGroundIsLit) {
         open = open && (c - p).norm() > 1.3;
       }
       if (!open) continue;
-      // A shadow takes some 300; a far pixel is larger than the margins above and may take a little of its neighbour.
+      // A shadow takes some 300; a far pixel is larger than the margins above and may take a little of its
+      // neighbour.
       EXPECT_NEAR(seenAt(image, p).sum(), seenAt(empty, p).sum(), 30) << x << "," << y;
     }
 }

@@ -34,7 +34,8 @@ TEST(RoundedBox, OfATetrahedronHasItsVolumeAndCentre) {
   const std::vector<Vec3> points = {Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1)};
   const Solid solid = Solid::polyhedron(convexHull(points).polyhedron);
   const RoundedBox box = roundedBox(solid.parts()[0]);
-  // Its vertices are corners of the box around it, so nothing is rounded: a cube with the tetrahedron's 8/3 m^3.
+  // Its vertices are corners of the box around it, so nothing is rounded: a cube with the tetrahedron's 8/3
+  // m^3.
   EXPECT_NEAR(box.radius, 0.0, 1e-9);
   EXPECT_LT((box.half - Vec3::Constant(0.5 * std::cbrt(8.0 / 3.0))).norm(), 1e-9);
   EXPECT_LT(box.X_BR.position.norm(), 1e-9);

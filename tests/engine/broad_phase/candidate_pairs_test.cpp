@@ -32,7 +32,8 @@ std::vector<Proxy> scattered(Random& random, int n, double spread, double size) 
   for (int i = 0; i < n; ++i) {
     Proxy p;
     p.bounds.low = spread * Vec3(random.uniform(-1, 1), random.uniform(-0.3, 0.3), random.uniform(-1, 1));
-    p.bounds.high = p.bounds.low + size * Vec3(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    p.bounds.high =
+        p.bounds.low + size * Vec3(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
     p.group = random.integer(0, n / 2);
     p.moves = random.integer(0, 2) > 0;
     proxies.push_back(p);
@@ -44,7 +45,8 @@ TEST(CandidatePairs, AreThoseThatComparingEverythingFinds) {
   Random random(41);
   std::size_t found = 0;
   for (int i = 0; i < 300; ++i) {
-    const std::vector<Proxy> proxies = scattered(random, random.integer(0, 60), random.logUniform(0.1, 100), random.logUniform(0.1, 10));
+    const std::vector<Proxy> proxies =
+        scattered(random, random.integer(0, 60), random.logUniform(0.1, 100), random.logUniform(0.1, 10));
     const std::vector<IndexPair> pairs = candidatePairs(proxies);
     ASSERT_EQ(pairs, everyPair(proxies)) << "case " << i;
     found += pairs.size();
@@ -57,7 +59,9 @@ TEST(CandidatePairs, OnALatticeOfTouchingCubes_IncludeEveryTouch) {
   std::vector<Proxy> proxies;
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 4; ++y)
-      for (int z = 0; z < 4; ++z) proxies.push_back({{Vec3(x, y, z), Vec3(x + 1, y + 1, z + 1)}, static_cast<int>(proxies.size()), true});
+      for (int z = 0; z < 4; ++z)
+        proxies.push_back(
+            {{Vec3(x, y, z), Vec3(x + 1, y + 1, z + 1)}, static_cast<int>(proxies.size()), true});
   EXPECT_EQ(candidatePairs(proxies), everyPair(proxies));
 }
 

@@ -1,4 +1,5 @@
-// The five states by hand: each pair of closed features, its closest points and the lowest features that hold them.
+// The five states by hand: each pair of closed features, its closest points and the lowest features that hold
+// them.
 
 #include "engine/closest_features/feature_distance.h"
 
@@ -21,7 +22,8 @@ int vertexAt(const ConvexPolyhedron& p, const Vec3& where) {
 int edgeBetween(const ConvexPolyhedron& p, const Vec3& a, const Vec3& b) {
   const int va = vertexAt(p, a), vb = vertexAt(p, b);
   for (int e = 0; e < p.edgeCount(); ++e)
-    if ((p.edge(e).tail == va && p.edge(e).head == vb) || (p.edge(e).tail == vb && p.edge(e).head == va)) return e;
+    if ((p.edge(e).tail == va && p.edge(e).head == vb) || (p.edge(e).tail == vb && p.edge(e).head == va))
+      return e;
   return -1;
 }
 int faceFacing(const ConvexPolyhedron& p, const Vec3& normal) {
@@ -120,8 +122,8 @@ TEST(FeatureDistance, AgreesWithTheOracleForAllEdgesAndIsSymmetric) {
         const FeaturePair features{edgeFeature(e), edgeFeature(g)};
         const auto& s = a.edges[static_cast<std::size_t>(e)];
         const auto& t = b.edges[static_cast<std::size_t>(g)];
-        const double want = static_cast<double>(std::sqrt(
-            oracle::segmentSegmentSquared(a.vertices[s[0]], a.vertices[s[1]], b.vertices[t[0]], b.vertices[t[1]])));
+        const double want = static_cast<double>(std::sqrt(oracle::segmentSegmentSquared(
+            a.vertices[s[0]], a.vertices[s[1]], b.vertices[t[0]], b.vertices[t[1]])));
         ASSERT_NEAR(featureDistance(pair, features).distance_m, want, 1e-14);
         ASSERT_NEAR(featureDistance(pair.swapped(), {features.b, features.a}).distance_m, want, 1e-14);
       }

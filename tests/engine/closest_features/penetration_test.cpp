@@ -14,7 +14,8 @@ using oracle::Random;
 
 TEST(MinimumTranslation, OfAlignedBoxes_IsTheLeastOverlap) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
-  const MinimumTranslation m = minimumTranslation({box, Pose{}, box, Pose{Quat::Identity(), Vec3(0.2, -0.7, 0.4)}});
+  const MinimumTranslation m =
+      minimumTranslation({box, Pose{}, box, Pose{Quat::Identity(), Vec3(0.2, -0.7, 0.4)}});
   EXPECT_NEAR(m.gap_m, -0.3, 1e-15);
   EXPECT_LT((m.normal - Vec3(0, -1, 0)).norm(), 1e-15);
 }
@@ -34,7 +35,8 @@ TEST(MinimumTranslation, EqualsTheFullSearchOverTheSeparatingAxes) {
   Random random(61);
   int overlapping = 0;
   for (int i = 0; i < 1000; ++i) {
-    const ConvexPolyhedron p = oracle::randomHull(random, random.integer(4, 16), Vec3(1, random.uniform(0.1, 1), 1));
+    const ConvexPolyhedron p =
+        oracle::randomHull(random, random.integer(4, 16), Vec3(1, random.uniform(0.1, 1), 1));
     const ConvexPolyhedron q = oracle::randomHull(random, random.integer(4, 16));
     const Pose X_WA = random.pose(0.5), X_WB = random.pose(0.5);
     const MinimumTranslation m = minimumTranslation({p, X_WA, q, X_WB});
@@ -44,7 +46,8 @@ TEST(MinimumTranslation, EqualsTheFullSearchOverTheSeparatingAxes) {
     ++overlapping;
     ASSERT_NEAR(m.gap_m, double(want), 1e-14) << i;
     const Vec3 n_W = X_WA.rotation * m.normal;
-    ASSERT_NEAR(double(oracle::gapAlong(a, b, n_W.cast<oracle::Real>())), double(want), 1e-14) << "n separates by that depth";
+    ASSERT_NEAR(double(oracle::gapAlong(a, b, n_W.cast<oracle::Real>())), double(want), 1e-14)
+        << "n separates by that depth";
     ASSERT_LT((m.p_b - m.p_a - m.gap_m * m.normal).norm(), 1e-14) << i;
   }
   EXPECT_GT(overlapping, 500);
@@ -53,9 +56,11 @@ TEST(MinimumTranslation, EqualsTheFullSearchOverTheSeparatingAxes) {
 TEST(MinimumTranslation, OfLargeHulls_EqualsTheFullSearch) {
   Random random(62);
   for (int i = 0; i < 3; ++i) {
-    const ConvexPolyhedron p = oracle::randomHull(random, 62), q = oracle::randomHull(random, 62, Vec3(1, 0.5, 0.7));
+    const ConvexPolyhedron p = oracle::randomHull(random, 62),
+                           q = oracle::randomHull(random, 62, Vec3(1, 0.5, 0.7));
     const Pose X_WA = random.pose(0.3), X_WB = random.pose(0.3);
-    const oracle::Real want = oracle::largestAxisGap(oracle::place({p, 0.0}, X_WA), oracle::place({q, 0.0}, X_WB)).gap_m;
+    const oracle::Real want =
+        oracle::largestAxisGap(oracle::place({p, 0.0}, X_WA), oracle::place({q, 0.0}, X_WB)).gap_m;
     EXPECT_NEAR(minimumTranslation({p, X_WA, q, X_WB}).gap_m, double(want), 1e-14);
   }
 }
@@ -65,15 +70,18 @@ TEST(MinimumTranslation, SwappingTheBodiesTurnsTheNormalRound) {
   for (int i = 0; i < 100; ++i) {
     const ConvexPolyhedron p = oracle::randomHull(random, 10), q = oracle::randomHull(random, 10);
     const Pose X_WA = random.pose(0.5), X_WB = random.pose(0.5);
-    const MinimumTranslation ab = minimumTranslation({p, X_WA, q, X_WB}), ba = minimumTranslation({q, X_WB, p, X_WA});
+    const MinimumTranslation ab = minimumTranslation({p, X_WA, q, X_WB}),
+                             ba = minimumTranslation({q, X_WB, p, X_WA});
     EXPECT_NEAR(ab.gap_m, ba.gap_m, 1e-14);
     EXPECT_LT((X_WA.rotation * ab.normal + X_WB.rotation * ba.normal).norm(), 1e-10);
   }
 }
 
 TEST(MinimumTranslation, OfASegmentInABox_LeavesByTheNearestFace) {
-  const ConvexPolyhedron box = boxPolyhedron({2, 2, 2}), segment = ConvexPolyhedron::segment({-0.5, 0, 0}, {0.5, 0, 0});
-  const MinimumTranslation m = minimumTranslation({box, Pose{}, segment, Pose{Quat::Identity(), Vec3(0.1, 0.2, 0.6)}});
+  const ConvexPolyhedron box = boxPolyhedron({2, 2, 2}),
+                         segment = ConvexPolyhedron::segment({-0.5, 0, 0}, {0.5, 0, 0});
+  const MinimumTranslation m =
+      minimumTranslation({box, Pose{}, segment, Pose{Quat::Identity(), Vec3(0.1, 0.2, 0.6)}});
   EXPECT_NEAR(m.gap_m, -0.4, 1e-15);
   EXPECT_LT((m.normal - Vec3::UnitZ()).norm(), 1e-15);
 }

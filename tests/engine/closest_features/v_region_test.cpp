@@ -13,9 +13,11 @@ using oracle::Random;
 
 Vec3 inner(const ConvexPolyhedron& p, Feature f) {
   if (f.kind == FeatureKind::kVertex) return p.vertex(f.index);
-  if (f.kind == FeatureKind::kEdge) return 0.5 * (p.vertex(p.edge(f.index).tail) + p.vertex(p.edge(f.index).head));
+  if (f.kind == FeatureKind::kEdge)
+    return 0.5 * (p.vertex(p.edge(f.index).tail) + p.vertex(p.edge(f.index).head));
   Vec3 center = Vec3::Zero();
-  for (int v : p.faceVertices(f.index)) center += p.vertex(v) / static_cast<double>(p.faceVertices(f.index).size());
+  for (int v : p.faceVertices(f.index))
+    center += p.vertex(v) / static_cast<double>(p.faceVertices(f.index).size());
   return center;
 }
 
@@ -38,7 +40,8 @@ void forDirectionsAt(const ConvexPolyhedron& p, Check&& check) {
 }
 
 TEST(VRegion, HoldsTheConeOfTheNormalsAroundItsFeature) {
-  for (const ConvexPolyhedron& p : {boxPolyhedron({1, 2, 3}), oracle::dodecahedron(), oracle::prism(60, 1, 2)})
+  for (const ConvexPolyhedron& p :
+       {boxPolyhedron({1, 2, 3}), oracle::dodecahedron(), oracle::prism(60, 1, 2)})
     forDirectionsAt(p, [&](Feature feature, const Vec3& direction) {
       EXPECT_FALSE(neighbourAcrossVRegion(p, feature, direction).has_value());
       EXPECT_FALSE(pointsInward(p, feature, direction));
@@ -59,7 +62,8 @@ TEST(VRegion, NamesANeighbourThatIsCloserToWhatTheDirectionPointsAt) {
     const Vec3 from = inner(p, feature), step = 1e-6 * (inner(p, *next) - from);
     // Towards the neighbour's middle, less the part along the feature itself, the target comes nearer.
     Vec3 off = step;
-    if (feature.kind == FeatureKind::kEdge) off -= off.dot(p.edge(feature.index).direction) * p.edge(feature.index).direction;
+    if (feature.kind == FeatureKind::kEdge)
+      off -= off.dot(p.edge(feature.index).direction) * p.edge(feature.index).direction;
     EXPECT_LT((direction - off).norm(), direction.norm());
   }
   EXPECT_GT(asked, 1000);
@@ -71,11 +75,13 @@ TEST(VRegion, ScaleOfTheDirectionDoesNotMatter) {
   for (int i = 0; i < 500; ++i) {
     const Vec3 direction = random.direction();
     const Feature feature = vertexFeature(random.integer(0, 11));
-    EXPECT_EQ(neighbourAcrossVRegion(p, feature, direction), neighbourAcrossVRegion(p, feature, 0x1p-40 * direction));
+    EXPECT_EQ(neighbourAcrossVRegion(p, feature, direction),
+              neighbourAcrossVRegion(p, feature, 0x1p-40 * direction));
   }
 }
 
-// The edge across a face of two triangles has V-planes that the inward normal passes as well as the outward one.
+// The edge across a face of two triangles has V-planes that the inward normal passes as well as the outward
+// one.
 TEST(PointsInward, TellsOutFromInAtTheFlatEdgesOfCoplanarFaces) {
   const ConvexPolyhedron box = oracle::triangulatedBox({1, 1, 1});
   int flat = 0;

@@ -1,5 +1,5 @@
-// V-Clip against brute force on random pairs, and against proofs on adversarial ones. The seeds are fixed (1000 and
-// the shard, 2000, 3000), so the number that a failure prints names its pair for good.
+// V-Clip against brute force on random pairs, and against proofs on adversarial ones. The seeds are fixed
+// (1000 and the shard, 2000, 3000), so the number that a failure prints names its pair for good.
 
 #include <gtest/gtest.h>
 
@@ -40,9 +40,11 @@ TEST_P(RandomPairs, AgreeWithBruteForce) {
   for (int i = 0; i < 12500 / kShare; ++i) {
     const bool large = i % 500 == 0;
     if (large || i % 10 <= 1) {
-      const int small_most = i % 100 < 10 ? 24 : 12;  // mostly few vertices: the oracle takes their fourth power
+      const int small_most =
+          i % 100 < 10 ? 24 : 12;  // mostly few vertices: the oracle takes their fourth power
       const Vec3 axes(1, random.uniform(0.2, 1), random.uniform(0.2, 1));
-      a.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, small_most), axes);
+      a.core =
+          oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, small_most), axes);
       b.core = oracle::randomHull(random, large ? random.integer(30, 252) : random.integer(8, small_most));
     }
     const Pose X_WA = random.pose(0.5);
@@ -54,7 +56,8 @@ TEST_P(RandomPairs, AgreeWithBruteForce) {
     const double size = a.core.radiusAbout(Vec3::Zero()) + b.core.radiusAbout(Vec3::Zero());
     if (c.status == Separation::kSeparated) {
       ++separated;
-      ASSERT_GT(oracle::gapAlong(pa, pb, c.n_W.cast<Real>()), 0) << i << ": the normal does not separate them";
+      ASSERT_GT(oracle::gapAlong(pa, pb, c.n_W.cast<Real>()), 0)
+          << i << ": the normal does not separate them";
       ASSERT_NEAR(double(oracle::surfaceDistance(pa, pb)), c.distance_m, kRight * size) << i;
     } else if (a.core.vertexCount() <= 30 && b.core.vertexCount() <= 30) {
       ++penetrating;
@@ -92,7 +95,8 @@ double separationError(const PlacedConvex& a, const PlacedConvex& b, const Close
 double penetrationError(const PlacedConvex& a, const PlacedConvex& b, const ClosestFeatures& c) {
   const Real freed = oracle::gapAlong(a, b, c.n_W.cast<Real>()) - a.radius_m - b.radius_m;
   const auto along = static_cast<double>(std::abs(freed - c.distance_m));
-  if (a.vertices.size() + b.vertices.size() > 45) return along;  // the depth is only bounded from below, cheaply
+  if (a.vertices.size() + b.vertices.size() > 45)
+    return along;  // the depth is only bounded from below, cheaply
   return std::max(along, std::abs(static_cast<double>(oracle::signedGap(a, b)) - c.distance_m));
 }
 
@@ -130,9 +134,12 @@ TEST_P(AdversarialFamily, EveryAnswerIsRight) {
   RecordProperty("most_states", most_states);
 }
 
-INSTANTIATE_TEST_SUITE_P(VClip, AdversarialFamily, testing::Values(Family::kGeneral, Family::kLattice, Family::kNearlyParallel,
-                         Family::kNeedles, Family::kSizeRatio, Family::kGons, Family::kNearlyFlat, Family::kShortEdges,
-                         Family::kTouching, Family::kConcentric, Family::kFarAway, Family::kDrifted, Family::kRounded),
+INSTANTIATE_TEST_SUITE_P(VClip, AdversarialFamily,
+                         testing::Values(Family::kGeneral, Family::kLattice, Family::kNearlyParallel,
+                                         Family::kNeedles, Family::kSizeRatio, Family::kGons,
+                                         Family::kNearlyFlat, Family::kShortEdges, Family::kTouching,
+                                         Family::kConcentric, Family::kFarAway, Family::kDrifted,
+                                         Family::kRounded),
                          [](const auto& family) {
                            std::string name = oracle::familyName(family.param);
                            for (char& c : name) c = c == ' ' ? '_' : c;
@@ -145,7 +152,9 @@ TEST_P(AdversarialFamily, ARandomSeedGivesTheSameDistance) {
   const auto anyFeature = [&](const ConvexPolyhedron& p) {
     const int kinds = p.faceCount() > 0 ? 2 : p.edgeCount() > 0 ? 1 : 0;
     const auto kind = static_cast<FeatureKind>(pairs.random().integer(0, kinds));
-    const int n = kind == FeatureKind::kVertex ? p.vertexCount() : kind == FeatureKind::kEdge ? p.edgeCount() : p.faceCount();
+    const int n = kind == FeatureKind::kVertex ? p.vertexCount()
+                  : kind == FeatureKind::kEdge ? p.edgeCount()
+                                               : p.faceCount();
     return Feature{kind, pairs.random().integer(0, n - 1)};
   };
   for (int i = 0; i < count(GetParam()); ++i) {

@@ -1,5 +1,5 @@
-// V-Clip by hand-made poses: the five states, rounding radii, invariances, tracking, and each known trap by name.
-// Random and adversarial pairs are in vclip_random_test.cpp.
+// V-Clip by hand-made poses: the five states, rounding radii, invariances, tracking, and each known trap by
+// name. Random and adversarial pairs are in vclip_random_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 
@@ -16,13 +16,21 @@ using oracle::turned;
 
 constexpr double kQuarter = std::numbers::pi / 4;
 
-ConvexPart part(ConvexPolyhedron core, double radius_m = 0.0) { return {std::move(core), radius_m}; }
-ConvexPart box(const Vec3& size_m) { return part(boxPolyhedron(size_m)); }
-ConvexPart ball(double radius_m) { return part(ConvexPolyhedron::point(Vec3::Zero()), radius_m); }
+ConvexPart part(ConvexPolyhedron core, double radius_m = 0.0) {
+  return {std::move(core), radius_m};
+}
+ConvexPart box(const Vec3& size_m) {
+  return part(boxPolyhedron(size_m));
+}
+ConvexPart ball(double radius_m) {
+  return part(ConvexPolyhedron::point(Vec3::Zero()), radius_m);
+}
 ConvexPart capsule(double radius_m, double length_m) {
   return part(ConvexPolyhedron::segment({0, 0, -length_m / 2}, {0, 0, length_m / 2}), radius_m);
 }
-Pose at(double x, double y, double z, const Quat& rotation = Quat::Identity()) { return {rotation, Vec3(x, y, z)}; }
+Pose at(double x, double y, double z, const Quat& rotation = Quat::Identity()) {
+  return {rotation, Vec3(x, y, z)};
+}
 
 ClosestFeatures cold(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB) {
   FeaturePair tracked;
@@ -35,10 +43,12 @@ void expectKinds(const ClosestFeatures& c, FeatureKind a, FeatureKind b) {
 }
 
 // The answer as a proof about the two parts.
-double errorOf(const ClosestFeatures& c, const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB) {
-  return static_cast<double>(oracle::separationError(
-      oracle::place(a, X_WA), oracle::place(b, X_WB),
-      {c.distance_m, c.p_A_W.cast<oracle::Real>(), c.p_B_W.cast<oracle::Real>(), c.n_W.cast<oracle::Real>()}));
+double errorOf(const ClosestFeatures& c, const ConvexPart& a, const Pose& X_WA, const ConvexPart& b,
+               const Pose& X_WB) {
+  return static_cast<double>(
+      oracle::separationError(oracle::place(a, X_WA), oracle::place(b, X_WB),
+                              {c.distance_m, c.p_A_W.cast<oracle::Real>(), c.p_B_W.cast<oracle::Real>(),
+                               c.n_W.cast<oracle::Real>()}));
 }
 
 // ---- the five states (paper §2) ----
@@ -55,7 +65,8 @@ TEST(VClip, VertexVertex) {
 
 TEST(VClip, VertexEdge) {
   // B stands on a corner beside A's upright edge.
-  const ClosestFeatures c = cold(box({1, 1, 2}), Pose{}, part(oracle::octahedron()), at(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter)));
+  const ClosestFeatures c = cold(box({1, 1, 2}), Pose{}, part(oracle::octahedron()),
+                                 at(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter)));
   expectKinds(c, FeatureKind::kEdge, FeatureKind::kVertex);
   EXPECT_NEAR(c.distance_m, 1.5 * std::numbers::sqrt2 - 1, 1e-15);
   EXPECT_LT((c.p_A_W - Vec3(0.5, 0.5, 0.25)).norm(), 1e-15);
@@ -80,7 +91,8 @@ TEST(VClip, EdgeEdge) {
 }
 
 TEST(VClip, EdgeFace_IsPenetrationWithItsExactDepth) {
-  const ClosestFeatures c = cold(box({1, 1, 1}), Pose{}, box({1, 1, 1}), at(0.7, 0.1, 0.2, turned(Vec3::UnitX(), 0.3)));
+  const ClosestFeatures c =
+      cold(box({1, 1, 1}), Pose{}, box({1, 1, 1}), at(0.7, 0.1, 0.2, turned(Vec3::UnitX(), 0.3)));
   EXPECT_EQ(c.status, Separation::kPenetrating);
   EXPECT_NEAR(c.distance_m, -0.3, 1e-15);
   EXPECT_LT((c.n_W - Vec3::UnitX()).norm(), 1e-15);
@@ -117,7 +129,8 @@ TEST(VClipRounded, BallWithItsCentreInABox_LeavesByTheNearestFace) {
 TEST(VClipRounded, CapsulesCrossedParallelAndEndToEnd) {
   const ConvexPart c = capsule(0.25, 2);
   EXPECT_NEAR(cold(c, Pose{}, c, at(1, 0.3, 0.2, turned(Vec3::UnitX(), 1.0))).distance_m, 0.5, 1e-15);
-  for (double shift : {0.0, 0.7, 2.0}) EXPECT_NEAR(cold(c, Pose{}, c, at(0, 1, shift)).distance_m, 0.5, 1e-15);
+  for (double shift : {0.0, 0.7, 2.0})
+    EXPECT_NEAR(cold(c, Pose{}, c, at(0, 1, shift)).distance_m, 0.5, 1e-15);
   EXPECT_NEAR(cold(c, Pose{}, c, at(0, 3, 6)).distance_m, 4.5, 1e-15);
   EXPECT_NEAR(cold(c, Pose{}, c, at(0, 0, 3)).distance_m, 0.5, 1e-15);
 }
@@ -136,7 +149,8 @@ TEST(VClipRounded, OneCentreOrOneAxis_HasTheFullDepthAndAUnitNormal) {
     EXPECT_NEAR(axis.distance_m, -0.75, 1e-15) << shift;
     EXPECT_NEAR(axis.n_W.z(), 0.0, 1e-15) << "across the axis";
   }
-  const ClosestFeatures crossed = cold(capsule(0.5, 2), Pose{}, capsule(0.25, 2), at(0, 0.1, 0, turned(Vec3::UnitX(), 1.2)));
+  const ClosestFeatures crossed =
+      cold(capsule(0.5, 2), Pose{}, capsule(0.25, 2), at(0, 0.1, 0, turned(Vec3::UnitX(), 1.2)));
   EXPECT_NEAR(crossed.distance_m, -0.75, 1e-15);
   EXPECT_NEAR(std::abs(crossed.n_W.x()), 1.0, 1e-15);
 }
@@ -162,7 +176,8 @@ TEST(VClip, MovingBothRigidly_MovesTheAnswer) {
   for (int i = 0; i < 2000; ++i) {
     const oracle::PosedPair p = pairs.nextSmall();
     const Pose X = pairs.random().pose(3.0);
-    const ClosestFeatures here = cold(*p.a, p.X_WA, *p.b, p.X_WB), there = cold(*p.a, X * p.X_WA, *p.b, X * p.X_WB);
+    const ClosestFeatures here = cold(*p.a, p.X_WA, *p.b, p.X_WB),
+                          there = cold(*p.a, X * p.X_WA, *p.b, X * p.X_WB);
     ASSERT_EQ(here.status, there.status) << i;
     ASSERT_NEAR(here.distance_m, there.distance_m, 1e-14 * (p.scale() + 3)) << i;
     if (here.distance_m < 1e-6) continue;
@@ -177,7 +192,8 @@ TEST(VClip, ScalingBothByAPowerOfTwo_ScalesTheDistanceToTheBit) {
   std::vector<Vec3> doubled;
   for (const Vec3& v : p.vertices()) doubled.push_back(8.0 * v);
   std::vector<std::vector<int>> loops;
-  for (int f = 0; f < p.faceCount(); ++f) loops.emplace_back(p.faceVertices(f).begin(), p.faceVertices(f).end());
+  for (int f = 0; f < p.faceCount(); ++f)
+    loops.emplace_back(p.faceVertices(f).begin(), p.faceVertices(f).end());
   const ConvexPart small = part(p), large = part(ConvexPolyhedron::fromFaces(doubled, loops));
   for (int i = 0; i < 500; ++i) {
     Pose X_WA = random.pose(1), X_WB = random.pose(6);
@@ -217,12 +233,13 @@ void expectEverySeedAgrees(const ConvexPart& a, const ConvexPart& b, const Pose&
 }
 
 TEST(VClip, EverySeedGivesTheSameDistance) {
-  const ConvexPart solids[] = {box({1, 1, 1}), part(oracle::triangulatedBox({1, 1, 1})), part(oracle::dodecahedron()),
-                               part(oracle::prism(60, 1.0, 1.0))};
+  const ConvexPart solids[] = {box({1, 1, 1}), part(oracle::triangulatedBox({1, 1, 1})),
+                               part(oracle::dodecahedron()), part(oracle::prism(60, 1.0, 1.0))};
   const Quat q = turned({1, 2, 3}, 0.7);
   for (const ConvexPart& a : solids)
     for (const ConvexPart& b : solids) {
-      const int stride = std::max(1, static_cast<int>(allFeatures(a.core).size() * allFeatures(b.core).size()) / 4000);
+      const int stride =
+          std::max(1, static_cast<int>(allFeatures(a.core).size() * allFeatures(b.core).size()) / 4000);
       expectEverySeedAgrees(a, b, at(3.1, 1.2, 0.4, q), stride);
       expectEverySeedAgrees(a, b, at(0, 0, 4), stride);
       expectEverySeedAgrees(a, b, at(2.75, 0, 0, turned(Vec3::UnitZ(), kQuarter)), stride);
@@ -232,15 +249,20 @@ TEST(VClip, EverySeedGivesTheSameDistance) {
 
 TEST(VClip, TrackedFromPoseToPose_EqualsAColdStart) {
   Random random(74);
-  const ConvexPart solids[] = {box({1, 2, 0.5}), part(oracle::triangulatedBox({1, 1, 1})), part(oracle::dodecahedron()),
-                               part(oracle::prism(60, 1.0, 1.0)), part(oracle::randomHull(random, 62)), capsule(0.3, 1)};
+  const ConvexPart solids[] = {box({1, 2, 0.5}),
+                               part(oracle::triangulatedBox({1, 1, 1})),
+                               part(oracle::dodecahedron()),
+                               part(oracle::prism(60, 1.0, 1.0)),
+                               part(oracle::randomHull(random, 62)),
+                               capsule(0.3, 1)};
   for (const ConvexPart& a : solids)
     for (const ConvexPart& b : solids)
       for (const double height : {3.5, 1.4}) {  // apart, and in and out of contact
         FeaturePair tracked;
         for (int degree = 0; degree < 360; ++degree) {
           const double angle = degree * std::numbers::pi / 180;
-          const Pose X_WB = at(0.3 * std::cos(angle), 0.2, height + 0.1 * std::sin(angle), turned({1, 0.3, 0.2}, angle));
+          const Pose X_WB =
+              at(0.3 * std::cos(angle), 0.2, height + 0.1 * std::sin(angle), turned({1, 0.3, 0.2}, angle));
           const ClosestFeatures got = closestFeatures(a, Pose{}, b, X_WB, tracked);
           const ClosestFeatures want = cold(a, Pose{}, b, X_WB);
           ASSERT_EQ(got.status, want.status) << degree;
@@ -273,7 +295,8 @@ TEST(VClipTrap, TwoTriangulatedCubesHalfTurned_AreHalfAMetreApart) {
   EXPECT_LT(errorOf(c, cube, Pose{}, cube, X_WB), 1e-15);
 }
 
-// A flat edge's V-planes are passed by the inward normal too: deep inside, the walk must not end there as separated.
+// A flat edge's V-planes are passed by the inward normal too: deep inside, the walk must not end there as
+// separated.
 TEST(VClipTrap, ACornerBelowAFlatEdge_IsInside) {
   const ConvexPart outer = part(oracle::triangulatedBox({2, 2, 2})), inner = box({0.5, 0.5, 0.5});
   for (double x : {-0.5, -0.25, 0.0, 0.25, 0.5})
@@ -283,12 +306,13 @@ TEST(VClipTrap, ACornerBelowAFlatEdge_IsInside) {
           FeaturePair tracked{fa, vertexFeature(v)};
           const ClosestFeatures c = closestFeatures(outer, Pose{}, inner, at(x, y, 0.1), tracked);
           ASSERT_EQ(c.status, Separation::kPenetrating) << x << " " << y;
-          ASSERT_NEAR(c.distance_m, -(1.25 - std::max({std::abs(x), std::abs(y), 0.1})), 1e-15) << x << " " << y;
+          ASSERT_NEAR(c.distance_m, -(1.25 - std::max({std::abs(x), std::abs(y), 0.1})), 1e-15)
+              << x << " " << y;
         }
 }
 
-// A tilt of 1e-9 over a metre: a step on one body gains half its square, which is below rounding; the near corner is
-// 1e-9 closer all the same. Any seed must find it.
+// A tilt of 1e-9 over a metre: a step on one body gains half its square, which is below rounding; the near
+// corner is 1e-9 closer all the same. Any seed must find it.
 TEST(VClipTrap, AlmostParallelFaces_AreMeasuredAtTheirNearCorner) {
   const ConvexPart a = box({1, 1, 1});
   for (const ConvexPart& b : {box({1, 1, 1}), part(oracle::triangulatedBox({1, 1, 1}))})
@@ -296,11 +320,13 @@ TEST(VClipTrap, AlmostParallelFaces_AreMeasuredAtTheirNearCorner) {
       for (const double spin : {0.0, 0.4}) {
         const Quat q = turned({1, 0.4, 0}, tilt) * turned(Vec3::UnitZ(), spin);
         const Pose X_WB = at(0, 0, 1.3, q);
-        const auto want = static_cast<double>(oracle::surfaceDistance(oracle::place(a, Pose{}), oracle::place(b, X_WB)));
+        const auto want =
+            static_cast<double>(oracle::surfaceDistance(oracle::place(a, Pose{}), oracle::place(b, X_WB)));
         for (const Feature& fa : allFeatures(a.core))
           for (const Feature& fb : allFeatures(b.core)) {
             FeaturePair tracked{fa, fb};
-            ASSERT_NEAR(closestFeatures(a, Pose{}, b, X_WB, tracked).distance_m, want, 3e-12) << tilt << " " << spin;
+            ASSERT_NEAR(closestFeatures(a, Pose{}, b, X_WB, tracked).distance_m, want, 3e-12)
+                << tilt << " " << spin;
           }
       }
 }
@@ -331,7 +357,8 @@ TEST(VClipTrap, AVertexExactlyOnAFace_Touches) {
 }
 
 TEST(VClipTrap, EdgesThatCrossInOnePoint_Touch) {
-  const Pose X_WA = at(0, 0, 0, turned(Vec3::UnitX(), kQuarter)), X_WB = at(0.1, 0.2, std::numbers::sqrt2, turned(Vec3::UnitY(), kQuarter));
+  const Pose X_WA = at(0, 0, 0, turned(Vec3::UnitX(), kQuarter)),
+             X_WB = at(0.1, 0.2, std::numbers::sqrt2, turned(Vec3::UnitY(), kQuarter));
   const ClosestFeatures c = cold(box({1, 1, 1}), X_WA, box({1, 1, 1}), X_WB);
   EXPECT_NEAR(c.distance_m, 0.0, 1e-15);
   EXPECT_LT((c.n_W - Vec3::UnitZ()).norm(), 1e-15);
@@ -341,7 +368,8 @@ TEST(VClipTrap, EdgesThatCrossInOnePoint_Touch) {
 TEST(VClipTrap, EdgesThatCrossInsideBoth_Penetrate) {
   for (const double overlap : {1e-9, 1e-6, 1e-3, 0.1, 0.4}) {
     const Pose X_WB = at(0.1, 0.1, std::numbers::sqrt2 - overlap, turned(Vec3::UnitY(), kQuarter));
-    const ClosestFeatures c = cold(box({1, 1, 1}), at(0, 0, 0, turned(Vec3::UnitX(), kQuarter)), box({1, 1, 1}), X_WB);
+    const ClosestFeatures c =
+        cold(box({1, 1, 1}), at(0, 0, 0, turned(Vec3::UnitX(), kQuarter)), box({1, 1, 1}), X_WB);
     EXPECT_EQ(c.status, Separation::kPenetrating) << overlap;
     EXPECT_NEAR(c.distance_m, -overlap, 1e-15) << overlap;
   }
@@ -364,7 +392,8 @@ TEST(VClipTrap, AlmostParallelEdges_AreMeasuredToRounding) {
   const Quat roof = turned(Vec3::UnitY(), kQuarter);
   for (const double tilt : {1e-15, 1e-12, 1e-9, 1e-6, 1e-3}) {
     const Pose X_WA = at(0, 0, 0, roof), X_WB = at(0, 0.3, 2, turned({0.6, 0, 1}, tilt) * roof);
-    const auto want = static_cast<double>(oracle::surfaceDistance(oracle::place(a, X_WA), oracle::place(a, X_WB)));
+    const auto want =
+        static_cast<double>(oracle::surfaceDistance(oracle::place(a, X_WA), oracle::place(a, X_WB)));
     EXPECT_NEAR(cold(a, X_WA, a, X_WB).distance_m, want, 1e-14) << tilt;
   }
 }
@@ -383,7 +412,8 @@ TEST(VClipTrap, FarFromTheOrigin_OnlyThePosesRoundingIsLost) {
   const Vec3 away(0x1p13, -0x1p14, 0x1p12);
   for (int i = 0; i < 200; ++i) {
     Pose X_WA = random.pose(1), X_WB = random.pose(5);
-    for (Pose* X : {&X_WA, &X_WB}) X->position = (X->position * 0x1p20).array().round().matrix() * 0x1p-20;  // no rounding when moved
+    for (Pose* X : {&X_WA, &X_WB})
+      X->position = (X->position * 0x1p20).array().round().matrix() * 0x1p-20;  // no rounding when moved
     const double here = cold(a, X_WA, b, X_WB).distance_m;
     X_WA.position += away;
     X_WB.position += away;
@@ -409,7 +439,8 @@ TEST(VClipTrap, DepthIsContinuousWhileABodySinksIn) {
   double before = 10;
   for (int i = 0; i <= 4000; ++i) {
     const double z = 4 - 1e-3 * i;
-    const double d = closestFeatures(a, Pose{}, b, at(0.1, 0.2, z, turned({1, 2, 3}, 0.5)), tracked).distance_m;
+    const double d =
+        closestFeatures(a, Pose{}, b, at(0.1, 0.2, z, turned({1, 2, 3}, 0.5)), tracked).distance_m;
     if (i > 0) {
       ASSERT_LE(std::abs(d - before), 1e-3 + 1e-14) << "moved a millimetre at z = " << z;
     }

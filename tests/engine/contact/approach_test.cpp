@@ -25,8 +25,10 @@ TEST(SeparatingSpeed, IsNegativeWhenTheBodiesApproach) {
 TEST(SeparatingSpeed, OfTwoThatMoveAsOneBodyIsZero) {
   Random random(51);
   for (int i = 0; i < 100; ++i) {
-    const Vec3 w = 5 * random.direction(), v = random.direction(), a = random.direction(), b = 3 * random.direction(), p = 2 * random.direction();
-    EXPECT_NEAR(separatingSpeed({v + w.cross(a), w}, a, {v + w.cross(b), w}, b, p, random.direction()), 0.0, 1e-13);
+    const Vec3 w = 5 * random.direction(), v = random.direction(), a = random.direction(),
+               b = 3 * random.direction(), p = 2 * random.direction();
+    EXPECT_NEAR(separatingSpeed({v + w.cross(a), w}, a, {v + w.cross(b), w}, b, p, random.direction()), 0.0,
+                1e-13);
   }
 }
 
@@ -58,8 +60,8 @@ TEST(SeparatingSpeed, IsTheSlopeOfTheDistance) {
     const ClosestFeatures now = closestAt(0), before = closestAt(-h), after = closestAt(h);
     if (now.status != Separation::kSeparated || !(before.features == after.features)) continue;
     ++tried;
-    const double u = separatingSpeed({a.velocity, a.spin}, a.X_WB.position, {b.velocity, b.spin}, b.X_WB.position,
-                                     0.5 * (now.p_A_W + now.p_B_W), now.n_W);
+    const double u = separatingSpeed({a.velocity, a.spin}, a.X_WB.position, {b.velocity, b.spin},
+                                     b.X_WB.position, 0.5 * (now.p_A_W + now.p_B_W), now.n_W);
     // At the midpoint n . (w x r) equals its value at either witness, since the witnesses differ along n.
     EXPECT_NEAR(u, (after.distance_m - before.distance_m) / (2 * h), 1e-6) << i;
   }

@@ -7,7 +7,9 @@
 namespace carom {
 namespace {
 
-CollisionWindow windowOf(const Solid& a, const Solid& b) { return collisionWindow(a.parts()[0], b.parts()[0]); }
+CollisionWindow windowOf(const Solid& a, const Solid& b) {
+  return collisionWindow(a.parts()[0], b.parts()[0]);
+}
 
 TEST(CollisionWindow, IsInOrderForEverySize) {
   for (double size : {1e-3, 0.1, 1.0, 7.0, 100.0}) {

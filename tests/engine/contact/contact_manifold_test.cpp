@@ -21,7 +21,9 @@ ContactManifold manifoldOf(const Solid& a, const Pose& X_WA, const Solid& b, con
   return contactManifold(closest, pa, X_WA, pb, X_WB, collisionWindow(pa, pb));
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 bool inside(const std::vector<Vec2>& polygon, const Vec2& p) {
   for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -29,7 +31,8 @@ bool inside(const std::vector<Vec2>& polygon, const Vec2& p) {
   return true;
 }
 
-// The corners of the common part of two convex polygons (counter-clockwise): corners inside the other, and crossings.
+// The corners of the common part of two convex polygons (counter-clockwise): corners inside the other, and
+// crossings.
 std::vector<Vec2> commonCorners(const std::vector<Vec2>& p, const std::vector<Vec2>& q) {
   std::vector<Vec2> corners;
   for (const Vec2& c : p)
@@ -49,7 +52,8 @@ std::vector<Vec2> commonCorners(const std::vector<Vec2>& p, const std::vector<Ve
 
 std::vector<Vec2> rectangle(const Vec2& size, const Vec2& center, double angle) {
   std::vector<Vec2> corners;
-  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, std::pair{0.5, -0.5}, std::pair{0.5, 0.5}, std::pair{-0.5, 0.5}})
+  for (const auto& [x, y] :
+       {std::pair{-0.5, -0.5}, std::pair{0.5, -0.5}, std::pair{0.5, 0.5}, std::pair{-0.5, 0.5}})
     corners.push_back(center + Eigen::Rotation2Dd(angle) * Vec2(x * size.x(), y * size.y()));
   return corners;
 }
@@ -63,9 +67,11 @@ double quadArea(const ContactManifold& m) {
 }
 
 // Every point must stand half its gap off both bodies.
-void expectPointsBetweenTheFaces(const ContactManifold& m, const Pose& X_WF, double top_of_a, double bottom_of_b) {
+void expectPointsBetweenTheFaces(const ContactManifold& m, const Pose& X_WF, double top_of_a,
+                                 double bottom_of_b) {
   for (const ManifoldPoint& p : m.view()) {
-    const Vec3 on_a = X_WF.inverse() * (p.p_W - 0.5 * p.gap_m * p.n_W), on_b = X_WF.inverse() * (p.p_W + 0.5 * p.gap_m * p.n_W);
+    const Vec3 on_a = X_WF.inverse() * (p.p_W - 0.5 * p.gap_m * p.n_W),
+               on_b = X_WF.inverse() * (p.p_W + 0.5 * p.gap_m * p.n_W);
     EXPECT_NEAR(on_a.z(), top_of_a, 1e-13);
     EXPECT_NEAR(on_b.z(), bottom_of_b, 1e-13);
   }
@@ -78,14 +84,17 @@ TEST(ContactManifold, OfBoxOnBox_IsTheCommonPartOfTheirFaces) {
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << " case " << i);
     const Pose X_WF = random.pose(5);
-    const Vec2 size_a(random.uniform(0.5, 2), random.uniform(0.5, 2)), size_b(random.uniform(0.5, 2), random.uniform(0.5, 2));
+    const Vec2 size_a(random.uniform(0.5, 2), random.uniform(0.5, 2)),
+        size_b(random.uniform(0.5, 2), random.uniform(0.5, 2));
     const Vec2 shift(random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8));
     const double angle = random.uniform(-3, 3);
-    const std::vector<Vec2> expected = commonCorners(rectangle(size_a, Vec2::Zero(), 0), rectangle(size_b, shift, angle));
+    const std::vector<Vec2> expected =
+        commonCorners(rectangle(size_a, Vec2::Zero(), 0), rectangle(size_b, shift, angle));
     if (expected.size() < 3) continue;
     const Solid a = Solid::box({size_a.x(), size_a.y(), 1}), b = Solid::box({size_b.x(), size_b.y(), 1});
-    const ContactManifold m = manifoldOf(a, X_WF * Pose{Quat::Identity(), Vec3(0, 0, -0.5)}, b,
-                                         X_WF * Pose{turned(Vec3::UnitZ(), angle), Vec3(shift.x(), shift.y(), 0.5 + gap)});
+    const ContactManifold m =
+        manifoldOf(a, X_WF * Pose{Quat::Identity(), Vec3(0, 0, -0.5)}, b,
+                   X_WF * Pose{turned(Vec3::UnitZ(), angle), Vec3(shift.x(), shift.y(), 0.5 + gap)});
     ASSERT_EQ(m.count, std::min<int>(4, static_cast<int>(expected.size())));
     std::set<std::uint64_t> ids;
     for (const ManifoldPoint& p : m.view()) {
@@ -105,22 +114,26 @@ TEST(ContactManifold, OfBoxOnBox_IsTheCommonPartOfTheirFaces) {
 TEST(ContactManifold, OfAnOctagon_KeepsMostOfItsArea) {
   // Unit squares, one turned by 45 degrees: a regular octagon of width 1, area 8 (sqrt 2 - 1) / 4 = 0.828.
   for (double degrees : {30.0, 45.0}) {
-    const ContactManifold m = manifoldOf(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 1, 1}),
-                                         {turned(Vec3::UnitZ(), degrees * std::numbers::pi / 180), Vec3(0, 0, 0.501)});
+    const ContactManifold m =
+        manifoldOf(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 1, 1}),
+                   {turned(Vec3::UnitZ(), degrees * std::numbers::pi / 180), Vec3(0, 0, 0.501)});
     ASSERT_EQ(m.count, 4);
-    EXPECT_GT(quadArea(m), 0.6 * 0.828);  // the largest quadrilateral in a regular octagon has 1 / sqrt 2 of it
+    EXPECT_GT(quadArea(m),
+              0.6 * 0.828);  // the largest quadrilateral in a regular octagon has 1 / sqrt 2 of it
   }
 }
 
 TEST(ContactManifold, OfATiltedBox_KeepsTheDeepestPointAndTheGapsOfEach) {
   Random random(82);
   for (int i = 0; i < 200; ++i) {
-    const Quat tilt = turned(random.direction(), random.uniform(0, 1.5e-3)) * turned(Vec3::UnitZ(), random.uniform(0, 3));
+    const Quat tilt =
+        turned(random.direction(), random.uniform(0, 1.5e-3)) * turned(Vec3::UnitZ(), random.uniform(0, 3));
     const Solid b = Solid::box({1, 0.8, 0.6});
     double lowest = 0;
     for (const Vec3& v : b.parts()[0].core.vertices()) lowest = std::min(lowest, (tilt * v).z());
     const Pose X_WB{tilt, Vec3(0.1, -0.2, -lowest + 0.5e-3)};
-    const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, b, X_WB);
+    const ContactManifold m =
+        manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, b, X_WB);
     ASSERT_GE(m.count, 4) << i;
     double least = 1;
     for (const ManifoldPoint& p : m.view()) {
@@ -137,10 +150,12 @@ TEST(ContactManifold, OfManyPoints_KeepsTheDeepestAmongTheFour) {
   Random random(85);
   const Solid wheel = Solid::polyhedron(oracle::prism(24, 0.5, 0.3));
   for (int i = 0; i < 200; ++i) {
-    const Quat tilt = turned(random.direction(), random.uniform(1e-4, 1.5e-3)) * turned(Vec3::UnitZ(), random.uniform(0, 3));
+    const Quat tilt = turned(random.direction(), random.uniform(1e-4, 1.5e-3)) *
+                      turned(Vec3::UnitZ(), random.uniform(0, 3));
     double lowest = 0;
     for (const Vec3& v : wheel.parts()[0].core.vertices()) lowest = std::min(lowest, (tilt * v).z());
-    const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, wheel, {tilt, Vec3(0.1, -0.2, -lowest + 0.2e-3)});
+    const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, wheel,
+                                         {tilt, Vec3(0.1, -0.2, -lowest + 0.2e-3)});
     ASSERT_GE(m.count, 4) << i;
     double least = 1;
     for (int k = 0; k < 4; ++k) least = std::min(least, m.points[static_cast<std::size_t>(k)].gap_m);
@@ -152,8 +167,8 @@ TEST(ContactManifold, OfManyPoints_KeepsTheDeepestAmongTheFour) {
 TEST(ContactManifold, OfABoxTiltedOutOfReach_IsTheEdgeThatIsNear) {
   const Quat tilt = turned(Vec3::UnitY(), 0.05);  // the far edge is 50 mm up, k is 5 mm
   const double lowest = 0.5 * std::sin(0.05) + 0.3 * std::cos(0.05);
-  const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 0.8, 0.6}),
-                                       {tilt, Vec3(0, 0, lowest + 1e-3)});
+  const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)},
+                                       Solid::box({1, 0.8, 0.6}), {tilt, Vec3(0, 0, lowest + 1e-3)});
   int near = 0;
   for (const ManifoldPoint& p : m.view()) {
     EXPECT_LT(p.gap_m, 5.0001e-3);
@@ -164,8 +179,9 @@ TEST(ContactManifold, OfABoxTiltedOutOfReach_IsTheEdgeThatIsNear) {
 
 TEST(ContactManifold, OfAnEdgeOnAFace_IsItsTwoEnds) {
   const Quat edge_down = turned(Vec3::UnitZ(), 0.3) * turned(Vec3::UnitY(), std::numbers::pi / 4);
-  const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 0.8, 1}),
-                                       {edge_down, Vec3(0.2, 0.1, std::sqrt(0.5) + 1e-3)});
+  const ContactManifold m =
+      manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 0.8, 1}),
+                 {edge_down, Vec3(0.2, 0.1, std::sqrt(0.5) + 1e-3)});
   ASSERT_EQ(m.count, 2);
   const Vec3 half = turned(Vec3::UnitZ(), 0.3) * Vec3(0, 0.4, 0);
   for (const ManifoldPoint& p : m.view()) {
@@ -177,16 +193,17 @@ TEST(ContactManifold, OfAnEdgeOnAFace_IsItsTwoEnds) {
 
 TEST(ContactManifold, OfAnEdgeThatReachesBeyondTheFace_IsClippedAtTheRim) {
   const Quat edge_down = turned(Vec3::UnitY(), std::numbers::pi / 4);
-  const ContactManifold m = manifoldOf(Solid::box({2, 0.5, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 3, 1}),
-                                       {edge_down, Vec3(0, 0.1, std::sqrt(0.5) + 1e-3)});
+  const ContactManifold m =
+      manifoldOf(Solid::box({2, 0.5, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::box({1, 3, 1}),
+                 {edge_down, Vec3(0, 0.1, std::sqrt(0.5) + 1e-3)});
   ASSERT_EQ(m.count, 2);
   for (const ManifoldPoint& p : m.view()) EXPECT_NEAR(std::abs(p.p_W.y()), 0.25, 1e-14);
 }
 
 TEST(ContactManifold, OfACapsuleLyingOnTheFloor_IsTwoPointsUnderItsEnds) {
   const Quat lying = turned(Vec3::UnitZ(), 0.7) * turned(Vec3::UnitY(), std::numbers::pi / 2);
-  const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, Solid::capsule(0.2, 1.0),
-                                       {lying, Vec3(0, 0, 0.2 + 1e-4)});
+  const ContactManifold m = manifoldOf(Solid::box({10, 10, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)},
+                                       Solid::capsule(0.2, 1.0), {lying, Vec3(0, 0, 0.2 + 1e-4)});
   ASSERT_EQ(m.count, 2);
   const Vec3 half = turned(Vec3::UnitZ(), 0.7) * Vec3(0.5, 0, 0);
   for (const ManifoldPoint& p : m.view()) {
@@ -199,7 +216,8 @@ TEST(ContactManifold, OfACapsuleLyingOnTheFloor_IsTwoPointsUnderItsEnds) {
 
 TEST(ContactManifold, OfParallelCapsules_IsTheStretchTheyShare) {
   const Pose X_WF{turned({1, 2, 3}, 0.9), Vec3(1, 2, 3)};
-  const ContactManifold m = manifoldOf(Solid::capsule(0.2, 1.0), X_WF, Solid::capsule(0.3, 1.0), X_WF * Pose{Quat::Identity(), Vec3(0.501, 0, 0.4)});
+  const ContactManifold m = manifoldOf(Solid::capsule(0.2, 1.0), X_WF, Solid::capsule(0.3, 1.0),
+                                       X_WF * Pose{Quat::Identity(), Vec3(0.501, 0, 0.4)});
   ASSERT_EQ(m.count, 2);
   double low = 1e9, high = -1e9;
   for (const ManifoldPoint& p : m.view()) {
@@ -217,15 +235,25 @@ TEST(ContactManifold, OfWhatMeetsInAPoint_IsThatPoint) {
   const double half_diagonal = std::sqrt(3.0) / 2;
   const Solid box = Solid::box({1, 1, 1}), ground = Solid::box({10, 10, 1});
   const Pose under{Quat::Identity(), Vec3(0, 0, -0.5)};
-  EXPECT_EQ(manifoldOf(ground, under, box, {corner_down, Vec3(0, 0, half_diagonal + 1e-3)}).count, 1) << "corner on face";
-  EXPECT_EQ(manifoldOf(ground, under, Solid::ball(0.5), {Quat::Identity(), Vec3(0, 0, 0.501)}).count, 1) << "ball on face";
-  EXPECT_EQ(manifoldOf(box, {corner_down, Vec3(0, 0, -half_diagonal)}, box, {corner_down, Vec3(0, 0, half_diagonal + 1e-3)}).count, 1) << "corner on corner";
+  EXPECT_EQ(manifoldOf(ground, under, box, {corner_down, Vec3(0, 0, half_diagonal + 1e-3)}).count, 1)
+      << "corner on face";
+  EXPECT_EQ(manifoldOf(ground, under, Solid::ball(0.5), {Quat::Identity(), Vec3(0, 0, 0.501)}).count, 1)
+      << "ball on face";
+  EXPECT_EQ(manifoldOf(box, {corner_down, Vec3(0, 0, -half_diagonal)}, box,
+                       {corner_down, Vec3(0, 0, half_diagonal + 1e-3)})
+                .count,
+            1)
+      << "corner on corner";
   const Quat edge_down = turned(Vec3::UnitY(), std::numbers::pi / 4);
-  const ContactManifold crossed = manifoldOf(box, {edge_down, Vec3(0, 0, -std::sqrt(0.5))}, box,
-                                             {turned(Vec3::UnitZ(), 1.2) * edge_down, Vec3(0, 0, std::sqrt(0.5) + 1e-3)});
+  const ContactManifold crossed =
+      manifoldOf(box, {edge_down, Vec3(0, 0, -std::sqrt(0.5))}, box,
+                 {turned(Vec3::UnitZ(), 1.2) * edge_down, Vec3(0, 0, std::sqrt(0.5) + 1e-3)});
   ASSERT_EQ(crossed.count, 1) << "crossed edges";
   EXPECT_LT((crossed.points[0].p_W - Vec3(0, 0, 0.5e-3)).norm(), 1e-13);
-  EXPECT_EQ(manifoldOf(Solid::capsule(0.2, 1), Pose{}, Solid::capsule(0.2, 1), {turned(Vec3::UnitX(), 1.0), Vec3(0.401, 0, 0)}).count, 1);
+  EXPECT_EQ(manifoldOf(Solid::capsule(0.2, 1), Pose{}, Solid::capsule(0.2, 1),
+                       {turned(Vec3::UnitX(), 1.0), Vec3(0.401, 0, 0)})
+                .count,
+            1);
 }
 
 TEST(ContactManifold, AlwaysHoldsTheClosestDistance) {
@@ -241,7 +269,8 @@ TEST(ContactManifold, AlwaysHoldsTheClosestDistance) {
     X_WB.position -= (closest.distance_m - 1e-3) * closest.n_W;
     cold = {};
     closest = closestFeatures(a.parts()[0], X_WA, b.parts()[0], X_WB, cold);
-    const ContactManifold m = contactManifold(closest, a.parts()[0], X_WA, b.parts()[0], X_WB, collisionWindow(a.parts()[0], b.parts()[0]));
+    const ContactManifold m = contactManifold(closest, a.parts()[0], X_WA, b.parts()[0], X_WB,
+                                              collisionWindow(a.parts()[0], b.parts()[0]));
     ASSERT_GE(m.count, 1);
     ASSERT_LE(m.count, ContactManifold::kMaxPoints);
     double least = 1;
@@ -271,7 +300,8 @@ TEST(ContactManifold, IdsStayWhenTheBodiesMoveALittle) {
   for (int i = 0; i < 100; ++i) {
     Pose moved = X_WB;
     moved.position += 1e-3 * random.direction().cwiseProduct(Vec3(1, 1, 0.1));
-    moved.rotation = turned(Vec3::UnitZ(), random.uniform(-1e-3, 1e-3)) * turned(random.direction(), 1e-6) * moved.rotation;
+    moved.rotation = turned(Vec3::UnitZ(), random.uniform(-1e-3, 1e-3)) * turned(random.direction(), 1e-6) *
+                     moved.rotation;
     EXPECT_EQ(idsAt(moved), ids) << i;
   }
 }

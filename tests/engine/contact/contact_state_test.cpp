@@ -26,7 +26,9 @@ Contact contactOf(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, co
 // Two unit boxes, given in a frame that is then moved as a whole.
 class ContactStates : public testing::Test {
  protected:
-  Contact contact(const Pose& X_FA, const Pose& X_FB) const { return contactOf(box_, X_WF_ * X_FA, box_, X_WF_ * X_FB); }
+  Contact contact(const Pose& X_FA, const Pose& X_FB) const {
+    return contactOf(box_, X_WF_ * X_FA, box_, X_WF_ * X_FB);
+  }
   Vec3 inFrame(const Vec3& v_W) const { return X_WF_.rotation.conjugate() * v_W; }
   Vec3 placeInFrame(const Vec3& p_W) const { return X_WF_.inverse() * p_W; }
 
@@ -39,7 +41,8 @@ class ContactStates : public testing::Test {
 
 TEST_F(ContactStates, VertexFace_TakesTheFacesNormal) {
   const double half_diagonal = std::sqrt(3.0) / 2;
-  const Contact c = contact({Quat::Identity(), Vec3(0, 0, -0.5)}, {corner_down_, Vec3(0.1, -0.2, half_diagonal + 0.01)});
+  const Contact c =
+      contact({Quat::Identity(), Vec3(0, 0, -0.5)}, {corner_down_, Vec3(0.1, -0.2, half_diagonal + 0.01)});
   EXPECT_EQ(contactStateOf(c.closest.features), ContactState::kVertexFace);
   EXPECT_LT((inFrame(c.point.n_W) - Vec3::UnitZ()).norm(), 1e-14);
   EXPECT_NEAR(c.point.gap_m, 0.01, 1e-14);
@@ -48,7 +51,8 @@ TEST_F(ContactStates, VertexFace_TakesTheFacesNormal) {
 
 TEST_F(ContactStates, VertexFace_WithTheFaceOnBPointsOutOfATowardsB) {
   const double half_diagonal = std::sqrt(3.0) / 2;
-  const Contact c = contact({corner_down_, Vec3(0.1, -0.2, half_diagonal + 0.01)}, {Quat::Identity(), Vec3(0, 0, -0.5)});
+  const Contact c =
+      contact({corner_down_, Vec3(0.1, -0.2, half_diagonal + 0.01)}, {Quat::Identity(), Vec3(0, 0, -0.5)});
   EXPECT_EQ(contactStateOf(c.closest.features), ContactState::kVertexFace);
   EXPECT_LT((inFrame(c.point.n_W) + Vec3::UnitZ()).norm(), 1e-14);
 }
@@ -56,7 +60,8 @@ TEST_F(ContactStates, VertexFace_WithTheFaceOnBPointsOutOfATowardsB) {
 TEST_F(ContactStates, VertexVertex_TakesTheLineBetweenThem) {
   const double half_diagonal = std::sqrt(3.0) / 2;
   const Vec3 offset(0.003, -0.002, 0.01);
-  const Contact c = contact({corner_down_, Vec3(0, 0, -half_diagonal)}, {corner_down_, Vec3(0, 0, half_diagonal) + offset});
+  const Contact c =
+      contact({corner_down_, Vec3(0, 0, -half_diagonal)}, {corner_down_, Vec3(0, 0, half_diagonal) + offset});
   EXPECT_EQ(contactStateOf(c.closest.features), ContactState::kVertexVertex);
   EXPECT_LT((inFrame(c.point.n_W) - offset.normalized()).norm(), 1e-12);
   EXPECT_NEAR(c.point.gap_m, offset.norm(), 1e-14);
@@ -65,7 +70,8 @@ TEST_F(ContactStates, VertexVertex_TakesTheLineBetweenThem) {
 TEST_F(ContactStates, VertexEdge_PointsFromTheEdgeToTheVertexAcrossTheEdge) {
   const double half_diagonal = std::sqrt(3.0) / 2;
   const Vec3 offset(0.002, 0.2, 0.01);  // along y the edge has no say
-  const Contact c = contact({edge_down_, Vec3(0, 0, -std::sqrt(0.5))}, {corner_down_, Vec3(0, 0, half_diagonal) + offset});
+  const Contact c =
+      contact({edge_down_, Vec3(0, 0, -std::sqrt(0.5))}, {corner_down_, Vec3(0, 0, half_diagonal) + offset});
   EXPECT_EQ(contactStateOf(c.closest.features), ContactState::kVertexEdge);
   EXPECT_LT((inFrame(c.point.n_W) - Vec3(0.002, 0, 0.01).normalized()).norm(), 1e-12);
   EXPECT_NEAR(c.point.gap_m, std::hypot(0.002, 0.01), 1e-14);
@@ -98,11 +104,13 @@ TEST(ContactPoint, OfAnySeparatedPairSpansTheGapFromAToB) {
     ASSERT_LT((c.closest.p_A_W + c.point.gap_m * c.point.n_W - c.closest.p_B_W).norm(), 1e-11) << i;
     ASSERT_LT((c.point.p_W - 0.5 * (c.closest.p_A_W + c.closest.p_B_W)).norm(), 1e-15) << i;
   }
-  for (int state = 0; state < 4; ++state) EXPECT_GT(seen[state], 20) << contactStateName(static_cast<ContactState>(state));
+  for (int state = 0; state < 4; ++state)
+    EXPECT_GT(seen[state], 20) << contactStateName(static_cast<ContactState>(state));
 }
 
 TEST(ContactPoint, OfBallsAndCapsulesCountsTheirRoundness) {
-  const ConvexPart ball{ConvexPolyhedron::point(Vec3::Zero()), 0.3}, capsule{ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.2};
+  const ConvexPart ball{ConvexPolyhedron::point(Vec3::Zero()), 0.3},
+      capsule{ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.2};
   const Contact c = contactOf(capsule, Pose{}, ball, {Quat::Identity(), Vec3(0.6, 0.0, 0.4)});
   EXPECT_EQ(contactStateOf(c.closest.features), ContactState::kVertexEdge);
   EXPECT_NEAR(c.point.gap_m, 0.1, 1e-15);

@@ -23,8 +23,8 @@ struct Mover {
   ConvexPart part;
   Trajectory path;
 
-  static Mover of(const Solid& solid, const Pose& X, const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero(),
-                  const Vec3& acceleration = Vec3::Zero()) {
+  static Mover of(const Solid& solid, const Pose& X, const Vec3& velocity = Vec3::Zero(),
+                  const Vec3& spin = Vec3::Zero(), const Vec3& acceleration = Vec3::Zero()) {
     return {solid.parts()[0], {0.0, X, velocity, acceleration, spin}};
   }
   MovingPart moving() const { return {&part, &path, part.core.radiusAbout(Vec3::Zero())}; }
@@ -46,9 +46,13 @@ TimeOfImpact find(const Mover& a, const Mover& b, const ImpactSearch& search) {
       closestFeatures(a.part, a.path.at(search.begin_s), b.part, b.path.at(search.begin_s), tracked);
   return timeOfImpact(a.moving(), b.moving(), search, at_begin, tracked);
 }
-TimeOfImpact find(const Mover& a, const Mover& b, double end_s) { return find(a, b, searchOf(a, b, end_s)); }
+TimeOfImpact find(const Mover& a, const Mover& b, double end_s) {
+  return find(a, b, searchOf(a, b, end_s));
+}
 
-Mover floorBox() { return Mover::of(Solid::box({20, 20, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}); }
+Mover floorBox() {
+  return Mover::of(Solid::box({20, 20, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)});
+}
 
 double speedAt(const Mover& a, const Mover& b, const TimeOfImpact& found) {
   const auto at = [&](const Trajectory& path, const Vec3& p) {
@@ -57,12 +61,15 @@ double speedAt(const Mover& a, const Mover& b, const TimeOfImpact& found) {
   return found.closest.n_W.dot(at(b.path, found.closest.p_B_W) - at(a.path, found.closest.p_A_W));
 }
 
-// Free fall through a gap h: the gap is g at sqrt(2 (h - g) / gravity), so the time lies between those of the window.
+// Free fall through a gap h: the gap is g at sqrt(2 (h - g) / gravity), so the time lies between those of the
+// window.
 TEST(TimeOfImpact, OfAFallIsTheClosedFormTime) {
   const Mover ground = floorBox();
   for (double h : {0.01, 0.3, 2.0, 50.0})
-    for (const auto& [solid, lowest] : {std::pair{Solid::ball(0.4), 0.4}, std::pair{Solid::box({0.6, 0.8, 0.5}), 0.25}}) {
-      const Mover body = Mover::of(solid, {turned(Vec3::UnitZ(), 0.4), Vec3(1.3, -2.1, lowest + h)}, Vec3(0.3, 0.2, 0), Vec3::Zero(), Vec3(0, 0, -kGravity));
+    for (const auto& [solid, lowest] :
+         {std::pair{Solid::ball(0.4), 0.4}, std::pair{Solid::box({0.6, 0.8, 0.5}), 0.25}}) {
+      const Mover body = Mover::of(solid, {turned(Vec3::UnitZ(), 0.4), Vec3(1.3, -2.1, lowest + h)},
+                                   Vec3(0.3, 0.2, 0), Vec3::Zero(), Vec3(0, 0, -kGravity));
       const ImpactSearch search = searchOf(ground, body, 5.0);
       const TimeOfImpact found = find(ground, body, search);
       ASSERT_EQ(found.outcome, Outcome::kImpact) << h;
@@ -78,7 +85,8 @@ TEST(TimeOfImpact, WithinAStep_IsFoundInFewQueries) {
   const double step = 1.0 / 60;
   for (double h : {0.01, 0.3, 2.0, 50.0})
     for (double share : {0.1, 0.5, 0.9}) {
-      const Mover ball = Mover::of(Solid::ball(0.4), {Quat::Identity(), Vec3(0, 0, 0.4 + h)}, Vec3(1, 0, 0), Vec3(3, 2, 1), Vec3(0, 0, -kGravity));
+      const Mover ball = Mover::of(Solid::ball(0.4), {Quat::Identity(), Vec3(0, 0, 0.4 + h)}, Vec3(1, 0, 0),
+                                   Vec3(3, 2, 1), Vec3(0, 0, -kGravity));
       const double begin = std::sqrt(2 * h / kGravity) - share * step;
       const TimeOfImpact found = find(ground, ball, searchOf(ground, ball, begin + step, begin));
       EXPECT_EQ(found.outcome, Outcome::kImpact) << h << ' ' << share;
@@ -90,7 +98,8 @@ TEST(TimeOfImpact, IsTheSameForBothOrdersOfTheBodies) {
   Random random(71);
   for (int i = 0; i < 100; ++i) {
     const Mover a = Mover::of(Solid::box({1, 0.6, 0.4}), random.pose(0.2), Vec3::Zero(), random.direction());
-    const Mover b = Mover::of(Solid::box({0.5, 0.6, 0.7}), {random.rotation(), Vec3(3, 0.1, 0.2)}, Vec3(-4, 0, 0), 3 * random.direction());
+    const Mover b = Mover::of(Solid::box({0.5, 0.6, 0.7}), {random.rotation(), Vec3(3, 0.1, 0.2)},
+                              Vec3(-4, 0, 0), 3 * random.direction());
     const TimeOfImpact ab = find(a, b, 2.0), ba = find(b, a, 2.0);
     EXPECT_EQ(ab.outcome, ba.outcome) << i;
     // Both ends lie in the window; the two searches may stop at different gaps in it.
@@ -100,15 +109,16 @@ TEST(TimeOfImpact, IsTheSameForBothOrdersOfTheBodies) {
   }
 }
 
-// Fig. 6: a rod that turns as it nears a wall; its distance dips with every half turn. With half length L and half
-// width w, d(t) = x_wall - v t - L |cos| - w |sin|.
+// Fig. 6: a rod that turns as it nears a wall; its distance dips with every half turn. With half length L and
+// half width w, d(t) = x_wall - v t - L |cos| - w |sin|.
 TEST(TimeOfImpact, OfATurningRod_IsTheEarliestDip) {
   const double L = 0.5, w = 0.02;
   for (double spin : {2.0, 7.0, 12.566, 40.0})
     for (double v : {0.05, 0.2, 0.5}) {
       const double start = 0.9;
       const Mover wall = Mover::of(Solid::box({1, 10, 10}), {Quat::Identity(), Vec3(start + 0.5, 0, 0)});
-      const Mover rod = Mover::of(Solid::box({2 * L, 2 * w, 0.1}), {turned(Vec3::UnitZ(), 1.2), Vec3::Zero()}, Vec3(v, 0, 0), Vec3(0, 0, spin));
+      const Mover rod = Mover::of(Solid::box({2 * L, 2 * w, 0.1}), {turned(Vec3::UnitZ(), 1.2), Vec3::Zero()},
+                                  Vec3(v, 0, 0), Vec3(0, 0, spin));
       const auto gap = [&](double t) {
         const double angle = 1.2 + spin * t;
         return start - v * t - L * std::abs(std::cos(angle)) - w * std::abs(std::sin(angle));
@@ -144,11 +154,12 @@ void expectClaimsHold(const Mover& a, const Mover& b, double end_s, int looks, i
       least_at = t;
     }
   }
-  const double truth = static_cast<double>(
-      oracle::signedGap(oracle::place(a.part, a.path.at(least_at)), oracle::place(b.part, b.path.at(least_at))));
+  const double truth = static_cast<double>(oracle::signedGap(oracle::place(a.part, a.path.at(least_at)),
+                                                             oracle::place(b.part, b.path.at(least_at))));
   ASSERT_NEAR(truth, least, 1e-12) << "the looks themselves";
   ASSERT_GE(truth, search.window.floor * (1 - 1e-6)) << "below the floor before the returned time";
-  ASSERT_NEAR(found.closest.distance_m, closestAt(a, b, found.outcome == Outcome::kClear ? 0.0 : found.time_s).distance_m,
+  ASSERT_NEAR(found.closest.distance_m,
+              closestAt(a, b, found.outcome == Outcome::kClear ? 0.0 : found.time_s).distance_m,
               found.outcome == Outcome::kClear ? 1e300 : 1e-12);
   switch (found.outcome) {
     case Outcome::kClear:
@@ -159,7 +170,8 @@ void expectClaimsHold(const Mover& a, const Mover& b, double end_s, int looks, i
       ASSERT_LT(speedAt(a, b, found), -search.collision_speed_mps);
       break;
     case Outcome::kStopped:
-      ASSERT_LE(found.closest.distance_m, search.window.ceiling) << "stopped for want of iterations, far from anything";
+      ASSERT_LE(found.closest.distance_m, search.window.ceiling)
+          << "stopped for want of iterations, far from anything";
       break;
   }
 }
@@ -170,14 +182,18 @@ TEST(TimeOfImpact, NeverPassesAContact_TurningUpToAFullTurn) {
   int seen[3] = {};
   for (int i = 0; i < 3000; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << " case " << i);
-    const Solid solid_a = Solid::polyhedron(oracle::randomHull(random, random.integer(4, 14), Vec3(1, random.uniform(0.05, 1), random.uniform(0.05, 1))));
-    const Solid solid_b = Solid::polyhedron(oracle::randomHull(random, random.integer(4, 14), Vec3(random.uniform(0.05, 1), 1, 0.5)));
+    const Solid solid_a = Solid::polyhedron(oracle::randomHull(
+        random, random.integer(4, 14), Vec3(1, random.uniform(0.05, 1), random.uniform(0.05, 1))));
+    const Solid solid_b = Solid::polyhedron(
+        oracle::randomHull(random, random.integer(4, 14), Vec3(random.uniform(0.05, 1), 1, 0.5)));
     const double turn = 2 * std::numbers::pi;  // over the second that is searched
     const Vec3 away = random.uniform(2.1, 3) * random.direction();
     const Vec3 aim = (-away + 1.2 * random.direction()) * random.logUniform(0.3, 30);
-    const Mover a = Mover::of(solid_a, {random.rotation(), Vec3::Zero()}, Vec3::Zero(), random.uniform(0, turn) * random.direction());
-    const Mover b = Mover::of(solid_b, {random.rotation(), away}, aim, random.uniform(0, turn) * random.direction(),
-                              random.uniform(0, 10) * random.direction());
+    const Mover a = Mover::of(solid_a, {random.rotation(), Vec3::Zero()}, Vec3::Zero(),
+                              random.uniform(0, turn) * random.direction());
+    const Mover b =
+        Mover::of(solid_b, {random.rotation(), away}, aim, random.uniform(0, turn) * random.direction(),
+                  random.uniform(0, 10) * random.direction());
     expectClaimsHold(a, b, 1.0, 60, seen);
     if (HasFatalFailure()) return;
   }
@@ -195,8 +211,11 @@ TEST(TimeOfImpact, NeverPassesAContact_OfBallsAndCapsules) {
     const Solid a_solid = Solid::capsule(random.uniform(0.05, 0.3), random.uniform(0.5, 2));
     const Solid b_solid = i % 2 ? Solid::ball(0.3) : Solid::box({1, 0.3, 0.4});
     const Vec3 away = random.uniform(2.3, 3) * random.direction();
-    const Mover a = Mover::of(a_solid, {random.rotation(), Vec3::Zero()}, Vec3::Zero(), 6 * random.direction());
-    const Mover b = Mover::of(b_solid, {random.rotation(), away}, (-away + 0.7 * random.direction()) * random.logUniform(0.5, 30), 6 * random.direction());
+    const Mover a =
+        Mover::of(a_solid, {random.rotation(), Vec3::Zero()}, Vec3::Zero(), 6 * random.direction());
+    const Mover b =
+        Mover::of(b_solid, {random.rotation(), away},
+                  (-away + 0.7 * random.direction()) * random.logUniform(0.5, 30), 6 * random.direction());
     expectClaimsHold(a, b, 1.0, 60, seen);
     if (HasFatalFailure()) return;
   }
@@ -207,10 +226,13 @@ TEST(TimeOfImpact, OfASmallBoxAgainstAThinWall_IsFoundAtAnySpeed) {
   const Mover wall = Mover::of(Solid::box({0.02, 5, 5}), Pose{});
   for (double speed : {1.0, 10.0, 100.0, 1e3, 1e4})
     for (double spin : {0.0, 30.0, 300.0}) {
-      const Mover bullet = Mover::of(Solid::box({0.1, 0.1, 0.1}), {turned({1, 2, 3}, 0.6), Vec3(-1.0, 0.1, 0.2)}, Vec3(speed, 0, 0), spin * Vec3(0.6, 0, 0.8));
+      const Mover bullet =
+          Mover::of(Solid::box({0.1, 0.1, 0.1}), {turned({1, 2, 3}, 0.6), Vec3(-1.0, 0.1, 0.2)},
+                    Vec3(speed, 0, 0), spin * Vec3(0.6, 0, 0.8));
       const TimeOfImpact found = find(bullet, wall, 2.0);
       ASSERT_EQ(found.outcome, Outcome::kImpact) << speed << " m/s, spin " << spin;
-      // Between 0.99 less half the diagonal and 0.99 less half a side: the wall's surface is met by whatever is in front.
+      // Between 0.99 less half the diagonal and 0.99 less half a side: the wall's surface is met by whatever
+      // is in front.
       EXPECT_LE(found.time_s * speed, 0.99 - 0.05 + 1e-9);
       EXPECT_GE(found.time_s * speed, 0.99 - 0.05 * std::sqrt(3.0) - 1e-3);
     }
@@ -218,7 +240,8 @@ TEST(TimeOfImpact, OfASmallBoxAgainstAThinWall_IsFoundAtAnySpeed) {
 
 TEST(TimeOfImpact, InsideTheWindowAndFast_IsAtOnce) {
   const Mover ground = floorBox();
-  const Mover box = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + 1e-3)}, Vec3(0, 0, -5));
+  const Mover box =
+      Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + 1e-3)}, Vec3(0, 0, -5));
   const TimeOfImpact found = find(ground, box, 1.0);
   EXPECT_EQ(found.outcome, Outcome::kImpact);
   EXPECT_EQ(found.time_s, 0.0);
@@ -228,7 +251,8 @@ TEST(TimeOfImpact, InsideTheWindowAndFast_IsAtOnce) {
 TEST(TimeOfImpact, InsideTheWindowAndLeaving_IsClear) {
   const Mover ground = floorBox();
   for (double gap : {0.3e-3, 1e-3, 1.9e-3}) {
-    const Mover box = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + gap)}, Vec3(1, 0, 0.5), Vec3(0, 0, 1));
+    const Mover box = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + gap)},
+                                Vec3(1, 0, 0.5), Vec3(0, 0, 1));
     const TimeOfImpact found = find(ground, box, 1.0);
     EXPECT_EQ(found.outcome, Outcome::kClear) << gap;
     EXPECT_EQ(found.time_s, 1.0);
@@ -251,7 +275,8 @@ TEST(TimeOfImpact, BelowTheFloor_MayLeaveButNotComeCloser) {
 TEST(TimeOfImpact, OfASlowApproach_StopsAtTheFloor) {
   const Mover ground = floorBox();
   const double gap = 1.8e-3, speed = 0.01;
-  const Mover box = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + gap)}, Vec3(0, 0, -speed));
+  const Mover box =
+      Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0, 0, 0.5 + gap)}, Vec3(0, 0, -speed));
   const ImpactSearch search = searchOf(ground, box, 1.0);
   const TimeOfImpact found = find(ground, box, search);
   EXPECT_EQ(found.outcome, Outcome::kStopped);
@@ -262,21 +287,26 @@ TEST(TimeOfImpact, OfASlowApproach_StopsAtTheFloor) {
 
 TEST(TimeOfImpact, OfAGrazingPass_IsClear) {
   const Mover ground = floorBox();
-  const Mover ball = Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 0.5 + 2.2e-3)}, Vec3(10, 0, 0), Vec3(0, 30, 0));
+  const Mover ball = Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 0.5 + 2.2e-3)},
+                               Vec3(10, 0, 0), Vec3(0, 30, 0));
   const TimeOfImpact over = find(ground, ball, 1.0);
   EXPECT_EQ(over.outcome, Outcome::kClear);
   EXPECT_EQ(over.time_s, 1.0);
   // Two balls pass each other at a hair's breadth, beside the window.
   const Mover still = Mover::of(Solid::ball(0.5), Pose{});
-  const Mover passing = Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 1.0 + 2.1e-3)}, Vec3(10, 0, 0));
+  const Mover passing =
+      Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 1.0 + 2.1e-3)}, Vec3(10, 0, 0));
   EXPECT_EQ(find(still, passing, 1.0).outcome, Outcome::kClear);
-  const Mover striking = Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 1.0 - 0.02)}, Vec3(10, 0, 0));
+  const Mover striking =
+      Mover::of(Solid::ball(0.5), {Quat::Identity(), Vec3(-5, 0, 1.0 - 0.02)}, Vec3(10, 0, 0));
   EXPECT_EQ(find(still, striking, 1.0).outcome, Outcome::kImpact);
 }
 
 TEST(TimeOfImpact, OfTwoThatTravelTogether_IsClearWithoutAQuery) {
-  const Mover a = Mover::of(Solid::box({1, 1, 1}), Pose{}, Vec3(100, 20, 3), Vec3::Zero(), Vec3(0, 0, -kGravity));
-  const Mover b = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0.2, 1.5, 0)}, Vec3(100, 20, 3), Vec3::Zero(), Vec3(0, 0, -kGravity));
+  const Mover a =
+      Mover::of(Solid::box({1, 1, 1}), Pose{}, Vec3(100, 20, 3), Vec3::Zero(), Vec3(0, 0, -kGravity));
+  const Mover b = Mover::of(Solid::box({1, 1, 1}), {Quat::Identity(), Vec3(0.2, 1.5, 0)}, Vec3(100, 20, 3),
+                            Vec3::Zero(), Vec3(0, 0, -kGravity));
   const TimeOfImpact found = find(a, b, 1.0);
   EXPECT_EQ(found.outcome, Outcome::kClear);
   EXPECT_EQ(found.queries, 0);
@@ -285,7 +315,8 @@ TEST(TimeOfImpact, OfTwoThatTravelTogether_IsClearWithoutAQuery) {
 // Bodies keep time on their own: paths that started earlier, searched from a later instant.
 TEST(TimeOfImpact, WithPathsOfDifferentStarts_IsTheSameInstant) {
   const Mover ground = floorBox();
-  Mover whole = Mover::of(Solid::ball(0.4), {Quat::Identity(), Vec3(0, 0, 3.4)}, Vec3(0.3, 0, 1), Vec3(1, 0, 0), Vec3(0, 0, -kGravity));
+  Mover whole = Mover::of(Solid::ball(0.4), {Quat::Identity(), Vec3(0, 0, 3.4)}, Vec3(0.3, 0, 1),
+                          Vec3(1, 0, 0), Vec3(0, 0, -kGravity));
   const TimeOfImpact from_zero = find(ground, whole, 3.0);
   Mover later = whole;
   later.path.start_s = 0.3;

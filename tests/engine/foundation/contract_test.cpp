@@ -36,7 +36,9 @@ TEST(Require, IsAStatementThatAnElseMayFollow) {
   EXPECT_TRUE(reached_else);
 }
 
-TEST(PrintValues, ShowsADoubleToTheLastBit) { EXPECT_EQ(printValues(0.1 + 0.2), " 0.30000000000000004"); }
+TEST(PrintValues, ShowsADoubleToTheLastBit) {
+  EXPECT_EQ(printValues(0.1 + 0.2), " 0.30000000000000004");
+}
 
 TEST(InputError, IsNotAContractViolation) {
   EXPECT_THROW(throw InputError("mass 0: want a positive number"), std::runtime_error);

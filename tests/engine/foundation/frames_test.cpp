@@ -69,7 +69,8 @@ TEST(TangentBasis, HoldsOnAxesDiagonalsAndTheirNeighbours) {
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
         if (x == 0 && y == 0 && z == 0) continue;
-        for (double nudge : {0.0, 1e-16, -1e-16, 1e-9}) expectRightHanded(Vec3(x + nudge, y - nudge, z + 2 * nudge).normalized());
+        for (double nudge : {0.0, 1e-16, -1e-16, 1e-9})
+          expectRightHanded(Vec3(x + nudge, y - nudge, z + 2 * nudge).normalized());
       }
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr double kStep = 1.0 / 120;
 const Vec3 kGravity(0, 0, -9.81);
 
-// Boxes stacked along the slope's normal, each on the four corners of the one below; body 0 is what they lie on.
+// Boxes stacked along the slope's normal, each on the four corners of the one below; body 0 is what they lie
+// on.
 struct Stack {
   std::vector<ImpulseBody> bodies{immovable()};
   std::vector<ContactRow> rows;

@@ -49,7 +49,8 @@ TEST(Sliding, AContactThatDoesNotPressDoesNot) {
 
 TEST(Sliding, BeginsAtItsSpeed) {
   const double v = tolerance::kSlidingSpeed;
-  const BallOnFloor slow(Vec3(0, 0.99 * v, 0), Vec3::Zero(), 1.0), fast(Vec3(0, 1.01 * v, 0), Vec3::Zero(), 1.0);
+  const BallOnFloor slow(Vec3(0, 0.99 * v, 0), Vec3::Zero(), 1.0),
+      fast(Vec3(0, 1.01 * v, 0), Vec3::Zero(), 1.0);
   EXPECT_FALSE(slides(slow.row, slow.bodies));
   EXPECT_TRUE(slides(fast.row, fast.bodies));
 }

@@ -13,14 +13,17 @@ namespace {
 
 using oracle::Random;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 // By Caratheodory a point is in the cover of a set exactly when it is in a triangle of three of its points.
 bool inSomeTriangle(const std::vector<Vec2>& points, const Vec2& p) {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = i + 1; j < points.size(); ++j)
       for (std::size_t k = j + 1; k < points.size(); ++k) {
-        const double a = cross(points[j] - points[i], p - points[i]), b = cross(points[k] - points[j], p - points[j]),
+        const double a = cross(points[j] - points[i], p - points[i]),
+                     b = cross(points[k] - points[j], p - points[j]),
                      c = cross(points[i] - points[k], p - points[k]);
         if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) return true;
       }
@@ -97,7 +100,8 @@ TEST(DistanceOutside, IsTheDistanceToTheNearestOfManyPointsOfTheCover) {
 std::vector<BodyContact> fourFeet(const Quat& R, const Vec3& shift = Vec3::Zero()) {
   std::vector<BodyContact> feet;
   for (double x : {-0.5, 0.5})
-    for (double y : {-0.5, 0.5}) feet.push_back({R * (Vec3(x, y, -0.5) + shift), R * Vec3::UnitZ(), Vec3::Zero()});
+    for (double y : {-0.5, 0.5})
+      feet.push_back({R * (Vec3(x, y, -0.5) + shift), R * Vec3::UnitZ(), Vec3::Zero()});
   return feet;
 }
 

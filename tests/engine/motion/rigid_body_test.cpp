@@ -1,5 +1,5 @@
-// Mass and velocity of a rigid body against sums over its points, and torque-free rotation: angular momentum exact,
-// energy bounded and of second order, whatever the body's shape.
+// Mass and velocity of a rigid body against sums over its points, and torque-free rotation: angular momentum
+// exact, energy bounded and of second order, whatever the body's shape.
 
 #include "engine/motion/rigid_body.h"
 
@@ -28,7 +28,8 @@ std::vector<Vec3> gaussPoints(const Vec3& size) {
 struct Box {
   Vec3 size;
   Inertia inertia;
-  explicit Box(const Vec3& s) : size(s), inertia(inertiaOf(700.0, Solid::box(s).volume(), Solid::box(s).unitInertia())) {}
+  explicit Box(const Vec3& s)
+      : size(s), inertia(inertiaOf(700.0, Solid::box(s).volume(), Solid::box(s).unitInertia())) {}
 };
 
 TEST(RigidBody, EnergyAndAngularMomentumAreTheSumsOverItsPoints) {
@@ -66,8 +67,8 @@ TEST(RigidBody, AngularVelocityAndMomentumAreInverse) {
   }
 }
 
-// A free body carried for a while as the world does it: the path turns by the constant spin, and the velocity is
-// recomputed from the momentum.
+// A free body carried for a while as the world does it: the path turns by the constant spin, and the velocity
+// is recomputed from the momentum.
 struct FreeRotation {
   const Inertia& inertia;
   Quat R;
@@ -116,7 +117,8 @@ TEST(TorqueFreeRotation, EnergyErrorFallsWithTheSquareOfTheStep) {
 TEST(TorqueFreeRotation, EnergyErrorDoesNotGrowWithTime) {
   const Box box({0.2, 0.6, 1.0});
   const Vec3 w(1.0, -6.0, 2.0);
-  EXPECT_LT(largestEnergyError(box.inertia, w, 1.0 / 120, 600.0), 1.2 * largestEnergyError(box.inertia, w, 1.0 / 120, 20.0));
+  EXPECT_LT(largestEnergyError(box.inertia, w, 1.0 / 120, 600.0),
+            1.2 * largestEnergyError(box.inertia, w, 1.0 / 120, 20.0));
 }
 
 // The axis of a symmetric body circles round the angular momentum at |L| / I_1, at a constant angle.
@@ -138,8 +140,8 @@ TEST(TorqueFreeRotation, OfABallIsItsSpin) {
   EXPECT_LT((torqueFreeSpin(ball, oracle::turned({1, 2, 3}, 0.7), w, 1.0 / 60) - w).norm(), 1e-12);
 }
 
-// About a principal axis the spin is constant. Rounding must not grow along the slender axis, whose inertia is a
-// small share of the others'.
+// About a principal axis the spin is constant. Rounding must not grow along the slender axis, whose inertia
+// is a small share of the others'.
 TEST(TorqueFreeRotation, ASlenderRodAcrossItsLengthGoesOnAsItSpins) {
   for (double width : {0.2, 0.04, 0.01, 0.001})
     for (double speed : {1.0, 10.0, 30.0, 100.0}) {
@@ -155,7 +157,8 @@ TEST(TorqueFreeRotation, ASlenderRodAcrossItsLengthGoesOnAsItSpins) {
 // Tumbling about a general axis: however coarse the step, energy stays of the order it was.
 TEST(TorqueFreeRotation, OfFlatAndLongBodiesKeepsTheEnergyBounded) {
   Random random(33);
-  const std::array<Vec3, 4> sizes{Vec3(1, 0.1, 0.1), Vec3(1, 1, 0.02), Vec3(1, 0.3, 0.02), Vec3(2, 0.04, 0.04)};
+  const std::array<Vec3, 4> sizes{Vec3(1, 0.1, 0.1), Vec3(1, 1, 0.02), Vec3(1, 0.3, 0.02),
+                                  Vec3(2, 0.04, 0.04)};
   for (const Vec3& size : sizes)
     for (double turn_per_step : {0.05, 0.2}) {
       const Box body_shape(size);
@@ -165,7 +168,8 @@ TEST(TorqueFreeRotation, OfFlatAndLongBodiesKeepsTheEnergyBounded) {
       const double energy = body.energy();
       for (int i = 0; i < 600; ++i) {
         body.step(dt);
-        ASSERT_NEAR(body.energy() / energy, 1.0, 0.5) << size.transpose() << " turning " << turn_per_step << " a step, step " << i;
+        ASSERT_NEAR(body.energy() / energy, 1.0, 0.5)
+            << size.transpose() << " turning " << turn_per_step << " a step, step " << i;
       }
     }
 }

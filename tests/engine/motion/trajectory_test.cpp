@@ -27,7 +27,8 @@ TEST(Trajectory, PositionIsTheParabola) {
     const Trajectory path = randomPath(random);
     const double t = random.uniform(0, 3);
     const Vec3 expected = path.X_WB.position + t * path.velocity + 0.5 * t * t * path.acceleration;
-    ASSERT_LT((path.at(path.start_s + t).position - expected).norm(), 1e-13) << i;  // some 100 m, and start_s rounds t
+    ASSERT_LT((path.at(path.start_s + t).position - expected).norm(), 1e-13)
+        << i;  // some 100 m, and start_s rounds t
     ASSERT_LT((path.velocityAt(path.start_s + t) - path.velocity - t * path.acceleration).norm(), 1e-13) << i;
   }
 }
@@ -37,9 +38,15 @@ TEST(Trajectory, TurnsAboutTheSpinByItsAngle_AlsoBeyondAFullTurn) {
   for (int i = 0; i < 1000; ++i) {
     const Trajectory path = randomPath(random);
     const double t = random.uniform(0, 3);
-    const Quat expected = Quat(Eigen::AngleAxisd(t * path.spin.norm(), path.spin.normalized())) * path.X_WB.rotation;
+    const Quat expected =
+        Quat(Eigen::AngleAxisd(t * path.spin.norm(), path.spin.normalized())) * path.X_WB.rotation;
     // The angle, up to 180 rad, is rounded where it is formed.
-    ASSERT_LT(path.at(path.start_s + t).rotation.toRotationMatrix().isApprox(expected.toRotationMatrix(), 1e-12) ? 0 : 1, 1) << i;
+    ASSERT_LT(
+        path.at(path.start_s + t).rotation.toRotationMatrix().isApprox(expected.toRotationMatrix(), 1e-12)
+            ? 0
+            : 1,
+        1)
+        << i;
     ASSERT_NEAR(path.at(path.start_s + t).rotation.norm(), 1.0, 4e-16);
   }
 }

@@ -17,7 +17,8 @@ TEST(Collide, AtOneFrictionlessPoint_IsThePapersImpulse) {
   for (int i = 0; i < 1000; ++i) {
     Meeting m = randomMeeting(random, 1, 0.0, random.logUniform(1e-3, 1e3));
     const double e = random.uniform(0, 1);
-    const double j = frictionlessImpulse(m.bodies[0], m.bodies[1], m.rows[0].r_a, m.rows[0].r_b, m.rows[0].n, e);
+    const double j =
+        frictionlessImpulse(m.bodies[0], m.bodies[1], m.rows[0].r_a, m.rows[0].r_b, m.rows[0].n, e);
     const double approach = std::min(0.0, rowVelocity(m.rows[0], m.bodies).x());
     const CollisionReport report = collide(m.rows, m.bodies, {{e}});
     ASSERT_NEAR(report.impulse_Ns, j, 1e-11 * (j + 1e-9)) << "seed " << seed << " case " << i;
@@ -28,8 +29,8 @@ TEST(Collide, AtOneFrictionlessPoint_IsThePapersImpulse) {
   }
 }
 
-// A ball on the floor, r = 0.3, spinless: it slides through the collision when mu (1 + e) |v_n| < 2/7 |v_t|, and loses
-// that much; else its contact point comes to rest and v_t' = 5/7 v_t.
+// A ball on the floor, r = 0.3, spinless: it slides through the collision when mu (1 + e) |v_n| < 2/7 |v_t|,
+// and loses that much; else its contact point comes to rest and v_t' = 5/7 v_t.
 struct BallBounce {
   Vec3 velocity;
   Vec3 spin;
@@ -38,7 +39,8 @@ BallBounce bounceBall(const Vec3& velocity, const Vec3& spin, double mu, double 
   const double radius = 0.3;
   const Solid ball = Solid::ball(radius);
   const Inertia inertia = inertiaOf(1000.0, ball.volume(), ball.unitInertia());
-  std::vector<ImpulseBody> bodies{immovable(), impulseBody(inertia, Quat::Identity(), Vec3::Zero(), {frame * velocity, frame * spin})};
+  std::vector<ImpulseBody> bodies{
+      immovable(), impulseBody(inertia, Quat::Identity(), Vec3::Zero(), {frame * velocity, frame * spin})};
   ContactRow row;
   row.a = 0;
   row.b = 1;
@@ -58,7 +60,8 @@ TEST(Collide, OfAnObliqueBallThatSlides_LosesFrictionsShareOfTheNormalImpulse) {
       const Vec3 along(std::cos(heading), std::sin(heading), 0);
       const double mu = 0.1, vt = 5.0, vn = 2.0;  // mu (1 + e) vn <= 0.4 < 2/7 vt
       const BallBounce b = bounceBall(vt * along - Vec3(0, 0, vn), Vec3::Zero(), mu, e, random.rotation());
-      EXPECT_LT((b.velocity - ((vt - mu * (1 + e) * vn) * along + Vec3(0, 0, e * vn))).norm(), 1e-10) << e << ' ' << heading;
+      EXPECT_LT((b.velocity - ((vt - mu * (1 + e) * vn) * along + Vec3(0, 0, e * vn))).norm(), 1e-10)
+          << e << ' ' << heading;
       // I dw = r x J with I = 2/5 m r^2.
       EXPECT_NEAR(b.spin.norm(), 2.5 * mu * (1 + e) * vn / 0.3, 1e-9);
       EXPECT_GT(b.spin.dot(Vec3::UnitZ().cross(along)), 0.0) << "forward spin";
@@ -84,7 +87,9 @@ TEST(Collide, OfABallWithBackspin_CanTurnItRound) {
 
 TEST(Collide, OfAFlatBox_LeavesAtTheRestitutionOnAllCorners) {
   for (double e : {0.0, 0.5, 1.0}) {
-    std::vector<ImpulseBody> bodies{immovable(), impulseBody(boxInertia(3.0, {0.7, 0.3, 0.2}), Quat::Identity(), Vec3(0, 0, 0.1), {Vec3(0, 0, -2), Vec3::Zero()})};
+    std::vector<ImpulseBody> bodies{
+        immovable(), impulseBody(boxInertia(3.0, {0.7, 0.3, 0.2}), Quat::Identity(), Vec3(0, 0, 0.1),
+                                 {Vec3(0, 0, -2), Vec3::Zero()})};
     std::vector<ContactRow> rows;
     for (double x : {-0.35, 0.35})
       for (double y : {-0.15, 0.15}) {
@@ -110,16 +115,20 @@ TEST(Collide, NeverGainsEnergyNorLosesMomentum) {
   for (int i = 0; i < 100000; ++i) {
     const int points = random.integer(1, 4);
     Meeting m = randomMeeting(random, points, random.uniform(0, 2), random.logUniform(1e-6, 1e6));
-    const std::vector<double> restitution(static_cast<std::size_t>(points), random.integer(0, 3) == 0 ? 1.0 : random.uniform(0, 1));
+    const std::vector<double> restitution(static_cast<std::size_t>(points),
+                                          random.integer(0, 3) == 0 ? 1.0 : random.uniform(0, 1));
     const double before = kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]);
     const Vec3 p = linearMomentum(m.bodies[0]) + linearMomentum(m.bodies[1]);
     const Vec3 L = angularMomentum(m.bodies[0]) + angularMomentum(m.bodies[1]);
     const double scale = linearMomentum(m.bodies[0]).norm() + linearMomentum(m.bodies[1]).norm();
     collide(m.rows, m.bodies, restitution);
     // The energies themselves are sums of squares of rounded velocities.
-    ASSERT_LE(kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]), before * (1 + 1e-11)) << "seed " << seed << " case " << i << " points " << points;
-    ASSERT_LT((linearMomentum(m.bodies[0]) + linearMomentum(m.bodies[1]) - p).norm(), 1e-12 * scale) << "seed " << seed << " case " << i;
-    ASSERT_LT((angularMomentum(m.bodies[0]) + angularMomentum(m.bodies[1]) - L).norm(), 1e-12 * scale) << "seed " << seed << " case " << i;
+    ASSERT_LE(kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]), before * (1 + 1e-11))
+        << "seed " << seed << " case " << i << " points " << points;
+    ASSERT_LT((linearMomentum(m.bodies[0]) + linearMomentum(m.bodies[1]) - p).norm(), 1e-12 * scale)
+        << "seed " << seed << " case " << i;
+    ASSERT_LT((angularMomentum(m.bodies[0]) + angularMomentum(m.bodies[1]) - L).norm(), 1e-12 * scale)
+        << "seed " << seed << " case " << i;
   }
 }
 
@@ -134,7 +143,8 @@ TEST(Collide, LeavesNoPointApproaching) {
     for (const ContactRow& row : m.rows) approach = std::min(approach, rowVelocity(row, m.bodies).x());
     collide(m.rows, m.bodies, restitution);
     for (const ContactRow& row : m.rows)
-      ASSERT_GE(rowVelocity(row, m.bodies).x(), 1e-6 * approach) << "seed " << seed << " case " << i << " points " << points;
+      ASSERT_GE(rowVelocity(row, m.bodies).x(), 1e-6 * approach)
+          << "seed " << seed << " case " << i << " points " << points;
   }
 }
 

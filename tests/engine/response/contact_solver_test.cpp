@@ -1,5 +1,5 @@
-// Simultaneous impulses: at convergence the contact conditions hold, friction opposes the motion whichever way it
-// heads, and the answer does not depend on the way there.
+// Simultaneous impulses: at convergence the contact conditions hold, friction opposes the motion whichever
+// way it heads, and the answer does not depend on the way there.
 
 #include "engine/response/contact_solver.h"
 
@@ -28,14 +28,16 @@ TEST(PrepareRow, MakesARightHandedFrameAndItsResponse) {
   }
 }
 
-// Normal: u >= lowest, j >= 0, complementary. Friction: within the cone; where it slips, full and against the slip.
+// Normal: u >= lowest, j >= 0, complementary. Friction: within the cone; where it slips, full and against the
+// slip.
 void expectContactConditions(const Meeting& m, double accuracy) {
   for (const ContactRow& row : m.rows) {
     const Vec3 u = rowVelocity(row, m.bodies);
     const double speed = 1.0, j = row.impulse.x();
     EXPECT_GE(u.x(), row.lowest_speed - accuracy * speed);
     EXPECT_GE(j, 0.0);
-    EXPECT_LT(std::min(j * row.response(0, 0), u.x() - row.lowest_speed), accuracy * speed) << "presses or parts, not both";
+    EXPECT_LT(std::min(j * row.response(0, 0), u.x() - row.lowest_speed), accuracy * speed)
+        << "presses or parts, not both";
     const Vec2 friction = row.impulse.tail<2>(), slip = u.tail<2>();
     EXPECT_LE(friction.norm(), row.friction.static_coefficient * j * (1 + 1e-9) + 1e-15);
     if (slip.norm() < 1e-6 * speed || j * row.response(0, 0) < 1e-6) continue;
@@ -78,7 +80,8 @@ TEST(SolveContacts, BrakesAlikeInEveryDirection) {
     const double angle = degrees * std::numbers::pi / 180;
     const Vec3 heading(std::cos(angle), std::sin(angle), 0);
     Meeting m;
-    m.bodies = {immovable(), impulseBody(inertia, oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, 0.1), {5.0 * heading - Vec3(0, 0, j_normal), Vec3::Zero()})};
+    m.bodies = {immovable(), impulseBody(inertia, oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, 0.1),
+                                         {5.0 * heading - Vec3(0, 0, j_normal), Vec3::Zero()})};
     for (double x : {-0.35, 0.35})
       for (double y : {-0.15, 0.15}) {
         ContactRow row;
@@ -100,7 +103,8 @@ TEST(SolveContacts, HoldsABlockThatTheConeCanHold) {
   const Inertia inertia = boxInertia(1.0, {0.7, 0.3, 0.2});
   for (const double tangent : {0.1, 0.399}) {
     Meeting m;
-    m.bodies = {immovable(), impulseBody(inertia, Quat::Identity(), Vec3(0, 0, 0.1), {Vec3(0.8 * tangent, 0.6 * tangent, -1.0), Vec3::Zero()})};
+    m.bodies = {immovable(), impulseBody(inertia, Quat::Identity(), Vec3(0, 0, 0.1),
+                                         {Vec3(0.8 * tangent, 0.6 * tangent, -1.0), Vec3::Zero()})};
     for (double x : {-0.35, 0.35})
       for (double y : {-0.15, 0.15}) {
         ContactRow row;
@@ -117,8 +121,9 @@ TEST(SolveContacts, HoldsABlockThatTheConeCanHold) {
   }
 }
 
-// A tall block near its tipping point on rough ground: normal and friction impulses work against each other at every
-// corner, and taking them in turn must not go round in circles. Statics: it stands while tan < b / h and tan <= mu.
+// A tall block near its tipping point on rough ground: normal and friction impulses work against each other
+// at every corner, and taking them in turn must not go round in circles. Statics: it stands while tan < b / h
+// and tan <= mu.
 TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
   const Vec3 size(0.3, 0.4, 0.9);
   for (const double mu : {0.4, 1.0, 2.0, 4.0})
@@ -126,7 +131,8 @@ TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
       const Quat tilt = oracle::turned(Vec3::UnitY(), std::atan(tangent));
       const Vec3 center = tilt * Vec3(0, 0, 0.45);
       Meeting m;
-      m.bodies = {immovable(), impulseBody(boxInertia(2.0, size), tilt, center, {Vec3(0, 0, -1), Vec3::Zero()})};
+      m.bodies = {immovable(),
+                  impulseBody(boxInertia(2.0, size), tilt, center, {Vec3(0, 0, -1), Vec3::Zero()})};
       for (double x : {-0.15, 0.15})
         for (double y : {-0.2, 0.2}) {
           ContactRow row;
@@ -140,19 +146,22 @@ TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
           m.rows.push_back(row);
         }
       solveContacts(m.rows, m.bodies, {5000, 1e-13, true});
-      EXPECT_LT(m.bodies[1].velocity.linear.norm() + m.bodies[1].velocity.angular.norm(), 1e-6) << "mu " << mu << " tan " << tangent;
+      EXPECT_LT(m.bodies[1].velocity.linear.norm() + m.bodies[1].velocity.angular.norm(), 1e-6)
+          << "mu " << mu << " tan " << tangent;
     }
 }
 
 // With one point: what the static cone holds is held; beyond it the dynamic coefficient brakes.
-// A point that lay still when its row was prepared is held by the static coefficient, one that slid by the dynamic one.
+// A point that lay still when its row was prepared is held by the static coefficient, one that slid by the
+// dynamic one.
 TEST(SolveContacts, TellsStaticFrictionFromDynamic) {
   const double mu_s = 0.6, mu_d = 0.3;
   for (const bool slid : {false, true})
     for (const double tangent : {0.29, 0.31, 0.59, 0.61}) {
       const Velocity pushed{Vec3(tangent, 0, -1.0), Vec3::Zero()};
       Meeting m;
-      m.bodies = {immovable(), impulseBody(boxInertia(1.0, {1, 1, 1}), Quat::Identity(), Vec3::Zero(), slid ? pushed : Velocity{})};
+      m.bodies = {immovable(), impulseBody(boxInertia(1.0, {1, 1, 1}), Quat::Identity(), Vec3::Zero(),
+                                           slid ? pushed : Velocity{})};
       ContactRow row;
       row.a = 0;
       row.b = 1;
@@ -161,7 +170,8 @@ TEST(SolveContacts, TellsStaticFrictionFromDynamic) {
       m.bodies[1].velocity = pushed;
       m.rows = {row};
       solveContacts(m.rows, m.bodies, kThorough);
-      EXPECT_NEAR(m.bodies[1].velocity.linear.x(), std::max(0.0, tangent - (slid ? mu_d : mu_s)), 1e-12) << tangent << slid;
+      EXPECT_NEAR(m.bodies[1].velocity.linear.x(), std::max(0.0, tangent - (slid ? mu_d : mu_s)), 1e-12)
+          << tangent << slid;
     }
 }
 

@@ -20,10 +20,12 @@ TEST(FrictionlessImpulse, OfTwoPointMasses_IsTheReducedMassTimesTheSpeedChange) 
   b.velocity.linear = Vec3(-1, 0, 3);
   const double reduced = 15.0 / 8.0;
   for (double e : {0.0, 0.5, 1.0})
-    EXPECT_NEAR(frictionlessImpulse(a, b, Vec3::Zero(), Vec3::Zero(), Vec3::UnitX(), e), (1 + e) * reduced * 3.0, 1e-14);
+    EXPECT_NEAR(frictionlessImpulse(a, b, Vec3::Zero(), Vec3::Zero(), Vec3::UnitX(), e),
+                (1 + e) * reduced * 3.0, 1e-14);
 }
 
-// A bar struck across its end by a fixed post answers with 1 / (1/m + (L/2)^2 / I), I = m (L^2 + w^2) / 12 across it.
+// A bar struck across its end by a fixed post answers with 1 / (1/m + (L/2)^2 / I), I = m (L^2 + w^2) / 12
+// across it.
 TEST(FrictionlessImpulse, OfABarStruckAtItsEnd_IsThatOfItsEffectiveMass) {
   Random random(91);
   const double mass = 2.0, L = 1.5, w = 0.1;
@@ -33,7 +35,8 @@ TEST(FrictionlessImpulse, OfABarStruckAtItsEnd_IsThatOfItsEffectiveMass) {
     ImpulseBody bar = impulseBody(boxInertia(mass, {L, w, w}), R, Vec3::Zero(), {});
     const Vec3 n = R * Vec3::UnitZ(), end = R * Vec3(L / 2, 0, 0);
     bar.velocity.linear = -4.0 * n;
-    EXPECT_NEAR(frictionlessImpulse(immovable(), bar, Vec3::Zero(), end, n, 0.5), 1.5 * effective * 4.0, 1e-12);
+    EXPECT_NEAR(frictionlessImpulse(immovable(), bar, Vec3::Zero(), end, n, 0.5), 1.5 * effective * 4.0,
+                1e-12);
   }
 }
 
@@ -84,7 +87,9 @@ TEST(CollisionMatrix, IsTheChangeOfRelativeVelocityPerImpulse) {
   for (int i = 0; i < 100; ++i) {
     Meeting m = randomMeeting(random, 1, 0.0, random.logUniform(0.1, 10));
     const ContactRow& row = m.rows[0];
-    const auto relative = [&] { return Vec3(m.bodies[1].velocity.at(row.r_b) - m.bodies[0].velocity.at(row.r_a)); };
+    const auto relative = [&] {
+      return Vec3(m.bodies[1].velocity.at(row.r_b) - m.bodies[0].velocity.at(row.r_a));
+    };
     const Vec3 before = relative(), impulse = random.direction();
     const Mat3 K = collisionMatrix(m.bodies[0], m.bodies[1], row.r_a, row.r_b);
     m.bodies[0].apply(-impulse, row.r_a);

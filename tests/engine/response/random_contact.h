@@ -13,11 +13,14 @@ inline Inertia boxInertia(double mass_kg, const Vec3& size_m) {
   return inertiaOf(mass_kg / box.volume(), box.volume(), box.unitInertia());
 }
 
-inline ImpulseBody impulseBody(const Inertia& inertia, const Quat& R_WB, const Vec3& center, const Velocity& velocity) {
+inline ImpulseBody impulseBody(const Inertia& inertia, const Quat& R_WB, const Vec3& center,
+                               const Velocity& velocity) {
   return {velocity, center, inertia.inverse_mass, inverseTensorInWorld(inertia, R_WB)};
 }
 
-inline ImpulseBody immovable() { return {}; }
+inline ImpulseBody immovable() {
+  return {};
+}
 
 inline double kineticEnergy(const ImpulseBody& b) {
   if (b.inverse_mass == 0.0) return 0.0;
@@ -45,7 +48,8 @@ inline Meeting randomMeeting(oracle::Random& random, int points, double friction
   for (double side : {-1.0, 1.0}) {
     const Vec3 size(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1));
     const Inertia inertia = boxInertia(side < 0 ? 1.0 : mass_ratio, size);
-    const Velocity v{-side * random.uniform(0.5, 3) * n + random.uniform(0, 3) * random.direction(), random.uniform(0, 2) * random.direction()};
+    const Velocity v{-side * random.uniform(0.5, 3) * n + random.uniform(0, 3) * random.direction(),
+                     random.uniform(0, 2) * random.direction()};
     m.bodies.push_back(impulseBody(inertia, random.rotation(), side * 0.5 * n + 0.1 * random.direction(), v));
   }
   const TangentBasis t = tangentBasis(n);

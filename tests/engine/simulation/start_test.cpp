@@ -1,4 +1,5 @@
-// Starting poses: overlaps are named with their depth, touching bodies are moved apart upwards, the rest is left alone.
+// Starting poses: overlaps are named with their depth, touching bodies are moved apart upwards, the rest is
+// left alone.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,8 @@ namespace {
 
 class Start : public testing::Test {
  protected:
-  int box(const Vec3& size, const Vec3& position, bool is_static = false, const Quat& turn = Quat::Identity()) {
+  int box(const Vec3& size, const Vec3& position, bool is_static = false,
+          const Quat& turn = Quat::Identity()) {
     BodyDescription d;
     d.solid = world_.addSolid(Solid::box(size));
     d.X_WB = {turn, position};
@@ -63,7 +65,8 @@ TEST_F(Start, LeavesBodiesApartWhereTheyAre) {
 TEST_F(Start, OpensExactTouchUpwards) {
   box({10, 10, 1}, Vec3(0, 0, -0.5), true);
   std::vector<int> tower;
-  for (int i = 0; i < 5; ++i) tower.push_back(box({1, 1, 1}, Vec3(0, 0, 0.5 + i), false, oracle::turned(Vec3::UnitZ(), 0.2 * i)));
+  for (int i = 0; i < 5; ++i)
+    tower.push_back(box({1, 1, 1}, Vec3(0, 0, 0.5 + i), false, oracle::turned(Vec3::UnitZ(), 0.2 * i)));
   ASSERT_TRUE(world_.start().empty());
   EXPECT_GT(oracle::smallestGap(world_).gap_m, 0.19e-3);
   for (int i = 0; i < 5; ++i) {

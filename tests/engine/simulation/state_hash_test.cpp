@@ -24,7 +24,8 @@ TEST(StateHash, IsFnv1a) {
   EXPECT_EQ(hashOf(std::uint64_t{0}), 0xa8c7f832281a39c5ull);
   EXPECT_EQ(hashOf(std::uint64_t{0x0102030405060708}), 0x0c6d4496e17859d5ull);
   EXPECT_EQ(hashOf(1.5), 0xaa95e93229a27c80ull);
-  EXPECT_EQ(hashOf(std::uint64_t{0x0000726162'6f6f66}), 0x74c8e7eb4f245c28ull);  // "foobar" and two zero bytes
+  EXPECT_EQ(hashOf(std::uint64_t{0x0000726162'6f6f66}),
+            0x74c8e7eb4f245c28ull);  // "foobar" and two zero bytes
 }
 
 TEST(StateHash, TellsNeighbouringNumbersApart) {
@@ -33,7 +34,9 @@ TEST(StateHash, TellsNeighbouringNumbersApart) {
   EXPECT_NE(hashOf(1.0), hashOf(-1.0));
 }
 
-TEST(StateHash, TakesBothZerosForOneState) { EXPECT_EQ(hashOf(0.0), hashOf(-0.0)); }
+TEST(StateHash, TakesBothZerosForOneState) {
+  EXPECT_EQ(hashOf(0.0), hashOf(-0.0));
+}
 
 TEST(StateHash, DependsOnTheOrder) {
   EXPECT_NE(hashOf(1.0, 2.0), hashOf(2.0, 1.0));

@@ -17,13 +17,16 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-int addBox(World& w, const Vec3& size, const Pose& X, const Vec3& velocity = Vec3::Zero(), const Material& material = {}, bool is_static = false) {
+int addBox(World& w, const Vec3& size, const Pose& X, const Vec3& velocity = Vec3::Zero(),
+           const Material& material = {}, bool is_static = false) {
   return w.addBody({w.addSolid(Solid::box(size)), X, velocity, Vec3::Zero(), material, is_static});
 }
 int addGround(World& w, const Material& material = {}) {
   return addBox(w, {40, 40, 1}, {Quat::Identity(), Vec3(0, 0, -0.5)}, Vec3::Zero(), material, true);
 }
-const BodyState& state(const World& w, int body) { return w.states()[static_cast<std::size_t>(body)]; }
+const BodyState& state(const World& w, int body) {
+  return w.states()[static_cast<std::size_t>(body)];
+}
 void run(World& w, int steps) {
   for (int i = 0; i < steps; ++i) w.step();
 }
@@ -157,8 +160,14 @@ TEST(World, CarriesCompoundBodiesAsOne) {
   World w{WorldSettings{}};
   addGround(w);
   // A dumb-bell of two boxes: it lies on both.
-  const Solid bell({{boxPolyhedron({0.4, 0.4, 0.4}).translated({-0.6, 0, 0}), 0.0}, {boxPolyhedron({0.4, 0.4, 0.4}).translated({0.6, 0, 0}), 0.0}});
-  const int b = w.addBody({w.addSolid(bell), {oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, 0.5)}, Vec3::Zero(), Vec3::Zero(), {}, false});
+  const Solid bell({{boxPolyhedron({0.4, 0.4, 0.4}).translated({-0.6, 0, 0}), 0.0},
+                    {boxPolyhedron({0.4, 0.4, 0.4}).translated({0.6, 0, 0}), 0.0}});
+  const int b = w.addBody({w.addSolid(bell),
+                           {oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, 0.5)},
+                           Vec3::Zero(),
+                           Vec3::Zero(),
+                           {},
+                           false});
   ASSERT_TRUE(w.start().empty());
   run(w, 480);
   EXPECT_EQ(state(w, b).mode, Mode::kResting);

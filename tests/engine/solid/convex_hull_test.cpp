@@ -100,7 +100,8 @@ TEST(ConvexHull, PrismOverA200Gon_HasTwoLargeFaces) {
   EXPECT_EQ(hull.polyhedron.faceCount(), 202);
   EXPECT_EQ(hull.polyhedron.vertexCount(), 400);
   int large = 0;
-  for (int f = 0; f < hull.polyhedron.faceCount(); ++f) large += hull.polyhedron.faceVertices(f).size() == 200;
+  for (int f = 0; f < hull.polyhedron.faceCount(); ++f)
+    large += hull.polyhedron.faceVertices(f).size() == 200;
   EXPECT_EQ(large, 2);
 }
 
@@ -118,7 +119,8 @@ TEST(ConvexHull, SmallLargeAndFarAway_IsTheSameShape) {
   for (double size : {1e-3, 1.0, 100.0})
     for (double away : {0.0, 1e4}) {
       std::vector<Vec3> points;
-      for (const Vec3& v : oracle::dodecahedronPoints()) points.push_back(size * v + Vec3(away, -away, 0.5 * away) * size);
+      for (const Vec3& v : oracle::dodecahedronPoints())
+        points.push_back(size * v + Vec3(away, -away, 0.5 * away) * size);
       EXPECT_EQ(convexHull(points).polyhedron.vertexCount(), 20) << size << " at " << away;
       if (away > 0.0) continue;  // rounded coordinates are not coplanar any more
       EXPECT_EQ(convexHull(points).polyhedron.faceCount(), 12) << size;
@@ -140,7 +142,9 @@ TEST(ConvexHull, NonFinitePoints_AreRefused) {
   }
 }
 
-TEST(ConvexHull, CoincidentPoints_AreRefused) { expectRefused(std::vector<Vec3>(9, Vec3(1, 2, 3)), "coincide"); }
+TEST(ConvexHull, CoincidentPoints_AreRefused) {
+  expectRefused(std::vector<Vec3>(9, Vec3(1, 2, 3)), "coincide");
+}
 
 TEST(ConvexHull, CollinearPoints_AreRefused) {
   std::vector<Vec3> points;

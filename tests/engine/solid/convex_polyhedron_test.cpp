@@ -1,4 +1,5 @@
-// The neighbourhood invariants of a polyhedron, its support and width against brute force, and what it refuses.
+// The neighbourhood invariants of a polyhedron, its support and width against brute force, and what it
+// refuses.
 
 #include "engine/solid/convex_polyhedron.h"
 
@@ -16,8 +17,9 @@ using oracle::Random;
 
 std::vector<ConvexPolyhedron> population() {
   Random random(31);
-  std::vector<ConvexPolyhedron> all{boxPolyhedron({1, 2, 3}),    oracle::triangulatedBox({1, 2, 3}), oracle::tetrahedron(),
-                                    oracle::octahedron(),        oracle::icosahedron(),              oracle::dodecahedron(),
+  std::vector<ConvexPolyhedron> all{boxPolyhedron({1, 2, 3}),    oracle::triangulatedBox({1, 2, 3}),
+                                    oracle::tetrahedron(),       oracle::octahedron(),
+                                    oracle::icosahedron(),       oracle::dodecahedron(),
                                     oracle::prism(60, 1.0, 0.2), oracle::prism(200, 0.5, 3.0)};
   for (int n : {4, 5, 8, 20, 62, 252}) all.push_back(oracle::randomHull(random, n));
   all.push_back(oracle::randomHull(random, 40, Vec3(1, 1e-3, 1e-3)));
@@ -25,7 +27,8 @@ std::vector<ConvexPolyhedron> population() {
 }
 
 TEST(ConvexPolyhedron, SatisfiesEuler) {
-  for (const ConvexPolyhedron& p : population()) EXPECT_EQ(p.vertexCount() - p.edgeCount() + p.faceCount(), 2);
+  for (const ConvexPolyhedron& p : population())
+    EXPECT_EQ(p.vertexCount() - p.edgeCount() + p.faceCount(), 2);
 }
 
 TEST(ConvexPolyhedron, EveryEdgeKnowsItsFacesAndTheyKnowIt) {
@@ -120,8 +123,9 @@ TEST(Support, ClimbsAcrossCoplanarFacesAndLevelEdges) {
         EXPECT_NEAR(d.dot(p.vertex(p.support(d, start))), highest(p, d), 1e-14);
 }
 
-// Short edges, and directions almost square to them: the difference of two heights along them is all rounding, but a
-// climb that stops there misses what lies beyond. Heights within 1e-15 of level may be taken as equal.
+// Short edges, and directions almost square to them: the difference of two heights along them is all
+// rounding, but a climb that stops there misses what lies beyond. Heights within 1e-15 of level may be taken
+// as equal.
 TEST(Support, ClimbsAlongEdgesFarShorterThanTheSolid) {
   std::vector<Vec3> points = boxPolyhedron({1, 2, 3}).vertices();
   points.pop_back();  // the corner (0.5, 1, 1.5), cut off
@@ -155,7 +159,8 @@ TEST(ConvexPolyhedron, TranslationMovesVerticesAndPlanesTogether) {
   const ConvexPolyhedron p = oracle::dodecahedron(), q = p.translated(shift);
   for (int v = 0; v < p.vertexCount(); ++v) EXPECT_EQ(q.vertex(v), Vec3(p.vertex(v) + shift));
   for (int f = 0; f < p.faceCount(); ++f)
-    EXPECT_NEAR(q.plane(f).signedDistance(p.vertex(0) + shift), p.plane(f).signedDistance(p.vertex(0)), 1e-14);
+    EXPECT_NEAR(q.plane(f).signedDistance(p.vertex(0) + shift), p.plane(f).signedDistance(p.vertex(0)),
+                1e-14);
 }
 
 TEST(ConvexPolyhedron, PointAndSegment_AreTheFacelessMembers) {
@@ -200,13 +205,15 @@ TEST(ConvexPolyhedron, RefusesWhatIsNotAClosedConvexSurface) {
 TEST(ConvexPolyhedron, RefusesADentAndABentFace) {
   const ConvexPolyhedron box = oracle::triangulatedBox(Vec3::Ones());
   Loops loops;
-  for (int f = 0; f < box.faceCount(); ++f) loops.emplace_back(box.faceVertices(f).begin(), box.faceVertices(f).end());
+  for (int f = 0; f < box.faceCount(); ++f)
+    loops.emplace_back(box.faceVertices(f).begin(), box.faceVertices(f).end());
   std::vector<Vec3> dented = box.vertices();
   dented[7] = Vec3(0.1, 0.1, 0.1);
   expectRefused(dented, loops, "");
   const ConvexPolyhedron plain = boxPolyhedron(Vec3::Ones());
   Loops quads;
-  for (int f = 0; f < plain.faceCount(); ++f) quads.emplace_back(plain.faceVertices(f).begin(), plain.faceVertices(f).end());
+  for (int f = 0; f < plain.faceCount(); ++f)
+    quads.emplace_back(plain.faceVertices(f).begin(), plain.faceVertices(f).end());
   std::vector<Vec3> bent = plain.vertices();
   bent[7] += Vec3(0, 0, 0.01);
   expectRefused(bent, quads, "not planar");

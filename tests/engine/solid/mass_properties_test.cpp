@@ -20,7 +20,8 @@ ConvexPolyhedron moved(const ConvexPolyhedron& p, const Pose& X) {
   std::vector<Vec3> vertices;
   for (const Vec3& v : p.vertices()) vertices.push_back(X * v);
   std::vector<std::vector<int>> loops;
-  for (int f = 0; f < p.faceCount(); ++f) loops.emplace_back(p.faceVertices(f).begin(), p.faceVertices(f).end());
+  for (int f = 0; f < p.faceCount(); ++f)
+    loops.emplace_back(p.faceVertices(f).begin(), p.faceVertices(f).end());
   return ConvexPolyhedron::fromFaces(vertices, loops);
 }
 
@@ -31,7 +32,8 @@ void expectEqual(const MassProperties& got, const MassProperties& want, double r
   EXPECT_LT((got.inertia - want.inertia).norm(), relative * want.inertia.norm()) << what;
 }
 
-// In its own frame, in a general pose, and 10^4 sizes away, where the vertices themselves are rounded to 1e-12.
+// In its own frame, in a general pose, and 10^4 sizes away, where the vertices themselves are rounded to
+// 1e-12.
 void expectEverywhere(const ConvexPolyhedron& p, const MassProperties& want, const char* what) {
   expectEqual(polyhedronMass(p), want, 1e-14, what);
   const Pose turned{oracle::turned(Vec3(1, -2, 0.5), 1.1), Vec3(0.3, -0.7, 1.9)};
@@ -59,7 +61,8 @@ TEST(PolyhedronMass, OfTheRegularSolids) {
       {"tetrahedron", oracle::tetrahedron(), 2 * sqrt2, 8.0 / 3, 1.0 / 20},
       {"octahedron", oracle::octahedron(), sqrt2, 4.0 / 3, 1.0 / 10},
       {"icosahedron", oracle::icosahedron(), 2.0, 8 * 5 * (3 + sqrt5) / 12, phi * phi / 10},
-      {"dodecahedron", oracle::dodecahedron(), 2 / phi, (15 + 7 * sqrt5) / 4 * 8 / (phi * phi * phi), (39 * phi + 28) / 150},
+      {"dodecahedron", oracle::dodecahedron(), 2 / phi, (15 + 7 * sqrt5) / 4 * 8 / (phi * phi * phi),
+       (39 * phi + 28) / 150},
   };
   for (const auto& [name, solid, s, volume, per_mass] : solids)
     expectEverywhere(solid, {volume, Vec3::Zero(), volume * per_mass * s * s * Mat3::Identity()}, name);
@@ -84,7 +87,8 @@ TEST(PolyhedronMass, OfAPrismOverARegularPolygon) {
     const double area = 0.5 * n * R * R * std::sin(turn), m = area * h;
     const double polar = m * R * R * (2 + std::cos(turn)) / 6;  // about the axis
     const double across = polar / 2 + m * h * h / 12;
-    expectEverywhere(oracle::prism(n, R, h), {m, Vec3::Zero(), Vec3(across, across, polar).asDiagonal()}, "prism");
+    expectEverywhere(oracle::prism(n, R, h), {m, Vec3::Zero(), Vec3(across, across, polar).asDiagonal()},
+                     "prism");
   }
 }
 
@@ -121,14 +125,17 @@ TEST(CapsuleMass, IsTheSumOfItsDiscs) {
 
 TEST(CapsuleMass, TurnsWithItsAxis) {
   const Pose X{oracle::turned(Vec3(1, 2, 3), 0.9), Vec3(4, -5, 6)};
-  expectEqual(capsuleMass(X * Vec3(0, 0, -1), X * Vec3(0, 0, 1), 0.4), moved(capsuleMass({0, 0, -1}, {0, 0, 1}, 0.4), X),
-              1e-14, "turned capsule");
+  expectEqual(capsuleMass(X * Vec3(0, 0, -1), X * Vec3(0, 0, 1), 0.4),
+              moved(capsuleMass({0, 0, -1}, {0, 0, 1}, 0.4), X), 1e-14, "turned capsule");
 }
 
 TEST(CombinedMass, OfTwoHalvesIsTheWhole) {
-  const MassProperties left = moved(polyhedronMass(boxPolyhedron({1, 2, 3})), {Quat::Identity(), Vec3(-0.5, 0, 0)});
-  const MassProperties right = moved(polyhedronMass(boxPolyhedron({1, 2, 3})), {Quat::Identity(), Vec3(0.5, 0, 0)});
-  expectEqual(MassProperties::combined(left, right), polyhedronMass(boxPolyhedron({2, 2, 3})), 1e-14, "two halves");
+  const MassProperties left =
+      moved(polyhedronMass(boxPolyhedron({1, 2, 3})), {Quat::Identity(), Vec3(-0.5, 0, 0)});
+  const MassProperties right =
+      moved(polyhedronMass(boxPolyhedron({1, 2, 3})), {Quat::Identity(), Vec3(0.5, 0, 0)});
+  expectEqual(MassProperties::combined(left, right), polyhedronMass(boxPolyhedron({2, 2, 3})), 1e-14,
+              "two halves");
 }
 
 }  // namespace
