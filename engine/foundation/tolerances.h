@@ -23,7 +23,7 @@ inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatt
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
 inline constexpr int kSolverSweeps = 60;           // per step and island, warm started, at least ...
-inline constexpr int kSolverRowVisits = 20000;     // ... and as many more as make this many visits of a row
+inline constexpr int kSolverRowVisits = 8000;      // ... and as many more as make this many visits of a row
 inline constexpr double kGapGain = 0.2;            // share of the missing gap reopened in a step
 inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopening
 
