@@ -127,12 +127,8 @@ class EventLoop {
   // The event's bodies and what is in contact with them, over a few hops: two bodies at a time would pass an
   // impulse to and fro between three that touch.
   Cluster contactCluster(const Event& event) {
-    Cluster cluster;
+    Cluster cluster = pairCluster(event);
     cluster.opens_gaps = true;
-    const ShapePair& first = table_.pairs()[at(event.pair)];
-    addMember(cluster, first.body_a, event.time_s);
-    addMember(cluster, first.body_b, event.time_s);
-    addPair(cluster, event.pair, event.impact.closest, event.time_s);
     std::vector<int> included{event.pair};
     std::size_t begin = 0;
     for (int hop = 0; hop < kClusterHops; ++hop) {
@@ -212,7 +208,7 @@ class EventLoop {
 
   // New paths with the velocities after the collision. Where gaps are to reopen, gravity is given for the
   // rest of the step and the contacts bound the paths once more.
-  void setPaths(Cluster& cluster, double time_s) {
+  void setPaths(const Cluster& cluster, double time_s) {
     const double rest_of_step = settings_.step_s - time_s;
     for (std::size_t i = 0; i < cluster.members.size(); ++i) {
       Body& body = bodies_[at(cluster.members[i])];
@@ -228,7 +224,7 @@ class EventLoop {
     if (cluster.opens_gaps) openGaps(cluster);
   }
 
-  void openGaps(Cluster& cluster) {
+  void openGaps(const Cluster& cluster) {
     std::vector<ImpulseBody> paths = cluster.bodies;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const Body& body = bodies_[at(cluster.members[i])];

@@ -70,8 +70,8 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   }
 }
 
-ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&,
-                              const std::vector<Shape>& shapes, const Vec3& gravity) const {
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes,
+                              const Vec3& gravity) const {
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   const Shape& a = shapes[at(shapes_of_pair.a)];
@@ -103,7 +103,7 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
       fresh.push_back(*old);
       continue;
     }
-    ShapePair pair = makePair(shapes_of_pair, bodies, shapes, gravity);
+    ShapePair pair = makePair(shapes_of_pair, shapes, gravity);
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
@@ -134,7 +134,7 @@ std::size_t PairTable::extend(int body, double time_s, double end_s, const std::
             return pairs_[at(p)].shapes == IndexPair{low, high};
           }))
         continue;
-      ShapePair pair = makePair({low, high}, bodies, shapes, gravity);
+      ShapePair pair = makePair({low, high}, shapes, gravity);
       pair.closest =
           closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
                           *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);

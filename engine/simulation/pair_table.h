@@ -54,8 +54,7 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const Vec3& gravity) const;
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes, const Vec3& gravity) const;
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;
