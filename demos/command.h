@@ -62,6 +62,17 @@ struct CheckOptions {
 };
 ExitCode check(const CheckOptions& options);
 
+/// Either two meshes and their poses, or a batch.
+struct DistanceOptions {
+  std::string mesh_a;
+  std::string mesh_b;
+  std::string pose_a;  ///< "x,y,z" or "x,y,z,qw,qx,qy,qz"; empty: identity.
+  std::string pose_b;
+  std::string batch;  ///< A file of JSON lines, "-" for standard input, or empty.
+  bool cold = false;
+};
+ExitCode distance(const DistanceOptions& options);
+
 ExitCode doctor();
 
 }  // namespace carom::demos

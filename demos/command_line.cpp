@@ -77,16 +77,19 @@ struct CommandLine {
   RenderOptions render_options;
   SimulateOptions simulate_options;
   CheckOptions check_options;
+  DistanceOptions distance_options;
   std::string size;
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
   CLI::App* simulate_command = nullptr;
   CLI::App* check_command = nullptr;
+  CLI::App* distance_command = nullptr;
   CLI::App* doctor_command = nullptr;
 
   CommandLine();
   void addRender();
   void addSimulate();
+  void addDistance();
 };
 
 CommandLine::CommandLine() {
@@ -107,6 +110,7 @@ CommandLine::CommandLine() {
   check_command->add_option("--mesh", check_options.choice.mesh,
                             "A mesh file in place of the scene's replaceable hulls");
   check_command->footer("Example: carom check assets/meshes/gem.obj");
+  addDistance();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   doctor_command->footer("Example: carom doctor");
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
@@ -145,6 +149,27 @@ void CommandLine::addSimulate() {
                                "Exit 1 when the final state hash differs");
   addTellingOptions(*simulate_command, simulate_options.telling);
   simulate_command->footer("Example: carom simulate resting --csv run.csv --audit steps.csv");
+}
+
+void CommandLine::addDistance() {
+  DistanceOptions& options = distance_options;
+  distance_command = app.add_subcommand(
+      "distance",
+      "Closest features, distance or depth of two meshes, as JSON; all meshes of a file count\n"
+      "together, as one convex hull that stands where the file puts it");
+  distance_command->add_option("A", options.mesh_a, "A mesh file");
+  distance_command->add_option("B", options.mesh_b, "A mesh file");
+  distance_command->add_option("--pose-a", options.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz of A (identity)");
+  distance_command->add_option("--pose-b", options.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz of B (identity)");
+  distance_command->add_option("--batch", options.batch,
+                               "Queries, one JSON object a line, from a file or - for standard input; one\n"
+                               "answer a line, in order; exit 3 at the end if a line has an \"error\"");
+  distance_command->add_flag("--cold", options.cold,
+                             "Starts each query of --batch afresh, not from the features of the one before");
+  distance_command->footer(
+      "Example: carom distance cube.obj gem.obj --pose-b 0.9,0.1,0,1,0,0,0\n"
+      "A line of --batch: {\"a\": \"cube.obj\", \"b\": \"gem.obj\",\n"
+      "                    \"poseB\": {\"position\": [0.9, 0.1, 0], \"rotation\": [1, 0, 0, 0]}}");
 }
 
 std::vector<std::string> optionNames(const CLI::App& command) {
@@ -215,6 +240,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.render_command->parsed()) return render(line.render_options);
   if (line.simulate_command->parsed()) return simulate(line.simulate_options);
   if (line.check_command->parsed()) return check(line.check_options);
+  if (line.distance_command->parsed()) return distance(line.distance_options);
   return doctor();
 }
 

@@ -183,8 +183,8 @@ Json Json::object(std::initializer_list<Member> members) {
   return value;
 }
 
-Json Json::parse(std::string_view text, const std::string& origin) {
-  int line = 1;
+Json Json::parse(std::string_view text, const std::string& origin, int first_line) {
+  int line = first_line;
   JsonBuilder builder(origin, &line);
   nlohmann::json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), &line),
                             &builder, nlohmann::json::input_format_t::json, true, true);

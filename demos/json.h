@@ -26,8 +26,9 @@ class Json {
   static Json array(std::vector<Json> items = {});
   static Json object(std::initializer_list<Member> members = {});
 
-  /// Parses a text; `origin` stands for the file's name in messages.
-  static Json parse(std::string_view text, const std::string& origin);
+  /// Parses a text; `origin` stands for the file's name in messages, `first_line` for where in it the text
+  /// begins.
+  static Json parse(std::string_view text, const std::string& origin, int first_line = 1);
 
   Kind kind() const { return kind_; }
   int line() const { return line_; }

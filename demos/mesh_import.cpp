@@ -1,5 +1,6 @@
 #include "demos/mesh_import.h"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -15,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostParts = 1024;
+constexpr double kRounding = 0x1p-24;  // of assimp's single-precision coordinates
 
 std::string oneLine(std::string text) {
   for (char& c : text)
@@ -89,8 +91,11 @@ ImportedMesh importMesh(const fs::path& path) {
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mRootNode == nullptr)
     throw InputError(path.string() + ": cannot be read as a mesh: " + oneLine(importer.GetErrorString()));
-  ImportedMesh mesh{collectParts(*scene, path)};
+  ImportedMesh mesh{collectParts(*scene, path), 0.0};
   if (mesh.parts.empty()) throw InputError(path.string() + ": holds no mesh with faces");
+  for (const std::vector<Vec3>& part : mesh.parts)
+    for (const Vec3& p : part)
+      mesh.coordinate_error_m = std::max(mesh.coordinate_error_m, kRounding * p.cwiseAbs().maxCoeff());
   return mesh;
 }
 

@@ -13,6 +13,8 @@ namespace carom::demos {
 /// The vertices of each mesh of a file, in the file's own frame.
 struct ImportedMesh {
   std::vector<std::vector<Vec3>> parts;
+  double coordinate_error_m =
+      0.0;  ///< How far a coordinate may be from what the file means: single precision.
 };
 
 /// Throws InputError for a file that is missing, unreadable, empty, or has a vertex that is not finite.

@@ -11,7 +11,8 @@ namespace {
 
 using Mesh = std::optional<std::filesystem::path>;
 
-void fitInto(std::vector<std::vector<Vec3>>& parts, double longest_m) {
+/// Returns the factor that the parts were scaled by.
+double fitInto(std::vector<std::vector<Vec3>>& parts, double longest_m) {
   Eigen::AlignedBox3d bounds;
   for (const std::vector<Vec3>& part : parts)
     for (const Vec3& p : part) bounds.extend(p);
@@ -20,6 +21,7 @@ void fitInto(std::vector<std::vector<Vec3>>& parts, double longest_m) {
   const Vec3 middle = bounds.center();
   for (std::vector<Vec3>& part : parts)
     for (Vec3& p : part) p = (p - middle) * (longest_m / longest);
+  return longest_m / longest;
 }
 
 /// The same part moved; its frame S was P before.
@@ -73,19 +75,21 @@ std::vector<ConvexPart> makeParts(const Shape& shape, const Mesh& mesh) {
 }  // namespace
 
 MeshSolid meshParts(const std::filesystem::path& path, double scale, const std::optional<double>& fit_m) {
-  std::vector<std::vector<Vec3>> meshes = importMesh(path).parts;
+  auto [meshes, coordinate_error_m] = importMesh(path);
   for (std::vector<Vec3>& mesh : meshes)
     for (Vec3& p : mesh) p *= scale;
+  coordinate_error_m *= scale;
   MeshSolid solid;
   std::string reason;
   try {
-    if (fit_m) fitInto(meshes, *fit_m);
+    if (fit_m) coordinate_error_m *= fitInto(meshes, *fit_m);
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
   }
   for (const std::vector<Vec3>& mesh : meshes) {
     try {
-      solid.parts.push_back({convexHull(mesh).polyhedron, 0.0});
+      const HullSettings settings{.coordinate_error_m = coordinate_error_m};
+      solid.parts.push_back({convexHull(mesh, settings).polyhedron, 0.0});
     } catch (const InputError& error) {
       ++solid.flat_parts;
       reason = error.what();
@@ -93,6 +97,17 @@ MeshSolid meshParts(const std::filesystem::path& path, double scale, const std::
   }
   if (solid.parts.empty()) throw InputError(path.string() + ": " + reason);
   return solid;
+}
+
+ConvexPolyhedron meshHull(const std::filesystem::path& path) {
+  const ImportedMesh file = importMesh(path);
+  std::vector<Vec3> points;
+  for (const std::vector<Vec3>& mesh : file.parts) points.insert(points.end(), mesh.begin(), mesh.end());
+  try {
+    return convexHull(points, {.coordinate_error_m = file.coordinate_error_m}).polyhedron;
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
 }
 
 Solid makeSolid(const Shape& shape, const Mesh& mesh) {

@@ -20,6 +20,10 @@ struct MeshSolid {
 /// the bounding box. Throws InputError when nothing in it encloses a volume.
 MeshSolid meshParts(const std::filesystem::path& path, double scale, const std::optional<double>& fit_m);
 
+/// One hull around all meshes of the file, where they stand in it. Throws InputError, with the path, when
+/// they enclose no volume.
+ConvexPolyhedron meshHull(const std::filesystem::path& path);
+
 /// The solid of a shape; `mesh` takes the place of every replaceable hull's file.
 /// Throws InputError, with the place of the shape, for what encloses no volume.
 Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh);

@@ -1,7 +1,6 @@
 #include "engine/closest_features/feature_distance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "engine/foundation/contract.h"
@@ -9,9 +8,13 @@
 namespace carom {
 namespace {
 
+// The common perpendicular of edges that cross at a smaller angle is uncertain: all ends are tried too.
+constexpr double kClearSineSquared = 1e-6;
+
 struct FeaturePoint {
   Feature feature;
   Vec3 p;
+  double inside_m = std::numeric_limits<double>::infinity();  // from the feature's boundary
 };
 
 // An edge of either polyhedron, in the frame of A.
@@ -24,20 +27,14 @@ struct Segment {
   FeaturePoint at(double s) const {
     if (s <= 0.0) return {vertexFeature(tail_index), tail};
     if (s >= length_m) return {vertexFeature(head_index), head};
-    return {edgeFeature(index), tail + s * direction};
+    return {edgeFeature(index), tail + s * direction, std::min(s, length_m - s)};
   }
-  double arcLengthOf(const Vec3& p) const { return direction.dot(p - tail); }
+  FeaturePoint nearest(const Vec3& p) const { return at(direction.dot(p - tail)); }
 };
 
-Segment segmentOfA(const PolyhedronPair& pair, int e) {
-  const Edge& edge = pair.a.edge(e);
-  return {e,
-          edge.tail,
-          edge.head,
-          pair.a.vertex(edge.tail),
-          pair.a.vertex(edge.head),
-          edge.direction,
-          edge.length_m};
+Segment segmentOf(const ConvexPolyhedron& a, int e) {
+  const Edge& edge = a.edge(e);
+  return {e, edge.tail, edge.head, a.vertex(edge.tail), a.vertex(edge.head), edge.direction, edge.length_m};
 }
 
 Segment segmentOfB(const PolyhedronPair& pair, int e) {
@@ -47,137 +44,161 @@ Segment segmentOfB(const PolyhedronPair& pair, int e) {
           edge.head,
           pair.toA(pair.b.vertex(edge.tail)),
           pair.toA(pair.b.vertex(edge.head)),
-          pair.R_AB * edge.direction,
+          pair.directionToA(edge.direction),
           edge.length_m};
 }
 
 FeatureDistance measure(const FeaturePoint& on_a, const FeaturePoint& on_b) {
-  return {{on_a.feature, on_b.feature}, on_a.p, on_b.p, (on_b.p - on_a.p).norm(), false, false};
+  return {{on_a.feature, on_b.feature},
+          on_a.p,
+          on_b.p,
+          (on_b.p - on_a.p).squaredNorm(),
+          std::min(on_a.inside_m, on_b.inside_m)};
 }
 
 void keepCloser(FeatureDistance& best, const FeatureDistance& other) {
-  if (other.distance_m < best.distance_m) best = other;
+  if (other.squared_m2 < best.squared_m2) best = other;
 }
 
-// E-E. The common perpendicular's feet when both lie inside; else an end of one against the other.
-// Near-parallel edges make the feet uncertain but not the distance, because every candidate is measured
-// between points.
+// The ends of each edge against the other edge: what is closest when the common perpendicular is not.
+FeatureDistance closestAtAnEnd(const Segment& e1, const Segment& e2) {
+  FeatureDistance best = measure(e1.at(0.0), e2.nearest(e1.tail));
+  keepCloser(best, measure(e1.at(e1.length_m), e2.nearest(e1.head)));
+  keepCloser(best, measure(e1.nearest(e2.tail), e2.at(0.0)));
+  keepCloser(best, measure(e1.nearest(e2.head), e2.at(e2.length_m)));
+  return best;
+}
+
+// E-E. The common perpendicular's feet; where one lies beyond an end, that end against the other edge.
+// Between near-parallel edges the feet are uncertain but not the distance, because every candidate is
+// measured between points.
 FeatureDistance edgeEdge(const Segment& e1, const Segment& e2) {
-  FeatureDistance best;
-  best.distance_m = std::numeric_limits<double>::infinity();
   const Vec3 n = e1.direction.cross(e2.direction);
   const double sine_squared = n.squaredNorm();
-  if (sine_squared > 0.0) {
-    const double s1 = (e2.tail - e1.tail).cross(e2.direction).dot(n) / sine_squared;
-    if (s1 > 0.0 && s1 < e1.length_m) {
-      const FeaturePoint on1 = e1.at(s1);
-      const double s2 = e2.arcLengthOf(on1.p);
-      if (s2 > 0.0 && s2 < e2.length_m) best = measure(on1, e2.at(s2));
-    }
-  }
-  for (const double s1 : {0.0, e1.length_m}) {
-    const FeaturePoint on1 = e1.at(s1);
-    keepCloser(best, measure(on1, e2.at(e2.arcLengthOf(on1.p))));
-  }
-  for (const double s2 : {0.0, e2.length_m}) {
-    const FeaturePoint on2 = e2.at(s2);
-    keepCloser(best, measure(e1.at(e1.arcLengthOf(on2.p)), on2));
-  }
+  if (sine_squared == 0.0) return closestAtAnEnd(e1, e2);
+  const double s1 = (e2.tail - e1.tail).cross(e2.direction).dot(n) / sine_squared;
+  FeaturePoint on1 = e1.at(s1);
+  const FeaturePoint on2 = e2.nearest(on1.p);
+  if (on2.feature.kind == FeatureKind::kVertex) on1 = e1.nearest(on2.p);
+  if (sine_squared > kClearSineSquared) return measure(on1, on2);
+  FeatureDistance best = closestAtAnEnd(e1, e2);
+  keepCloser(best, measure(on1, on2));
   return best;
 }
 
 // Whether the foot of p on the face's plane lies within the face: p in the prism over it.
 bool overFace(const ConvexPolyhedron& polyhedron, int face, const Vec3& p) {
-  for (int e : polyhedron.faceEdges(face)) {
-    const Edge& edge = polyhedron.edge(e);
-    if (polyhedron.intoFace(e, face).dot(p - polyhedron.vertex(edge.tail)) < 0.0) return false;
-  }
+  for (const Plane& side : polyhedron.faceSides(face))
+    if (side.signedDistance(p) < 0.0) return false;
   return true;
 }
 
-// V-F with the face on A.
-FeatureDistance faceVertex(const PolyhedronPair& pair, int face, int vertex) {
-  const FeaturePoint on_b{vertexFeature(vertex), pair.toA(pair.b.vertex(vertex))};
-  const Plane& plane = pair.a.plane(face);
-  if (overFace(pair.a, face, on_b.p)) {
-    const double height = plane.signedDistance(on_b.p);
+// V-F with the face on `a`, both in its frame.
+FeatureDistance faceVertex(const ConvexPolyhedron& a, int face, const FeaturePoint& on_b) {
+  const double height = a.plane(face).signedDistance(on_b.p);
+  const std::span<const Plane> sides = a.faceSides(face);
+  double inside = std::numeric_limits<double>::infinity();
+  std::size_t outermost = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (const double h = sides[i].signedDistance(on_b.p); h < inside) {
+      inside = h;
+      outermost = i;
+    }
+  if (inside >= 0.0)
     return {{faceFeature(face), on_b.feature},
-            on_b.p - height * plane.normal,
+            on_b.p - height * a.plane(face).normal,
             on_b.p,
-            std::abs(height),
+            height * height,
+            inside,
             false,
             height < 0.0};
-  }
-  FeatureDistance best;
-  best.distance_m = std::numeric_limits<double>::infinity();
-  for (int e : pair.a.faceEdges(face)) {
-    const Segment side = segmentOfA(pair, e);
-    keepCloser(best, measure(side.at(side.arcLengthOf(on_b.p)), on_b));
+  // The closest point is on a side that the vertex is beyond, at least as far as it is beyond its V-plane.
+  const std::span<const int> edges = a.faceEdges(face);
+  const FeaturePoint nearest = segmentOf(a, edges[outermost]).nearest(on_b.p);
+  if (nearest.feature.kind == FeatureKind::kEdge) return measure(nearest, on_b);
+  FeatureDistance best = measure(nearest, on_b);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const double h = sides[i].signedDistance(on_b.p);
+    if (h < 0.0 && h * h <= best.squared_m2)
+      keepCloser(best, measure(segmentOf(a, edges[i]).nearest(on_b.p), on_b));
   }
   return best;
 }
 
-// E-F with the face on A: the edge pierces it, or an end of the edge or a side of the face is closest.
-FeatureDistance faceEdge(const PolyhedronPair& pair, int face, int e) {
-  const Segment edge = segmentOfB(pair, e);
-  const Plane& plane = pair.a.plane(face);
-  const double h_tail = plane.signedDistance(edge.tail);
-  const double h_head = plane.signedDistance(edge.head);
+// E-F with the face on `a`, both in its frame: the edge pierces it, or an end of the edge or a side of the
+// face is closest.
+FeatureDistance faceEdge(const ConvexPolyhedron& a, int face, const Segment& edge) {
+  const double h_tail = a.plane(face).signedDistance(edge.tail);
+  const double h_head = a.plane(face).signedDistance(edge.head);
   if ((h_tail < 0.0) != (h_head < 0.0)) {
     const FeaturePoint x = edge.at(edge.length_m * (h_tail / (h_tail - h_head)));
-    if (overFace(pair.a, face, x.p)) {
+    if (overFace(a, face, x.p)) {
       FeatureDistance pierced = measure({faceFeature(face), x.p}, x);
       pierced.crossing = true;
       return pierced;
     }
   }
-  FeatureDistance best = faceVertex(pair, face, edge.tail_index);
-  keepCloser(best, faceVertex(pair, face, edge.head_index));
-  for (int side : pair.a.faceEdges(face)) keepCloser(best, edgeEdge(segmentOfA(pair, side), edge));
+  FeatureDistance best = faceVertex(a, face, edge.at(0.0));
+  keepCloser(best, faceVertex(a, face, edge.at(edge.length_m)));
+  // A side is closest only where the edge reaches beyond its V-plane, and no closer than that.
+  const std::span<const Plane> sides = a.faceSides(face);
+  const std::span<const int> edges = a.faceEdges(face);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const double beyond_tail = sides[i].signedDistance(edge.tail);
+    const double beyond_head = sides[i].signedDistance(edge.head);
+    const double least = std::max(beyond_tail, beyond_head);
+    if (std::min(beyond_tail, beyond_head) > 0.0 || (least < 0.0 && least * least > best.squared_m2))
+      continue;
+    keepCloser(best, edgeEdge(segmentOf(a, edges[i]), edge));
+  }
   return best;
 }
 
-// A result found with the roles swapped, put back: points go to the frame of A.
+// A result found in the frame of B with the roles swapped, put back.
 FeatureDistance unswapped(const PolyhedronPair& pair, const FeatureDistance& r) {
-  return {{r.features.b, r.features.a}, pair.toA(r.p_b), pair.toA(r.p_a), r.distance_m, r.crossing, r.behind};
+  return {{r.features.b, r.features.a},
+          pair.toA(r.p_b),
+          pair.toA(r.p_a),
+          r.squared_m2,
+          r.inside_m,
+          r.crossing,
+          r.behind};
+}
+
+// An edge of A in the frame of B.
+Segment segmentInB(const PolyhedronPair& pair, int e) {
+  const Edge& edge = pair.a.edge(e);
+  return {e,
+          edge.tail,
+          edge.head,
+          pair.toB(pair.a.vertex(edge.tail)),
+          pair.toB(pair.a.vertex(edge.head)),
+          pair.directionToB(edge.direction),
+          edge.length_m};
 }
 
 }  // namespace
-
-PolyhedronPair::PolyhedronPair(const ConvexPolyhedron& a_in, const Pose& X_WA, const ConvexPolyhedron& b_in,
-                               const Pose& X_WB)
-    : a(a_in), b(b_in) {
-  const Mat3 R_AW = X_WA.rotation.toRotationMatrix().transpose();
-  R_AB = R_AW * X_WB.rotation.toRotationMatrix();
-  t_AB = R_AW * (X_WB.position - X_WA.position);
-}
-
-PolyhedronPair PolyhedronPair::swapped() const {
-  return {b, a, R_AB.transpose(), -(R_AB.transpose() * t_AB)};
-}
 
 FeatureDistance featureDistance(const PolyhedronPair& pair, FeaturePair features) {
   const auto [fa, fb] = features;
   using enum FeatureKind;
   if (fb.kind == kFace) {
     REQUIRE(fa.kind != kFace, fa.index, fb.index);
-    return unswapped(pair, featureDistance(pair.swapped(), {fb, fa}));
+    if (fa.kind == kEdge) return unswapped(pair, faceEdge(pair.b, fb.index, segmentInB(pair, fa.index)));
+    const FeaturePoint on_a{fa, pair.toB(pair.a.vertex(fa.index))};
+    return unswapped(pair, faceVertex(pair.b, fb.index, on_a));
   }
-  if (fa.kind == kFace)
-    return fb.kind == kVertex ? faceVertex(pair, fa.index, fb.index) : faceEdge(pair, fa.index, fb.index);
-  if (fa.kind == kEdge && fb.kind == kEdge)
-    return edgeEdge(segmentOfA(pair, fa.index), segmentOfB(pair, fb.index));
-  if (fa.kind == kEdge) {
-    const FeaturePoint on_b{fb, pair.toA(pair.b.vertex(fb.index))};
-    const Segment edge = segmentOfA(pair, fa.index);
-    return measure(edge.at(edge.arcLengthOf(on_b.p)), on_b);
-  }
-  const FeaturePoint on_a{fa, pair.a.vertex(fa.index)};
   if (fb.kind == kEdge) {
     const Segment edge = segmentOfB(pair, fb.index);
-    return measure(on_a, edge.at(edge.arcLengthOf(on_a.p)));
+    if (fa.kind == kFace) return faceEdge(pair.a, fa.index, edge);
+    if (fa.kind == kEdge) return edgeEdge(segmentOf(pair.a, fa.index), edge);
+    const Vec3& p = pair.a.vertex(fa.index);
+    return measure({fa, p}, edge.nearest(p));
   }
-  return measure(on_a, {fb, pair.toA(pair.b.vertex(fb.index))});
+  const FeaturePoint on_b{fb, pair.toA(pair.b.vertex(fb.index))};
+  if (fa.kind == kFace) return faceVertex(pair.a, fa.index, on_b);
+  if (fa.kind == kEdge) return measure(segmentOf(pair.a, fa.index).nearest(on_b.p), on_b);
+  return measure({fa, pair.a.vertex(fa.index)}, on_b);
 }
 
 }  // namespace carom

@@ -8,23 +8,8 @@ namespace {
 // Edges closer to parallel than this give no axis of their own: the faces beside them give it better.
 constexpr double kParallelSine = 1e-10;
 
-// The largest gap along the face normals of the pair's A; false in `swap` order.
-void tryFaces(const PolyhedronPair& pair, MinimumTranslation& best, bool swap) {
-  int far = 0;
-  for (int f = 0; f < pair.a.faceCount(); ++f) {
-    const Plane& plane = pair.a.plane(f);
-    far = pair.b.support(-(pair.R_AB.transpose() * plane.normal), far);
-    const Vec3 p = pair.toA(pair.b.vertex(far));
-    const double gap = plane.signedDistance(p);
-    if (gap <= best.gap_m) continue;
-    const Vec3 foot = p - gap * plane.normal;
-    if (!swap) {
-      best = {gap, plane.normal, {faceFeature(f), vertexFeature(far)}, foot, p};
-    } else {  // the pair's A is the caller's B: turn everything round and into the caller's frame
-      const Vec3 n = pair.R_AB.transpose() * plane.normal;
-      best = {gap, -n, {vertexFeature(far), faceFeature(f)}, pair.toB(p), pair.toB(foot)};
-    }
-  }
+void keepLarger(MinimumTranslation& best, const MinimumTranslation& other) {
+  if (other.gap_m > best.gap_m) best = other;
 }
 
 // An edge of B in the frame of A, with its faces' normals negated: its arc on the Gauss map of the difference
@@ -99,11 +84,47 @@ void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
 
 }  // namespace
 
-MinimumTranslation minimumTranslation(const PolyhedronPair& pair) {
+MinimumTranslation gapOverFaceOfA(const PolyhedronPair& pair, int face, int start) {
+  const Plane& plane = pair.a.plane(face);
+  const int v = pair.b.support(-pair.directionToB(plane.normal), start);
+  const Vec3 p = pair.toA(pair.b.vertex(v));
+  const double gap = plane.signedDistance(p);
+  return {gap, plane.normal, {faceFeature(face), vertexFeature(v)}, p - gap * plane.normal, p};
+}
+
+MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int start) {
+  const Plane& plane = pair.b.plane(face);
+  const Vec3 n = -pair.directionToA(plane.normal);
+  const int v = pair.a.support(n, start);
+  const Vec3& p = pair.a.vertex(v);
+  const double gap = plane.signedDistance(pair.toB(p));
+  return {gap, n, {vertexFeature(v), faceFeature(face)}, p, p + gap * n};
+}
+
+std::optional<MinimumTranslation> gapAcrossEdges(const PolyhedronPair& pair, int edge_a, int edge_b,
+                                                 const Vec3& outward) {
+  const Edge& e1 = pair.a.edge(edge_a);
+  const Edge& e2 = pair.b.edge(edge_b);
+  const Vec3 d2 = pair.directionToA(e2.direction);
+  const Vec3 cross = e1.direction.cross(d2);
+  const double sine = cross.norm();
+  if (sine < kParallelSine) return std::nullopt;
+  const Vec3 n = (cross.dot(outward) < 0.0 ? -1.0 / sine : 1.0 / sine) * cross;
+  const int va = pair.a.support(n, e1.tail);
+  const int vb = pair.b.support(-pair.directionToB(n), e2.tail);
+  const Vec3& tail1 = pair.a.vertex(e1.tail);
+  const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - tail1;
+  const Vec3 foot = tail1 + between.cross(d2).dot(cross) / (sine * sine) * e1.direction;
+  const bool supporting = (va == e1.tail || va == e1.head) && (vb == e2.tail || vb == e2.head);
+  const double gap = supporting ? n.dot(between) : n.dot(pair.toA(pair.b.vertex(vb)) - pair.a.vertex(va));
+  return MinimumTranslation{gap, n, {edgeFeature(edge_a), edgeFeature(edge_b)}, foot, foot + gap * n};
+}
+
+MinimumTranslation largestGap(const PolyhedronPair& pair) {
   MinimumTranslation best;
   best.gap_m = -std::numeric_limits<double>::infinity();
-  tryFaces(pair, best, false);
-  tryFaces(pair.swapped(), best, true);
+  for (int f = 0; f < pair.a.faceCount(); ++f) keepLarger(best, gapOverFaceOfA(pair, f, 0));
+  for (int f = 0; f < pair.b.faceCount(); ++f) keepLarger(best, gapOverFaceOfB(pair, f, 0));
   tryEdges(pair, best);
   if (best.gap_m > -std::numeric_limits<double>::infinity()) return best;
   // Cores without faces or crossing edges that meet (balls with one centre, capsules on one line): any

@@ -1,8 +1,11 @@
 #pragma once
-// The exact minimum translation of two intersecting polyhedra by the separating-axis theorem: the largest
-// signed gap over all face normals and over the edge pairs whose arcs cross on the Gauss map (only those are
-// faces of the Minkowski difference). Cost: faces x support + edges x edges; used when V-Clip reports an
-// intersection. Tested in tests/engine/closest_features/penetration_test.cpp.
+// The minimum translation of two intersecting polyhedra. By the separating-axis theorem its direction is a
+// face normal of one, or across an edge of each whose arcs cross on the Gauss map: only those are faces of
+// the Minkowski difference. Here are the gaps along such axes one by one, and the search through all of them
+// (faces x support + edges x edges) that answers where the tracked search (inner_polytope.h) has nothing to
+// grow in. Tested in tests/engine/closest_features/penetration_test.cpp.
+
+#include <optional>
 
 #include "engine/closest_features/feature_distance.h"
 
@@ -18,6 +21,16 @@ struct MinimumTranslation {
   Vec3 p_b = Vec3::Zero();  ///< On B's surface; p_b - p_a = gap * normal.
 };
 
-MinimumTranslation minimumTranslation(const PolyhedronPair& pair);
+/// The gap along a face's normal, to the other body's support vertex, climbed to from `start`.
+MinimumTranslation gapOverFaceOfA(const PolyhedronPair& pair, int face, int start);
+MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int start);
+
+/// The gap along the common perpendicular of two edges that leans along `outward`, between the support
+/// vertices climbed to from the edges; none when they are parallel.
+std::optional<MinimumTranslation> gapAcrossEdges(const PolyhedronPair& pair, int edge_a, int edge_b,
+                                                 const Vec3& outward);
+
+/// The largest gap over all axes.
+MinimumTranslation largestGap(const PolyhedronPair& pair);
 
 }  // namespace carom

@@ -4,18 +4,37 @@
 // faces at an edge. Those slopes are the signed distances to the planes that bound the region, so the most
 // violated plane names the neighbour to walk to. Tested in tests/engine/closest_features/v_region_test.cpp.
 
-#include <optional>
+#include <limits>
 
 #include "engine/closest_features/feature.h"
 #include "engine/solid/convex_polyhedron.h"
 
 namespace carom {
 
-/// The neighbour of `feature` (one dimension up) along which `direction` (polyhedron frame, any length)
-/// climbs most steeply, or none when the direction lies in the feature's V-region. Cost: linear in the
+/// A unit way from a feature to a neighbour one dimension up, and how steeply a direction climbs along it.
+struct WayOff {
+  double slope = -std::numeric_limits<double>::infinity();  ///< No way off (a face, a lone point).
+  Feature neighbour;
+};
+
+/// The way off `feature` along which `direction` (polyhedron frame, any length; slopes are in its units)
+/// climbs most steeply. At most 0: the direction lies in the feature's V-region. Cost: linear in the
 /// feature's neighbours.
-std::optional<Feature> neighbourAcrossVRegion(const ConvexPolyhedron& polyhedron, Feature feature,
-                                              const Vec3& direction);
+inline WayOff steepestWayOff(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction) {
+  WayOff steepest;
+  if (feature.kind == FeatureKind::kVertex) {
+    for (const Spoke& spoke : polyhedron.spokes(feature.index))
+      if (const double slope = spoke.direction.dot(direction); slope > steepest.slope)
+        steepest = {slope, edgeFeature(spoke.edge)};
+  } else if (feature.kind == FeatureKind::kEdge) {
+    const Edge& edge = polyhedron.edge(feature.index);
+    if (edge.left < 0) return steepest;
+    const double left = edge.into_left.dot(direction);
+    const double right = edge.into_right.dot(direction);
+    steepest = left > right ? WayOff{left, faceFeature(edge.left)} : WayOff{right, faceFeature(edge.right)};
+  }
+  return steepest;
+}
 
 /// Whether a direction that passes every plane of the feature's V-region leads into the body all the same. A
 /// flat edge (between coplanar faces) and a vertex among coplanar faces have V-planes that do not tell out

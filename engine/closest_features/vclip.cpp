@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 
+#include "engine/closest_features/canonical_features.h"
 #include "engine/closest_features/feature_distance.h"
 #include "engine/closest_features/penetration.h"
 #include "engine/closest_features/v_region.h"
+#include "engine/closest_features/warm_pair.h"
 
 namespace carom {
 namespace {
@@ -16,6 +18,14 @@ namespace {
 // Cores closer than this, relative to their size, have no trustworthy direction between their witnesses; the
 // separating axes give it.
 constexpr double kNoDirection = 1e-9;
+// A slope below this is rounding of a unit product: walking along it could not shorten the distance
+// measurably.
+constexpr double kFlatSlope = 1e-15;
+// Rounding within a query, relative to its lengths, and of the positions, relative to their coordinates.
+constexpr double kNoise = 0x1p-47;
+constexpr double kShift = 0x1p-51;
+// A walk of this many states began far off: the features that face each other are tried as a new start.
+constexpr int kStaleStates = 6;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
@@ -30,9 +40,9 @@ constexpr double kShortDistance = 1e-6;
 
 // Vertices that face each other: far along the line between the bodies' first vertices.
 FeaturePair coldSeed(const PolyhedronPair& pair) {
-  const Vec3 toward_b = pair.toA(pair.b.vertex(0)) - pair.a.vertex(0);
+  const Vec3 toward_b = pair.toA(pair.b.center()) - pair.a.center();
   const int va = pair.a.support(toward_b);
-  const int vb = pair.b.support(-(pair.R_AB.transpose() * toward_b));
+  const int vb = pair.b.support(-pair.directionToB(toward_b));
   return {vertexFeature(va), vertexFeature(vb)};
 }
 
@@ -101,7 +111,7 @@ FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, Feature a, Featur
   FeatureDistance best = featureDistance(pair, {edgeFeature(pair.a.faceEdges(a.index)[0]), b});
   const auto consider = [&](FeaturePair features) {
     const FeatureDistance there = featureDistance(pair, features);
-    if (there.crossing || (!best.crossing && there.distance_m < best.distance_m)) best = there;
+    if (there.crossing || (!best.crossing && there.squared_m2 < best.squared_m2)) best = there;
   };
   for (int e : pair.a.faceEdges(a.index)) consider({edgeFeature(e), b});
   for (int e : pair.b.faceEdges(b.index)) consider({a, edgeFeature(e)});
@@ -120,70 +130,99 @@ int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
   }
 }
 
-// The unit normal from A to B of features that are apart. A face's normal and the common perpendicular of two
-// edges are exact; the direction between the witnesses is as good as the distance is long.
-Vec3 normalBetween(const PolyhedronPair& pair, const FeatureDistance& d) {
+// The way from A to B across a pair of features, of any length. A face's normal and the common perpendicular
+// of two edges are exact; the difference of the witnesses is as good as it is long.
+struct Across {
+  Vec3 w;
+  double length;
+  bool exact;
+  Vec3 unit() const { return w / length; }
+};
+
+Across acrossOf(const PolyhedronPair& pair, const FeatureDistance& d) {
   const auto [a, b] = d.features;
-  if (a.kind == FeatureKind::kFace) return pair.a.plane(a.index).normal;
-  if (b.kind == FeatureKind::kFace) return -(pair.R_AB * pair.b.plane(b.index).normal);
-  const Vec3 between = (d.p_b - d.p_a).normalized();
+  if (a.kind == FeatureKind::kFace) return {pair.a.plane(a.index).normal, 1.0, true};
+  if (b.kind == FeatureKind::kFace) return {-pair.directionToA(pair.b.plane(b.index).normal), 1.0, true};
+  const Vec3 between = d.p_b - d.p_a;
   if (a.kind == FeatureKind::kEdge && b.kind == FeatureKind::kEdge) {
-    const Vec3 across = pair.a.edge(a.index).direction.cross(pair.R_AB * pair.b.edge(b.index).direction);
-    const double sine = across.norm();
-    if (sine > kCrossingSine) return (across.dot(between) > 0.0 ? 1.0 / sine : -1.0 / sine) * across;
+    const Vec3 common =
+        pair.a.edge(a.index).direction.cross(pair.directionToA(pair.b.edge(b.index).direction));
+    const double sine = common.norm();
+    if (sine > kCrossingSine) return {common.dot(between) > 0.0 ? common : -common, sine, true};
   }
-  return between;
+  return {between, d.distance(), false};
 }
 
-enum class Move { kTaken, kStuck, kInside };
+enum class Move { kTaken, kClear, kStuck, kInside };
 
 class Walk {
  public:
-  Walk(const PolyhedronPair& pair, FeaturePair seed, double scale_m)
-      : pair_(pair), scale_m_(scale_m), here_(anyFeatureDistance(pair, seed.a, seed.b)) {}
+  Walk(const PolyhedronPair& pair, FeaturePair seed, double scale_m, double noise_m)
+      : pair_(pair),
+        scale_m_(scale_m),
+        noise_m_(noise_m),
+        noise_slope_(noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge())),
+        seen_{anyFeatureDistance(pair, seed.a, seed.b), FeatureDistance{}} {}
 
   Move next() {
-    if (here_.crossing || here_.distance_m == 0.0) {
+    const FeatureDistance& at = here();
+    if (at.crossing || at.squared_m2 == 0.0) {
       common_is_on_a_ = false;
       return Move::kInside;
     }
-    if (here_.behind) return here_.features.a.kind == FeatureKind::kFace ? enterA() : enterB();
-    const Vec3 n = normalBetween(pair_, here_);
-    const Vec3 minus_n_B = -(pair_.R_AB.transpose() * n);
-    const auto up_a = neighbourAcrossVRegion(pair_.a, here_.features.a, n);
-    if (up_a && moveTo({*up_a, here_.features.b})) return Move::kTaken;
-    const auto up_b = neighbourAcrossVRegion(pair_.b, here_.features.b, minus_n_B);
-    if (up_b && moveTo({here_.features.a, *up_b})) return Move::kTaken;
-    if (pointsInward(pair_.a, here_.features.a, n)) return enterA();
-    if (pointsInward(pair_.b, here_.features.b, minus_n_B)) return enterB();
-    const bool doubtful = up_a || up_b || here_.distance_m < kShortDistance * scale_m_;
-    return doubtful && slack(n, minus_n_B) > kSlack * scale_m_ && moveAlongBoth(n, minus_n_B) ? Move::kTaken
+    if (at.behind) return at.features.a.kind == FeatureKind::kFace ? enterA() : enterB();
+    const Across n = acrossOf(pair_, at);
+    const Vec3 minus_n_B = -pair_.directionToB(n.w);
+    const double flat = kFlatSlope * n.length;
+    const WayOff off_a = steepestWayOff(pair_.a, at.features.a, n.w);
+    if (off_a.slope > flat && moveTo({off_a.neighbour, at.features.b})) return Move::kTaken;
+    const WayOff off_b = steepestWayOff(pair_.b, at.features.b, minus_n_B);
+    if (off_b.slope > flat && moveTo({at.features.a, off_b.neighbour})) return Move::kTaken;
+    // Every way off leads down by more than rounding can hide: both bodies lie beyond their support planes.
+    const double steepest = std::max(off_a.slope, off_b.slope);
+    const double margin = noise_slope_ * n.length + (n.exact ? 0.0 : noise_m_);
+    if (steepest < -margin && at.inside_m > noise_m_ && at.squared_m2 > noise_m_ * noise_m_)
+      return Move::kClear;
+    if (pointsInward(pair_.a, at.features.a, n.w)) return enterA();
+    if (pointsInward(pair_.b, at.features.b, minus_n_B)) return enterB();
+    const bool doubtful = steepest > flat || at.distance() < kShortDistance * scale_m_;
+    if (!doubtful) return Move::kStuck;
+    const Vec3 unit = n.unit();
+    const Vec3 minus_unit_B = minus_n_B / n.length;
+    return slack(unit, minus_unit_B) > kSlack * scale_m_ && moveAlongBoth(unit, minus_unit_B) ? Move::kTaken
                                                                                               : Move::kStuck;
   }
 
-  const FeatureDistance& here() const { return here_; }
+  /// Goes on from another pair if that is closer.
+  void jumpTo(FeaturePair seed) { moveTo(seed); }
+
+  const FeatureDistance& here() const { return seen_[here_]; }
   /// After kInside: the witness that lies in both bodies.
-  const Vec3& commonPoint() const { return common_is_on_a_ ? here_.p_a : here_.p_b; }
+  const Vec3& commonPoint() const { return common_is_on_a_ ? here().p_a : here().p_b; }
 
  private:
   bool moveTo(FeaturePair features) {
-    const FeatureDistance there = anyFeatureDistance(pair_, features.a, features.b);
-    if (!there.crossing && !(there.distance_m < here_.distance_m)) return false;
-    here_ = there;
+    // Built in its place: to copy what has just been written costs more than to compute it.
+    const FeatureDistance& there =
+        *::new (&seen_[1 - here_]) FeatureDistance(anyFeatureDistance(pair_, features.a, features.b));
+    if (!there.crossing && !(there.squared_m2 < here().squared_m2)) return false;
+    here_ = 1 - here_;
     return true;
   }
 
   // The way between the witnesses ends inside a body: the other witness is inside too, or the entry face is
   // closer.
-  Move enterA() { return moveToEntry(entryFace(pair_.a, here_.p_b, here_.p_a), true); }
-  Move enterB() { return moveToEntry(entryFace(pair_.b, pair_.toB(here_.p_a), pair_.toB(here_.p_b)), false); }
+  Move enterA() { return moveToEntry(entryFace(pair_.a, here().p_b, here().p_a), true); }
+  Move enterB() {
+    return moveToEntry(entryFace(pair_.b, pair_.toB(here().p_a), pair_.toB(here().p_b)), false);
+  }
 
   Move moveToEntry(std::optional<int> entry, bool entered_a) {
     common_is_on_a_ = !entered_a;
     if (!entry) return Move::kInside;
     const Feature face = faceFeature(*entry);
     const bool moved =
-        moveTo(entered_a ? FeaturePair{face, here_.features.b} : FeaturePair{here_.features.a, face});
+        moveTo(entered_a ? FeaturePair{face, here().features.b} : FeaturePair{here().features.a, face});
     // Only rounding can deny the closer face: the witness then is in the surface, and the axes decide.
     return moved ? Move::kTaken : Move::kInside;
   }
@@ -191,18 +230,18 @@ class Walk {
   // How much farther apart the witnesses are than the slab across n that is free of both bodies: the most by
   // which the distance can be wrong.
   double slack(const Vec3& n, const Vec3& minus_n_B) const {
-    const Vec3& far_a = pair_.a.vertex(pair_.a.support(n, vertexOf(pair_.a, here_.features.a)));
+    const Vec3& far_a = pair_.a.vertex(pair_.a.support(n, vertexOf(pair_.a, here().features.a)));
     const Vec3 far_b =
-        pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here_.features.b))));
-    return here_.distance_m - n.dot(far_b - far_a);
+        pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here().features.b))));
+    return here().distance() - n.dot(far_b - far_a);
   }
 
   // Between almost parallel features a step on one body alone gains less than rounding (half the slope
   // squared), a step on both together gains the slope itself.
   bool moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
-    const double level_sine = kLevelSine * std::sqrt(std::max(1.0, scale_m_ / here_.distance_m));
-    const LevelNeighbours on_a(pair_.a, here_.features.a, n, level_sine);
-    const LevelNeighbours on_b(pair_.b, here_.features.b, minus_n_B, level_sine);
+    const double level_sine = kLevelSine * std::sqrt(std::max(1.0, scale_m_ / here().distance()));
+    const LevelNeighbours on_a(pair_.a, here().features.a, n, level_sine);
+    const LevelNeighbours on_b(pair_.b, here().features.b, minus_n_B, level_sine);
     bool moved = false;
     for (const Feature a : on_a.all())
       for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;
@@ -210,8 +249,9 @@ class Walk {
   }
 
   const PolyhedronPair& pair_;
-  double scale_m_;
-  FeatureDistance here_;
+  double scale_m_, noise_m_, noise_slope_;
+  std::array<FeatureDistance, 2> seen_;
+  std::size_t here_ = 0;
   bool common_is_on_a_ = false;
 };
 
@@ -220,7 +260,7 @@ FeatureDistance exhaustiveSearch(const PolyhedronPair& pair) {
   FeatureDistance best = featureDistance(pair, {vertexFeature(0), vertexFeature(0)});
   const auto consider = [&](FeaturePair features) {
     const FeatureDistance d = featureDistance(pair, features);
-    if (d.crossing || (!d.behind && !best.crossing && d.distance_m < best.distance_m)) best = d;
+    if (d.crossing || (!d.behind && !best.crossing && d.squared_m2 < best.squared_m2)) best = d;
   };
   for (int i = 0; i < pair.a.vertexCount(); ++i)
     for (int j = 0; j < pair.b.vertexCount(); ++j) consider({vertexFeature(i), vertexFeature(j)});
@@ -240,65 +280,130 @@ FeatureDistance exhaustiveSearch(const PolyhedronPair& pair) {
   return best;
 }
 
-struct CoreAnswer {
-  double gap_m;
-  Vec3 normal, p_a, p_b;
-  FeaturePair features;
+// What lengths are compared with, metres.
+struct Scale {
+  Scale(const PolyhedronPair& pair, const Pose& X_WA, const Pose& X_WB)
+      : size_m(pair.t_AB.lpNorm<1>() + pair.a.reach() + pair.b.reach()),
+        noise_m(kNoise * size_m),
+        shift_m(noise_m + kShift * (X_WA.position.lpNorm<1>() + X_WB.position.lpNorm<1>())) {}
+
+  double size_m;
+  double noise_m;  // how far rounding within the query may move a point
+  double shift_m;  // how far one body may be moved against the other by the rounding of their positions
 };
 
-// The axes give the normal, and the depth of cores that intersect. Cores that merely touch keep the witnesses
-// that the walk found: the foot of a support vertex may lie beside its face when several vertices are equally
-// far.
-CoreAnswer fromAxes(const PolyhedronPair& pair, const FeatureDistance& found, const Vec3* common,
-                    double touching_m) {
-  const MinimumTranslation m = minimumTranslation(pair);
-  if (m.gap_m < -touching_m) return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
-  if (!common) return {found.distance_m, m.normal, found.p_a, found.p_b, found.features};
-  return {m.gap_m, m.normal, *common, *common + m.gap_m * m.normal, m.features};
+void answerFrom(const PolyhedronPair& pair, const FeatureDistance& found, CoreAnswer& answer) {
+  answer.gap_m = found.distance();
+  answer.normal = acrossOf(pair, found).unit();
+  answer.p_a = found.p_a;
+  answer.p_b = found.p_b;
+  answer.features = found.features;
+}
+
+CoreAnswer answerFrom(const MinimumTranslation& m) {
+  return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
+}
+
+MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m, InnerPolytope& polytope) {
+  const bool solid = pair.a.faceCount() > 0 || pair.b.faceCount() > 0;
+  return solid ? polytope.minimumTranslation(pair, noise_m) : largestGap(pair);
+}
+
+// The end of a walk that left doubt: the features are not unique, or too close for the witnesses to have a
+// direction, or the bodies intersect.
+void settle(const PolyhedronPair& pair, const Walk& walk, Move move, const Scale& scale,
+            InnerPolytope& polytope, CoreAnswer& answer) {
+  FeatureDistance found = walk.here();
+  Vec3 common = walk.commonPoint();
+  bool inside = move == Move::kInside;
+  if (move == Move::kTaken) {
+    found = exhaustiveSearch(pair);
+    inside = found.crossing;
+    common = found.p_b;
+  }
+  const bool directed = !inside && (found.distance() > kNoDirection * scale.size_m ||
+                                    (found.squared_m2 > 0.0 && acrossOf(pair, found).exact));
+  if (directed) return answerFrom(pair, found, answer);
+  const MinimumTranslation m = minimumTranslation(pair, scale.noise_m, polytope);
+  answer = answerFrom(m);
+  if (m.gap_m < -kNoDirection * scale.size_m) return;
+  // The cores merely touch: the axes give the normal, but the foot of a support vertex may lie beside its
+  // face when several are equally far.
+  polytope.forget();
+  if (inside) {
+    answer.p_a = common;
+    answer.p_b = common + m.gap_m * m.normal;
+  } else {
+    answer.gap_m = found.distance();
+    answer.p_a = found.p_a;
+    answer.p_b = found.p_b;
+    answer.features = found.features;
+  }
+}
+
+// From the features of the last query to those of this one.
+CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
+                        InnerPolytope& polytope, ClosestFeatures& result) {
+  CoreAnswer answer;
+  result.states = 1;
+  if (polytope.triangleCount() > 0) {
+    answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m));
+    if (answer.gap_m < -kNoDirection * scale.size_m) {
+      makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+      return answer;
+    }
+    polytope.forget();
+    tracked = answer.features;
+  }
+  if (tracked.a.index < 0 || tracked.b.index < 0) tracked = coldSeed(pair);
+  if (clearlyClosest(pair, tracked, scale.shift_m, answer)) return answer;
+
+  // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
+  // never needs.
+  const int bound = 100 + 2 * (pair.a.edgeCount() + pair.b.edgeCount());
+  Walk walk(pair, tracked, scale.size_m, scale.shift_m);
+  Move move = Move::kTaken;
+  for (; result.states < bound && (move = walk.next()) == Move::kTaken; ++result.states)
+    if (result.states == kStaleStates) walk.jumpTo(coldSeed(pair));
+  result.reached_limit = move == Move::kTaken;
+  if (move == Move::kClear) {
+    answerFrom(pair, walk.here(), answer);
+    return answer;
+  }
+  settle(pair, walk, move, scale, polytope, answer);
+  makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+  return answer;
 }
 
 }  // namespace
 
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
-                                FeaturePair& tracked) {
+                                PairMemory& memory) {
   const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
-  if (tracked.a.index < 0 || tracked.b.index < 0) tracked = coldSeed(pair);
-  // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
-  // never needs.
-  const int bound = 100 + 2 * (a.core.edgeCount() + b.core.edgeCount());
-
-  const double scale = pair.t_AB.norm() + a.core.width() + b.core.width();
-
+  const Scale scale(pair, X_WA, X_WB);
   ClosestFeatures result;
-  Walk walk(pair, tracked, scale);
-  Move move = Move::kTaken;
-  for (result.states = 1; result.states < bound && (move = walk.next()) == Move::kTaken;) ++result.states;
-  result.reached_limit = move == Move::kTaken;
-  FeatureDistance found = walk.here();
-  Vec3 common = walk.commonPoint();
-  bool inside = move == Move::kInside;
-  if (result.reached_limit) {
-    found = exhaustiveSearch(pair);
-    inside = found.crossing;
-    common = found.p_b;
-  }
-
-  const bool directed = !inside && found.distance_m > kNoDirection * scale;
-  const CoreAnswer core = directed ? CoreAnswer{found.distance_m, normalBetween(pair, found), found.p_a,
-                                                found.p_b, found.features}
-                                   : fromAxes(pair, found, inside ? &common : nullptr, kNoDirection * scale);
-  tracked = core.features;
+  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, result);
+  memory.features = core.features;
   result.features = core.features;
-  const Mat3 R_WA = X_WA.rotation.toRotationMatrix();
+  const Rotation R_WA(X_WA.rotation);
   result.n_W = R_WA * core.normal;
   result.distance_m = core.gap_m - a.radius_m - b.radius_m;
   result.p_A_W = R_WA * (core.p_a + a.radius_m * core.normal) + X_WA.position;
-  result.p_B_W = R_WA * (core.p_b - b.radius_m * core.normal) + X_WA.position;
-  if (result.distance_m > kTouching * scale)
-    result.status = Separation::kSeparated;
-  else
-    result.status =
-        result.distance_m >= -kTouching * scale ? Separation::kTouching : Separation::kPenetrating;
+  result.p_B_W = result.p_A_W + result.distance_m * result.n_W;
+  const double touching = kTouching * scale.size_m;
+  result.status = result.distance_m > touching     ? Separation::kSeparated
+                  : result.distance_m >= -touching ? Separation::kTouching
+                                                   : Separation::kPenetrating;
+  return result;
+}
+
+ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
+                                FeaturePair& tracked) {
+  thread_local PairMemory memory;  // only its room is kept
+  memory.features = tracked;
+  memory.penetration.forget();
+  const ClosestFeatures result = closestFeatures(a, X_WA, b, X_WB, memory);
+  tracked = memory.features;
   return result;
 }
 

@@ -19,6 +19,7 @@
 // tests/engine/closest_features/vclip_test.cpp.
 
 #include "engine/closest_features/feature.h"
+#include "engine/closest_features/inner_polytope.h"
 #include "engine/solid/solid.h"
 
 namespace carom {
@@ -36,8 +37,19 @@ struct ClosestFeatures {
   bool reached_limit = false;  ///< The walk was cut short and the exhaustive search answered.
 };
 
-/// The closest features of two parts. `tracked` is where the walk starts and receives where it ended; a pair
-/// with index -1 starts it from the vertices that face each other.
+/// What a caller keeps of a pair from one query to the next: where the walk ended and, of a pair that
+/// intersects, the polytope that proved its depth. As made, the next query starts cold.
+struct PairMemory {
+  FeaturePair features;
+  InnerPolytope penetration;
+};
+
+/// The closest features of two parts. The work is done from `memory` on, and left there for the next query
+/// of the same pair; what is found does not depend on it. Allocates nothing once the pair's memory has grown.
+ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
+                                PairMemory& memory);
+
+/// The same for pairs that stay apart: a penetrating one pays for its depth anew.
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 FeaturePair& tracked);
 

@@ -1,8 +1,7 @@
 #pragma once
-// Multi-point contact (paper §2.4, fig. 8): where a face or an edge of one part lies on a face of the other,
-// it is clipped against the V-region of that face and the parallel plane at distance k; the corners of what
-// is left are the points of contact. Each point carries an id made of features, so that it is recognised in
-// the next step. Tested in tests/engine/contact/contact_manifold_test.cpp.
+// Multi-point contact (paper §2.4, fig. 8): the corners of the contact polygon, reduced to the few that the
+// solver needs, and the closest point where they don't hold it. Each point carries an id made of features, so
+// that it is recognised in the next step. Tested in tests/engine/contact/contact_manifold_test.cpp.
 
 #include <array>
 #include <cstdint>
@@ -17,12 +16,14 @@ struct ManifoldPoint {
   Vec3 p_W = Vec3::Zero();   ///< Halfway across the gap.
   Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
   double gap_m = 0.0;
-  std::uint64_t id = 0;
+  std::uint64_t id = 0;  ///< `contactId` of `features`; no two points of a manifold have the same.
+  FeaturePair features;
 };
 
-/// Up to four points with the normal of the reference face: the deepest, and those that span the largest area
-/// with it. The closest point with its own normal is always there; where it is none of the four, it is a
-/// fifth.
+/// Up to four corners of the contact polygon with its normal: a deepest, and those that span the largest area
+/// with it (`reducePolygon`). The closest point with its own normal is always there; where it is none of the
+/// four, it is a fifth. Swapping the bodies gives the same points with features swapped and normals turned
+/// round.
 struct ContactManifold {
   static constexpr int kMaxPoints = 5;
   static constexpr int kFacePoints = 4;

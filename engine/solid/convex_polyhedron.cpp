@@ -49,7 +49,8 @@ ConvexPolyhedron ConvexPolyhedron::point(const Vec3& p) {
   if (!p.allFinite()) throw InputError("a point has a coordinate that is not finite");
   ConvexPolyhedron result;
   result.vertices_ = {p};
-  result.buildVertexEdges();
+  result.buildSpokes();
+  result.measure();
   return result;
 }
 
@@ -64,7 +65,8 @@ ConvexPolyhedron ConvexPolyhedron::segment(const Vec3& a, const Vec3& b) {
   e.length_m = d.norm();
   e.direction = d / e.length_m;
   result.edges_ = {e};
-  result.buildVertexEdges();
+  result.buildSpokes();
+  result.measure();
   return result;
 }
 
@@ -85,14 +87,10 @@ ConvexPolyhedron ConvexPolyhedron::fromFaces(std::vector<Vec3> vertices,
     result.face_begin_.push_back(static_cast<int>(result.face_vertices_.size()));
   }
   result.buildEdges(loops);
-  result.buildVertexEdges();
+  result.buildSpokes();
+  result.buildSides();
   result.validate();
-  result.width_m_ = std::numeric_limits<double>::infinity();
-  int far = 0;
-  for (const Plane& plane : result.planes_) {
-    far = result.support(-plane.normal, far);
-    result.width_m_ = std::min(result.width_m_, -plane.signedDistance(result.vertex(far)));
-  }
+  result.measure();
   return result;
 }
 
@@ -134,16 +132,27 @@ void ConvexPolyhedron::buildEdges(const std::vector<std::vector<int>>& loops) {
   }
 }
 
-void ConvexPolyhedron::buildVertexEdges() {
-  std::vector<std::vector<int>> star(vertices_.size());
-  for (int e = 0; e < edgeCount(); ++e) {
-    star[at(edge(e).tail)].push_back(e);
-    star[at(edge(e).head)].push_back(e);
+void ConvexPolyhedron::buildSpokes() {
+  std::vector<std::vector<Spoke>> stars(vertices_.size());
+  for (int i = 0; i < edgeCount(); ++i) {
+    const Edge& e = edge(i);
+    stars[at(e.tail)].push_back({e.direction, i, e.head});
+    stars[at(e.head)].push_back({-e.direction, i, e.tail});
   }
-  for (const std::vector<int>& edges : star) {
-    vertex_edges_.insert(vertex_edges_.end(), edges.begin(), edges.end());
-    vertex_begin_.push_back(static_cast<int>(vertex_edges_.size()));
+  for (const std::vector<Spoke>& star : stars) {
+    spokes_.insert(spokes_.end(), star.begin(), star.end());
+    for (const Spoke& spoke : star) vertex_edges_.push_back(spoke.edge);
+    vertex_begin_.push_back(static_cast<int>(spokes_.size()));
   }
+}
+
+void ConvexPolyhedron::buildSides() {
+  face_sides_.clear();
+  for (int f = 0; f < faceCount(); ++f)
+    for (int e : faceEdges(f)) {
+      const Vec3& into = intoFace(e, f);
+      face_sides_.push_back({into, into.dot(vertex(edge(e).tail))});
+    }
 }
 
 void ConvexPolyhedron::validate() const {
@@ -164,29 +173,44 @@ void ConvexPolyhedron::validate() const {
         if (plane(f).signedDistance(vertex(v)) > tolerance) throw InputError("the surface is not convex");
   }
   for (int v = 0; v < vertexCount(); ++v)
-    if (vertexEdges(v).size() < 3) throw InputError("a vertex has fewer than three edges");
+    if (spokes(v).size() < 3) throw InputError("a vertex has fewer than three edges");
+}
+
+void ConvexPolyhedron::measure() {
+  Vec3 low = vertices_[0];
+  Vec3 high = vertices_[0];
+  for (const Vec3& v : vertices_) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  center_ = 0.5 * (low + high);
+  radius_m_ = radiusAbout(center_);
+  reach_m_ = center_.lpNorm<Eigen::Infinity>() + radius_m_;
+  inverse_shortest_edge_ = 0.0;
+  for (const Edge& e : edges_) inverse_shortest_edge_ = std::max(inverse_shortest_edge_, 1.0 / e.length_m);
+  support_table_ =
+      SupportTable(vertexCount(), [this](const Vec3& d, int start) { return support(d, start); });
+  width_m_ = planes_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (const Plane& plane : planes_)
+    width_m_ = std::min(width_m_, -plane.signedDistance(vertex(support(-plane.normal))));
 }
 
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
   // Slopes, not heights: along an edge much shorter than the solid the difference of two heights is all
   // rounding. A slope above its own rounding means a truly higher vertex, so this ends.
   const double level = kLevelSlope * direction.norm();
-  int best = start;
-  for (bool climbing = true; climbing;) {
-    climbing = false;
-    double most = 0.0;
-    const int here = best;
-    for (int i : vertexEdges(here)) {
-      const Edge& e = edge(i);
-      const double slope = e.tail == here ? e.direction.dot(direction) : -e.direction.dot(direction);
-      if (slope > level && slope * e.length_m > most) {
-        most = slope * e.length_m;
-        best = e.tail == here ? e.head : e.tail;
-        climbing = true;
+  int here = start;
+  for (int next = start; next >= 0;) {
+    here = next;
+    next = -1;
+    double steepest = level;
+    for (const Spoke& spoke : spokes(here))
+      if (const double slope = spoke.direction.dot(direction); slope > steepest) {
+        steepest = slope;
+        next = spoke.head;
       }
-    }
   }
-  return best;
+  return here;
 }
 
 double ConvexPolyhedron::radiusAbout(const Vec3& p) const {
@@ -199,6 +223,9 @@ ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   ConvexPolyhedron result = *this;
   for (Vec3& v : result.vertices_) v += shift;
   for (Plane& p : result.planes_) p.offset += p.normal.dot(shift);
+  result.center_ += shift;
+  result.reach_m_ = result.center_.lpNorm<Eigen::Infinity>() + radius_m_;
+  if (!result.planes_.empty()) result.buildSides();
   return result;
 }
 

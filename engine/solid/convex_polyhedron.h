@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/foundation/frames.h"
+#include "engine/solid/support_table.h"
 
 namespace carom {
 
@@ -32,6 +33,13 @@ struct Plane {
   Vec3 normal = Vec3::Zero();
   double offset = 0.0;
   double signedDistance(const Vec3& p) const { return normal.dot(p) - offset; }
+};
+
+/// An edge seen from one of its vertices.
+struct Spoke {
+  Vec3 direction = Vec3::Zero();  ///< Unit, away from the vertex.
+  int edge = -1;
+  int head = -1;  ///< The vertex at its other end.
 };
 
 class ConvexPolyhedron {
@@ -59,6 +67,11 @@ class ConvexPolyhedron {
   std::span<const int> faceEdges(int f) const { return slice(face_edges_, face_begin_, f); }
   /// The edges at vertex v.
   std::span<const int> vertexEdges(int v) const { return slice(vertex_edges_, vertex_begin_, v); }
+  /// The same edges seen from v, contiguous: their directions are the normals of the V-planes of v.
+  std::span<const Spoke> spokes(int v) const { return slice(spokes_, vertex_begin_, v); }
+  /// The V-planes of face f, the i-th through `faceEdges(f)[i]`: the prism over the face is where all are >=
+  /// 0.
+  std::span<const Plane> faceSides(int f) const { return slice(face_sides_, face_begin_, f); }
 
   /// The unit direction that leads from face f's edge into the face.
   const Vec3& intoFace(int e, int f) const {
@@ -71,8 +84,19 @@ class ConvexPolyhedron {
 
   /// A vertex farthest along `direction` (any length), by hill climbing from `start`; the answer does not
   /// depend on `start` unless several vertices are equally far to rounding.
-  int support(const Vec3& direction, int start = 0) const;
+  int support(const Vec3& direction, int start) const;
+  /// The same from a table of directions: its cost does not grow with the number of vertices.
+  int support(const Vec3& direction) const {
+    return support(direction, support_table_.vertexNear(direction));
+  }
 
+  /// The middle of the bounding box, and a radius about it that holds every vertex, metres.
+  const Vec3& center() const { return center_; }
+  double radius() const { return radius_m_; }
+  /// The largest coordinate of a vertex in its frame is at most this, metres.
+  double reach() const { return reach_m_; }
+  /// One over the length of the shortest edge, 1/m; 0 without edges.
+  double inverseShortestEdge() const { return inverse_shortest_edge_; }
   /// The largest distance of a vertex from `p`, metres.
   double radiusAbout(const Vec3& p) const;
   /// The smallest width over the directions of the face normals, metres; 0 for a point or segment.
@@ -82,19 +106,29 @@ class ConvexPolyhedron {
   ConvexPolyhedron translated(const Vec3& shift) const;
 
  private:
-  static std::span<const int> slice(const std::vector<int>& items, const std::vector<int>& begin, int i) {
+  template <typename T>
+  static std::span<const T> slice(const std::vector<T>& items, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);
     return {items.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
   }
   void buildEdges(const std::vector<std::vector<int>>& loops);
-  void buildVertexEdges();
+  void buildSpokes();
+  void buildSides();
   void validate() const;
+  void measure();
 
   std::vector<Vec3> vertices_;
   std::vector<Edge> edges_;
   std::vector<Plane> planes_;
   std::vector<int> face_begin_{0}, face_vertices_, face_edges_;
+  std::vector<Plane> face_sides_;
   std::vector<int> vertex_begin_{0}, vertex_edges_;
+  std::vector<Spoke> spokes_;
+  SupportTable support_table_;
+  Vec3 center_ = Vec3::Zero();
+  double radius_m_ = 0.0;
+  double reach_m_ = 0.0;
+  double inverse_shortest_edge_ = 0.0;
   double width_m_ = 0.0;
 };
 

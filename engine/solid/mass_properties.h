@@ -1,6 +1,9 @@
 #pragma once
-// Exact mass properties of a polyhedron by integrating over its faces (divergence theorem), and of ball and
-// capsule in closed form. Tested against closed forms in tests/engine/solid/mass_properties_test.cpp.
+// Exact mass properties of a convex core grown by a radius: polyhedra, balls, capsules, and rounded polyhedra
+// through one formula. The grown solid is cut into the core, a slab on each face, a cylinder wedge along each
+// edge and a ball sector at each vertex (Steiner's decomposition); each has its volume and its first and
+// second moments in closed form. Tested against closed forms in
+// tests/engine/solid/mass_properties_test.cpp.
 
 #include "engine/solid/convex_polyhedron.h"
 
@@ -16,9 +19,11 @@ struct MassProperties {
   static MassProperties combined(const MassProperties& a, const MassProperties& b);
 };
 
+/// Of all points within `radius_m` of the core: a point makes a ball, a segment a capsule, a polyhedron with
+/// radius 0 is itself. Zero mass where there is no volume. Cost: linear in the features.
+MassProperties roundedMass(const ConvexPolyhedron& core, double radius_m);
+
+/// Of the polyhedron alone.
 MassProperties polyhedronMass(const ConvexPolyhedron& polyhedron);
-MassProperties ballMass(const Vec3& center, double radius_m);
-/// A cylinder between a and b with half-ball caps.
-MassProperties capsuleMass(const Vec3& a, const Vec3& b, double radius_m);
 
 }  // namespace carom

@@ -8,14 +8,10 @@ namespace carom {
 namespace {
 
 MassProperties partMass(const ConvexPart& part) {
-  const ConvexPolyhedron& core = part.core;
-  if (core.faceCount() > 0) {
-    if (part.radius_m != 0.0) throw InputError("a polyhedron part takes no rounding radius");
-    return polyhedronMass(core);
-  }
-  if (!(part.radius_m > 0.0)) throw InputError("a ball or capsule needs a positive radius");
-  if (core.vertexCount() == 1) return ballMass(core.vertex(0), part.radius_m);
-  return capsuleMass(core.vertex(0), core.vertex(1), part.radius_m);
+  if (!(part.radius_m >= 0.0)) throw InputError("a rounding radius is not negative");
+  if (part.core.faceCount() == 0 && !(part.radius_m > 0.0))
+    throw InputError("a ball or capsule needs a positive radius");
+  return roundedMass(part.core, part.radius_m);
 }
 
 }  // namespace
@@ -37,6 +33,23 @@ Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
 
 Solid Solid::box(const Vec3& size_m) {
   return Solid({{boxPolyhedron(size_m), 0.0}});
+}
+Solid Solid::roundedBox(const Vec3& size_m, double radius_m) {
+  if (!(radius_m >= 0.0)) throw InputError("a rounding radius is not negative");
+  const Vec3 core_m = size_m - Vec3::Constant(2.0 * radius_m);
+  if (!core_m.allFinite() || core_m.minCoeff() < 0.0)
+    throw InputError("a rounded box needs finite sizes of at least twice its radius");
+  const Vec3 half = 0.5 * core_m;
+  switch ((core_m.array() > 0.0).count()) {
+    case 3:
+      return Solid({{boxPolyhedron(core_m), radius_m}});
+    case 1:
+      return Solid({{ConvexPolyhedron::segment(-half, half), radius_m}});
+    case 0:
+      return ball(radius_m);
+    default:
+      throw InputError("a rounded box whose radius is half of one size only has a flat core");
+  }
 }
 Solid Solid::ball(double radius_m) {
   return Solid({{ConvexPolyhedron::point(Vec3::Zero()), radius_m}});

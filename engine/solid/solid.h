@@ -24,11 +24,14 @@ struct ConvexPart {
 class Solid {
  public:
   /// Builds a solid from parts given in one common frame, and moves it so that its centre of mass is the
-  /// origin. A part is a polyhedron without rounding, a point with a radius, or a segment with a radius.
-  /// Throws InputError when there is no part or the volume is not positive.
+  /// origin. A part is a polyhedron with or without rounding, a point with a radius, or a segment with a
+  /// radius. Throws InputError when there is no part or the volume is not positive.
   explicit Solid(std::vector<ConvexPart> parts);
 
   static Solid box(const Vec3& size_m);
+  /// `size_m` is the outer size, with the rounding. A radius of half of all three sizes makes a ball, of two
+  /// of them a capsule; half of one only is refused, since its core is a flat rectangle.
+  static Solid roundedBox(const Vec3& size_m, double radius_m);
   static Solid ball(double radius_m);
   /// Along z; `length_m` is the distance between the centres of the caps.
   static Solid capsule(double radius_m, double length_m);

@@ -78,6 +78,16 @@ TEST(MeshImport, EveryShippedMeshIsInTheTable) {
   EXPECT_EQ(files, std::size(kShipped));
 }
 
+TEST(MeshImport, SinglePrecisionLeavesFacesWhole) {
+  const std::pair<const char*, int> faces[] = {{"gem.obj", 25},
+                                               {"dodecahedron.ply", 12},
+                                               {"prism.ply", 8},
+                                               {"icosahedron.off", 20},
+                                               {"pyramid.stl", 5}};
+  for (const auto& [file, count] : faces)
+    EXPECT_EQ(meshParts(shipped(file), 1.0, std::nullopt).parts[0].core.faceCount(), count) << file;
+}
+
 TEST(MeshImport, AppliesTheTransformsOfNodes) {
   const ImportedMesh mesh = importMesh(shipped("dumbbell.gltf"));
   ASSERT_EQ(mesh.parts.size(), 3u);

@@ -46,7 +46,7 @@ class FeatureDistanceOfCubes : public testing::Test {
 
 TEST_F(FeatureDistanceOfCubes, VertexVertex_IsTheDistanceOfTheTwo) {
   const FeatureDistance d = at({3, 4, 5}, corner(1, 1, 1), corner(-1, -1, -1));
-  EXPECT_NEAR(d.distance_m, std::sqrt(1.0 + 4 + 9), 1e-15);
+  EXPECT_NEAR(d.distance(), std::sqrt(1.0 + 4 + 9), 1e-15);
   EXPECT_EQ(d.p_a, Vec3(1, 1, 1));
   EXPECT_EQ(d.p_b, Vec3(2, 3, 4));
 }
@@ -54,36 +54,36 @@ TEST_F(FeatureDistanceOfCubes, VertexVertex_IsTheDistanceOfTheTwo) {
 TEST_F(FeatureDistanceOfCubes, VertexEdge_IsThePerpendicularOrAnEnd) {
   const Feature e = edge({1, 1, -1}, {1, 1, 1});
   const FeatureDistance inside = at({5, 4, 1.5}, e, corner(-1, -1, -1));
-  EXPECT_NEAR(inside.distance_m, std::hypot(3, 2), 1e-15);
+  EXPECT_NEAR(inside.distance(), std::hypot(3, 2), 1e-15);
   EXPECT_EQ(inside.features.a, e);
   EXPECT_LT((inside.p_a - Vec3(1, 1, 0.5)).norm(), 1e-15);
   const FeatureDistance beyond = at({5, 4, 4}, e, corner(-1, -1, -1));
-  EXPECT_NEAR(beyond.distance_m, std::sqrt(9.0 + 4 + 4), 1e-15);
+  EXPECT_NEAR(beyond.distance(), std::sqrt(9.0 + 4 + 4), 1e-15);
   EXPECT_EQ(beyond.features.a, corner(1, 1, 1)) << "reduced to the edge's end";
 }
 
 TEST_F(FeatureDistanceOfCubes, VertexFace_IsTheHeightOrASide) {
   const Feature top = face({0, 0, 1});
   const FeatureDistance over = at({1.5, 1.25, 5}, top, corner(-1, -1, -1));
-  EXPECT_NEAR(over.distance_m, 3, 1e-15);
+  EXPECT_NEAR(over.distance(), 3, 1e-15);
   EXPECT_EQ(over.features.a, top);
   EXPECT_FALSE(over.behind);
   const FeatureDistance beside = at({4, 1, 4}, top, corner(-1, -1, -1));
-  EXPECT_NEAR(beside.distance_m, std::hypot(2, 2), 1e-15);
+  EXPECT_NEAR(beside.distance(), std::hypot(2, 2), 1e-15);
   EXPECT_EQ(beside.features.a, edge({1, -1, 1}, {1, 1, 1})) << "reduced to the face's side";
   const FeatureDistance under = at({1.5, 1.25, 1.5}, top, corner(-1, -1, -1));
-  EXPECT_NEAR(under.distance_m, 0.5, 1e-15);
+  EXPECT_NEAR(under.distance(), 0.5, 1e-15);
   EXPECT_TRUE(under.behind);
 }
 
 TEST_F(FeatureDistanceOfCubes, EdgeEdge_IsTheCommonPerpendicularOrAnEnd) {
   const Feature along_x = edge({-1, 1, 1}, {1, 1, 1}), along_y = edge({-1, -1, -1}, {-1, 1, -1});
   const FeatureDistance crossing = at({1.25, 1.5, 4}, along_x, along_y);
-  EXPECT_NEAR(crossing.distance_m, 2, 1e-15);
+  EXPECT_NEAR(crossing.distance(), 2, 1e-15);
   EXPECT_EQ(crossing.features, (FeaturePair{along_x, along_y}));
   EXPECT_LT((crossing.p_a - Vec3(0.25, 1, 1)).norm(), 1e-15);
   const FeatureDistance past = at({4, 1.5, 4}, along_x, along_y);
-  EXPECT_NEAR(past.distance_m, std::hypot(2, 2), 1e-15);
+  EXPECT_NEAR(past.distance(), std::hypot(2, 2), 1e-15);
   EXPECT_EQ(past.features, (FeaturePair{corner(1, 1, 1), along_y}));
 }
 
@@ -92,7 +92,7 @@ TEST_F(FeatureDistanceOfCubes, EdgeFace_KnowsWhetherTheEdgePierces) {
   EXPECT_TRUE(at({1.25, 1.5, 1.5}, top, upright).crossing);
   const FeatureDistance above = at({1.25, 1.5, 2.5}, top, upright);
   EXPECT_FALSE(above.crossing);
-  EXPECT_NEAR(above.distance_m, 0.5, 1e-15);
+  EXPECT_NEAR(above.distance(), 0.5, 1e-15);
   EXPECT_EQ(above.features, (FeaturePair{top, corner(-1, -1, -1)}));
   EXPECT_FALSE(at({3.25, 1.5, 1.5}, top, upright).crossing) << "beside the face";
 }
@@ -101,7 +101,7 @@ TEST_F(FeatureDistanceOfCubes, ParallelEdges_HaveTheirDistanceWhereverTheyOverla
   const Feature upper = edge({-1, 1, 1}, {1, 1, 1}), lower = edge({-1, -1, -1}, {1, -1, -1});
   for (double shift : {-2.5, -1.0, 0.0, 0.7, 2.0, 2.5}) {
     const double beyond = std::max(std::abs(shift) - 2.0, 0.0);
-    EXPECT_NEAR(at({shift, 2, 5}, upper, lower).distance_m, std::hypot(3, beyond), 1e-15) << shift;
+    EXPECT_NEAR(at({shift, 2, 5}, upper, lower).distance(), std::hypot(3, beyond), 1e-15) << shift;
   }
 }
 
@@ -124,8 +124,8 @@ TEST(FeatureDistance, AgreesWithTheOracleForAllEdgesAndIsSymmetric) {
         const auto& t = b.edges[static_cast<std::size_t>(g)];
         const double want = static_cast<double>(std::sqrt(oracle::segmentSegmentSquared(
             a.vertices[s[0]], a.vertices[s[1]], b.vertices[t[0]], b.vertices[t[1]])));
-        ASSERT_NEAR(featureDistance(pair, features).distance_m, want, 1e-14);
-        ASSERT_NEAR(featureDistance(pair.swapped(), {features.b, features.a}).distance_m, want, 1e-14);
+        ASSERT_NEAR(featureDistance(pair, features).distance(), want, 1e-14);
+        ASSERT_NEAR(featureDistance(pair.swapped(), {features.b, features.a}).distance(), want, 1e-14);
       }
   }
 }

@@ -14,8 +14,7 @@ using oracle::Random;
 
 TEST(MinimumTranslation, OfAlignedBoxes_IsTheLeastOverlap) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
-  const MinimumTranslation m =
-      minimumTranslation({box, Pose{}, box, Pose{Quat::Identity(), Vec3(0.2, -0.7, 0.4)}});
+  const MinimumTranslation m = largestGap({box, Pose{}, box, Pose{Quat::Identity(), Vec3(0.2, -0.7, 0.4)}});
   EXPECT_NEAR(m.gap_m, -0.3, 1e-15);
   EXPECT_LT((m.normal - Vec3(0, -1, 0)).norm(), 1e-15);
 }
@@ -24,7 +23,7 @@ TEST(MinimumTranslation, OfCrossedEdges_IsAlongTheirCommonPerpendicular) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
   const Pose X_WA{oracle::turned(Vec3::UnitX(), std::numbers::pi / 4), Vec3::Zero()};
   const Pose X_WB{oracle::turned(Vec3::UnitY(), std::numbers::pi / 4), Vec3(0.1, 0.1, 1.3)};
-  const MinimumTranslation m = minimumTranslation({box, X_WA, box, X_WB});
+  const MinimumTranslation m = largestGap({box, X_WA, box, X_WB});
   EXPECT_NEAR(m.gap_m, 1.3 - std::numbers::sqrt2, 1e-15);
   EXPECT_EQ(m.features.a.kind, FeatureKind::kEdge);
   EXPECT_EQ(m.features.b.kind, FeatureKind::kEdge);
@@ -39,7 +38,7 @@ TEST(MinimumTranslation, EqualsTheFullSearchOverTheSeparatingAxes) {
         oracle::randomHull(random, random.integer(4, 16), Vec3(1, random.uniform(0.1, 1), 1));
     const ConvexPolyhedron q = oracle::randomHull(random, random.integer(4, 16));
     const Pose X_WA = random.pose(0.5), X_WB = random.pose(0.5);
-    const MinimumTranslation m = minimumTranslation({p, X_WA, q, X_WB});
+    const MinimumTranslation m = largestGap({p, X_WA, q, X_WB});
     const oracle::PlacedConvex a = oracle::place({p, 0.0}, X_WA), b = oracle::place({q, 0.0}, X_WB);
     const oracle::Real want = oracle::largestAxisGap(a, b).gap_m;
     if (want >= 0) continue;
@@ -61,7 +60,7 @@ TEST(MinimumTranslation, OfLargeHulls_EqualsTheFullSearch) {
     const Pose X_WA = random.pose(0.3), X_WB = random.pose(0.3);
     const oracle::Real want =
         oracle::largestAxisGap(oracle::place({p, 0.0}, X_WA), oracle::place({q, 0.0}, X_WB)).gap_m;
-    EXPECT_NEAR(minimumTranslation({p, X_WA, q, X_WB}).gap_m, double(want), 1e-14);
+    EXPECT_NEAR(largestGap({p, X_WA, q, X_WB}).gap_m, double(want), 1e-14);
   }
 }
 
@@ -70,8 +69,7 @@ TEST(MinimumTranslation, SwappingTheBodiesTurnsTheNormalRound) {
   for (int i = 0; i < 100; ++i) {
     const ConvexPolyhedron p = oracle::randomHull(random, 10), q = oracle::randomHull(random, 10);
     const Pose X_WA = random.pose(0.5), X_WB = random.pose(0.5);
-    const MinimumTranslation ab = minimumTranslation({p, X_WA, q, X_WB}),
-                             ba = minimumTranslation({q, X_WB, p, X_WA});
+    const MinimumTranslation ab = largestGap({p, X_WA, q, X_WB}), ba = largestGap({q, X_WB, p, X_WA});
     EXPECT_NEAR(ab.gap_m, ba.gap_m, 1e-14);
     EXPECT_LT((X_WA.rotation * ab.normal + X_WB.rotation * ba.normal).norm(), 1e-10);
   }
@@ -81,7 +79,7 @@ TEST(MinimumTranslation, OfASegmentInABox_LeavesByTheNearestFace) {
   const ConvexPolyhedron box = boxPolyhedron({2, 2, 2}),
                          segment = ConvexPolyhedron::segment({-0.5, 0, 0}, {0.5, 0, 0});
   const MinimumTranslation m =
-      minimumTranslation({box, Pose{}, segment, Pose{Quat::Identity(), Vec3(0.1, 0.2, 0.6)}});
+      largestGap({box, Pose{}, segment, Pose{Quat::Identity(), Vec3(0.1, 0.2, 0.6)}});
   EXPECT_NEAR(m.gap_m, -0.4, 1e-15);
   EXPECT_LT((m.normal - Vec3::UnitZ()).norm(), 1e-15);
 }

@@ -28,6 +28,27 @@ TEST(Solid, Box_HasTheClosedFormInertiaAndRadius) {
   EXPECT_NEAR(box.radius(), std::sqrt(14.0) / 2, 1e-15);
 }
 
+TEST(Solid, RoundedBox_KeepsItsOuterSize) {
+  const Solid box = Solid::roundedBox({1, 2, 3}, 0.2);
+  const ConvexPart& part = box.parts()[0];
+  EXPECT_NEAR(part.width(), 1.0, 1e-15);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 along = Vec3::Unit(axis);
+    EXPECT_NEAR(part.core.vertex(part.core.support(along)).dot(along) + part.radius_m, 0.5 * (1 + axis),
+                1e-14);
+  }
+  EXPECT_NEAR(box.radius(), Vec3(0.3, 0.8, 1.3).norm() + 0.2, 1e-15);
+  EXPECT_LT(box.volume(), 6.0);
+}
+
+TEST(Solid, RoundedBox_EndsInBoxCapsuleAndBall) {
+  EXPECT_NEAR(Solid::roundedBox({1, 2, 3}, 0.0).volume(), 6.0, 1e-14);
+  const Solid capsule = Solid::roundedBox({0.5, 0.5, 2}, 0.25), pill = Solid::capsule(0.25, 1.5);
+  EXPECT_NEAR(capsule.volume(), pill.volume(), 1e-15);
+  EXPECT_LT((capsule.unitInertia() - pill.unitInertia()).norm(), 1e-15);
+  EXPECT_EQ(Solid::roundedBox({1, 1, 1}, 0.5).volume(), Solid::ball(0.5).volume());
+}
+
 TEST(Solid, BallAndCapsule_HaveRadiusBeyondTheirCores) {
   EXPECT_EQ(Solid::ball(0.3).radius(), 0.3);
   EXPECT_NEAR(Solid::capsule(0.3, 2.0).radius(), 1.3, 1e-15);
@@ -66,7 +87,13 @@ TEST(Solid, RefusesWhatHasNoVolume) {
   EXPECT_THROW(Solid::box({1, 0, 1}), InputError);
   EXPECT_THROW(Solid::box({1, -1, 1}), InputError);
   EXPECT_THROW(Solid::box({1, nan, 1}), InputError);
-  EXPECT_THROW(Solid({{boxPolyhedron({1, 1, 1}), 0.1}}), InputError);
+  EXPECT_THROW(Solid({{boxPolyhedron({1, 1, 1}), -0.1}}), InputError);
+  EXPECT_THROW(Solid({{boxPolyhedron({1, 1, 1}), nan}}), InputError);
+  EXPECT_THROW(Solid::roundedBox({1, 1, 1}, -0.1), InputError);
+  EXPECT_THROW(Solid::roundedBox({1, 1, 1}, nan), InputError);
+  EXPECT_THROW(Solid::roundedBox({1, 1, 1}, 0.6), InputError);
+  EXPECT_THROW(Solid::roundedBox({1, 2, 3}, 0.5), InputError) << "a flat core";
+  EXPECT_THROW(Solid::roundedBox({0, 0, 0}, 0.0), InputError);
 }
 
 TEST(Solid, RefusesAnInfiniteVolume) {

@@ -1,0 +1,240 @@
+#include "engine/closest_features/canonical_features.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace carom {
+namespace {
+
+// A vertex of the feature (of a face: any).
+int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
+  switch (feature.kind) {
+    case FeatureKind::kVertex:
+      return feature.index;
+    case FeatureKind::kEdge:
+      return polyhedron.edge(feature.index).tail;
+    default:
+      return polyhedron.faceVertices(feature.index)[0];
+  }
+}
+
+// Everything of a polyhedron that touches its support plane along a direction, within a tolerance.
+class SupportSet {
+ public:
+  void gather(const ConvexPolyhedron& polyhedron, const Vec3& n, int start, double level_m, double shift_m) {
+    polyhedron_ = &polyhedron;
+    n_ = n;
+    shift_m_ = shift_m;
+    if (seen_.size() < polyhedron.vertices().size()) seen_.resize(polyhedron.vertices().size(), 0);
+    ++gathering_;
+    const int top = polyhedron.support(n, start);
+    vertices_.clear();
+    add(top);
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+      for (const Spoke& spoke : polyhedron.spokes(vertices_[i]))
+        if (!contains(spoke.head) && n.dot(polyhedron.vertex(top) - polyhedron.vertex(spoke.head)) <= level_m)
+          add(spoke.head);
+    std::sort(vertices_.begin(), vertices_.end());
+    gatherFaces();
+  }
+
+  const std::vector<int>& vertices() const { return vertices_; }
+  const Vec3& top() const { return polyhedron_->vertex(vertices_[0]); }
+
+  // The lowest feature of the set over or under p.
+  std::optional<Feature> holding(const Vec3& p) const {
+    bool at_a_border = faces_.empty();
+    for (const int f : faces_) {
+      const double inside = insideFace(f, p);
+      if (inside > shift_m_) return faceFeature(f);
+      at_a_border = at_a_border || inside >= -shift_m_;
+    }
+    if (!at_a_border) return std::nullopt;
+    for (const int v : vertices_)
+      if (alongPlane(p - polyhedron_->vertex(v)).squaredNorm() <= shift_m_ * shift_m_)
+        return vertexFeature(v);
+    std::optional<Feature> edge;
+    forEachEdge([&](int e) {
+      if (!edge && isOver(e, p)) edge = edgeFeature(e);
+    });
+    return edge;
+  }
+
+  template <typename Visit>
+  void forEachEdge(Visit&& visit) const {
+    for (const int v : vertices_)
+      for (const Spoke& spoke : polyhedron_->spokes(v))
+        if (spoke.head > v && contains(spoke.head)) visit(spoke.edge);
+  }
+
+ private:
+  void add(int v) {
+    seen_[static_cast<std::size_t>(v)] = gathering_;
+    vertices_.push_back(v);
+  }
+  bool contains(int v) const { return seen_[static_cast<std::size_t>(v)] == gathering_; }
+
+  void gatherFaces() {
+    faces_.clear();
+    if (vertices_.size() < 3) return;
+    for (const int v : vertices_)
+      for (const Spoke& spoke : polyhedron_->spokes(v)) {
+        const Edge& edge = polyhedron_->edge(spoke.edge);
+        const int face = edge.tail == v ? edge.left : edge.right;
+        if (contains(spoke.head) && isLevel(face) &&
+            std::find(faces_.begin(), faces_.end(), face) == faces_.end())
+          faces_.push_back(face);
+      }
+    std::sort(faces_.begin(), faces_.end());
+  }
+  bool isLevel(int f) const {
+    if (f < 0) return false;
+    const auto corners = polyhedron_->faceVertices(f);
+    return polyhedron_->plane(f).normal.dot(n_) > 0.0 &&
+           std::all_of(corners.begin(), corners.end(), [this](int v) { return contains(v); });
+  }
+
+  Vec3 alongPlane(const Vec3& d) const { return d - n_.dot(d) * n_; }
+  bool isOver(int e, const Vec3& p) const {
+    const Edge& edge = polyhedron_->edge(e);
+    const Vec3 from_tail = p - polyhedron_->vertex(edge.tail);
+    const double s = edge.direction.dot(from_tail);
+    return s > 0.0 && s < edge.length_m &&
+           alongPlane(from_tail - s * edge.direction).squaredNorm() <= shift_m_ * shift_m_;
+  }
+  double insideFace(int f, const Vec3& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Plane& side : polyhedron_->faceSides(f)) least = std::min(least, side.signedDistance(p));
+    return least;
+  }
+
+  const ConvexPolyhedron* polyhedron_ = nullptr;
+  Vec3 n_ = Vec3::Zero();
+  double shift_m_ = 0.0;
+  std::vector<int> vertices_;
+  std::vector<int> faces_;
+  std::vector<int> seen_;  // by vertex: the gathering that last added it
+  int gathering_ = 0;
+};
+
+// Kept between queries, so that a warm query allocates nothing.
+struct SupportSets {
+  SupportSet a, b;
+};
+thread_local SupportSets support_sets;
+
+// The face normals at the features, as directions from A to B, that the way between the witnesses might be.
+std::optional<Vec3> levelNormal(const PolyhedronPair& pair, const CoreAnswer& answer, double sine) {
+  const auto nearest = [sine](const ConvexPolyhedron& polyhedron, int v,
+                              const Vec3& n) -> std::optional<Vec3> {
+    for (const Spoke& spoke : polyhedron.spokes(v)) {
+      const Edge& edge = polyhedron.edge(spoke.edge);
+      const int face = edge.tail == v ? edge.left : edge.right;
+      if (face < 0) continue;
+      const Vec3& normal = polyhedron.plane(face).normal;
+      if (normal.dot(n) > 0.0 && normal.cross(n).squaredNorm() <= sine * sine) return normal;
+    }
+    return std::nullopt;
+  };
+  if (const auto n = nearest(pair.a, vertexOf(pair.a, answer.features.a), answer.normal)) return n;
+  const Vec3 minus_n_B = -pair.directionToB(answer.normal);
+  if (const auto n = nearest(pair.b, vertexOf(pair.b, answer.features.b), minus_n_B))
+    return Vec3(-pair.directionToA(*n));
+  return std::nullopt;
+}
+
+void gatherAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n, double noise_m,
+                 double shift_m) {
+  support_sets.a.gather(pair.a, n, vertexOf(pair.a, start.a), noise_m, shift_m);
+  support_sets.b.gather(pair.b, -pair.directionToB(n), vertexOf(pair.b, start.b), noise_m, shift_m);
+}
+
+double slabAlong(const PolyhedronPair& pair, const Vec3& n) {
+  return n.dot(pair.toA(support_sets.b.top()) - support_sets.a.top());
+}
+
+// A vertex of one set over the other: the corner with the lowest vertex index.
+bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
+  const std::vector<int>& on_a = support_sets.a.vertices();
+  const std::vector<int>& on_b = support_sets.b.vertices();
+  const auto past_end = [](const std::vector<int>& list, std::size_t i) { return i == list.size(); };
+  for (std::size_t i = 0, j = 0; !past_end(on_a, i) || !past_end(on_b, j);) {
+    const bool try_a = !past_end(on_a, i) && (past_end(on_b, j) || on_a[i] <= on_b[j]);
+    const bool try_b = !past_end(on_b, j) && (past_end(on_a, i) || on_b[j] <= on_a[i]);
+    std::optional<Feature> holds_a, holds_b;
+    if (try_a) holds_a = support_sets.b.holding(pair.toB(pair.a.vertex(on_a[i])));
+    if (try_b) holds_b = support_sets.a.holding(pair.toA(pair.b.vertex(on_b[j])));
+    const auto order = [](Feature f) { return std::pair{f.kind, f.index}; };
+    if (holds_a && (!holds_b || order(*holds_a) <= order(*holds_b))) {
+      answer.features = {vertexFeature(on_a[i]), *holds_a};
+      answer.p_a = pair.a.vertex(on_a[i]);
+      answer.p_b = answer.p_a + answer.gap_m * answer.normal;
+      return true;
+    }
+    if (holds_b) {
+      answer.features = {*holds_b, vertexFeature(on_b[j])};
+      answer.p_b = pair.toA(pair.b.vertex(on_b[j]));
+      answer.p_a = answer.p_b - answer.gap_m * answer.normal;
+      return true;
+    }
+    if (try_a) ++i;
+    if (try_b) ++j;
+  }
+  return false;
+}
+
+// No vertex of one set lies over the other: edges of the sets cross, and the lowest indices count.
+void takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
+  std::optional<std::pair<int, int>> lowest;
+  support_sets.a.forEachEdge([&](int i) {
+    support_sets.b.forEachEdge([&](int j) {
+      const std::pair<int, int> key = std::minmax(i, j);
+      if (lowest && key >= *lowest) return;
+      const Edge& e1 = pair.a.edge(i);
+      const Edge& e2 = pair.b.edge(j);
+      const Vec3 d2 = pair.directionToA(e2.direction);
+      const Vec3 across = e1.direction.cross(d2);
+      const double squared = across.squaredNorm();
+      if (!(squared > 0.0)) return;
+      const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - pair.a.vertex(e1.tail);
+      const double s1 = between.cross(d2).dot(across) / squared;
+      const double s2 = between.cross(e1.direction).dot(across) / squared;
+      if (!(s1 > 0.0 && s1 < e1.length_m && s2 > 0.0 && s2 < e2.length_m)) return;
+      lowest = key;
+      answer.features = {edgeFeature(i), edgeFeature(j)};
+      answer.p_a = pair.a.vertex(e1.tail) + s1 * e1.direction;
+      answer.p_b = answer.p_a + answer.gap_m * answer.normal;
+    });
+  });
+}
+
+bool definesNormal(const FeaturePair& features) {
+  return features.a.kind == FeatureKind::kFace || features.b.kind == FeatureKind::kFace ||
+         (features.a.kind == FeatureKind::kEdge && features.b.kind == FeatureKind::kEdge);
+}
+
+}  // namespace
+
+void makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
+  const FeaturePair start = answer.features;
+  if (!definesNormal(start)) {
+    // The normal is as blurred as the witnesses are close; a level face has it exactly.
+    const auto level = levelNormal(pair, answer, 4.0 * noise_m / std::abs(answer.gap_m));
+    if (level) {
+      gatherAlong(pair, start, *level, noise_m, shift_m);
+      const double slab = slabAlong(pair, *level);
+      if (std::abs(slab - answer.gap_m) <= noise_m) {
+        answer.normal = *level;
+        answer.gap_m = slab;
+        if (!takeLowestVertex(pair, answer)) takeLowestCrossing(pair, answer);
+        return;
+      }
+    }
+  }
+  gatherAlong(pair, start, answer.normal, noise_m, shift_m);
+  if (!takeLowestVertex(pair, answer)) takeLowestCrossing(pair, answer);
+}
+
+}  // namespace carom

@@ -1,0 +1,342 @@
+#include "engine/closest_features/inner_polytope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A triangle lower than this share of its length has no trustworthy normal, and no point farther than that
+// from its neighbours' edges: it bounds nothing.
+constexpr double kSliver = 0x1p-46;
+// A polytope with this many times the corners it was built with carries more than it needs.
+constexpr std::size_t kOvergrown = 2;
+// The start is a tetrahedron of at least this share of its size.
+constexpr double kFlat = 1e-12;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Of the edges at a vertex, the two most level across n.
+struct LevelEdges {
+  LevelEdges(const ConvexPolyhedron& polyhedron, int v, const Vec3& n) {
+    for (const Spoke& spoke : polyhedron.spokes(v)) {
+      const double slope = std::abs(spoke.direction.dot(n));
+      if (slope < slopes[0]) {
+        slopes[1] = slopes[0];
+        edges[1] = edges[0];
+        slopes[0] = slope;
+        edges[0] = spoke.edge;
+      } else if (slope < slopes[1]) {
+        slopes[1] = slope;
+        edges[1] = spoke.edge;
+      }
+    }
+  }
+  std::array<int, 2> edges{-1, -1};
+  std::array<double, 2> slopes{kInfinity, kInfinity};
+};
+
+// Of the faces at a vertex, the one that faces n most; -1 on a point or segment.
+int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& n) {
+  int best = -1;
+  double most = -kInfinity;
+  for (const Spoke& spoke : polyhedron.spokes(v)) {
+    const Edge& edge = polyhedron.edge(spoke.edge);
+    const int face = edge.tail == v ? edge.left : edge.right;
+    if (face < 0) continue;
+    if (const double facing = polyhedron.plane(face).normal.dot(n); facing > most) {
+      most = facing;
+      best = face;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+MinimumTranslation InnerPolytope::minimumTranslation(const PolyhedronPair& pair, double noise_m) {
+  noise_m_ = noise_m;
+  expansions_ = 0;
+  ++query_;
+  const FeaturePair last = best_.features;
+  best_.gap_m = -kInfinity;
+  if (stillHolds(pair)) {
+    recall(pair, last);
+  } else if (!build(pair)) {
+    return largestGap(pair);
+  }
+  if (!raise(pair)) {
+    forget();
+    return largestGap(pair);
+  }
+  return best_;
+}
+
+double InnerPolytope::provenDepth() const {
+  double least = kInfinity;
+  for (const double reach : reach_) least = std::min(least, reach);
+  return least - odometer_m_;
+}
+
+void InnerPolytope::forget() {
+  corners_.clear();
+  triangles_.clear();
+  reach_.clear();
+  free_.clear();
+  odometer_m_ = 0.0;
+}
+
+// The facet of the last answer is an axis of this query too, and mostly the best.
+void InnerPolytope::recall(const PolyhedronPair& pair, FeaturePair last) {
+  if (last.a.kind == FeatureKind::kFace) {
+    keep(gapOverFaceOfA(pair, last.a.index, last.b.index));
+  } else if (last.b.kind == FeatureKind::kFace) {
+    keep(gapOverFaceOfB(pair, last.b.index, last.a.index));
+  } else if (last.a.kind == FeatureKind::kEdge && last.b.kind == FeatureKind::kEdge) {
+    if (const auto across = gapAcrossEdges(pair, last.a.index, last.b.index, best_.normal)) keep(*across);
+  }
+}
+
+void InnerPolytope::keep(const MinimumTranslation& found) {
+  if (found.gap_m > best_.gap_m) best_ = found;
+}
+
+bool InnerPolytope::stillHolds(const PolyhedronPair& pair) {
+  const Mat3 turn = pair.R_AB - R_AB_;
+  // The norm of the difference of two rotations is that of Frobenius over the root of two.
+  const double step =
+      (turn * pair.b.center() + (pair.t_AB - t_AB_)).norm() + std::sqrt(0.5) * turn.norm() * pair.b.radius();
+  odometer_m_ += step;
+  R_AB_ = pair.R_AB;
+  t_AB_ = pair.t_AB;
+  if (triangles_.empty() || corners_.size() > kOvergrown * corners_when_built_ + 16) return false;
+  if (provenDepth() > 0.0) return true;
+  // Something may have passed through the origin. It still winds around an inner point if that is below all
+  // triangles' planes.
+  Vec3 inner = Vec3::Zero();
+  for (int i = 0; i < 4; ++i) inner += 0.25 * position(pair, i);
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Triangle& t = triangles_[i];
+    if (t.removed) continue;
+    measure(pair, static_cast<int>(i));
+    if (!(t.height_m - t.normal.dot(inner) > noise_m_)) return false;
+  }
+  return true;
+}
+
+// A tetrahedron between support points: far apart along a line, far from the line, far from the plane.
+bool InnerPolytope::build(const PolyhedronPair& pair) {
+  forget();
+  const Corner any = cornerOf(pair, 0, 0);
+  const auto farthest = [&](std::initializer_list<Vec3> directions, auto&& distance) {
+    Corner best = any;
+    double most = -1.0;
+    for (const Vec3& d : directions)
+      for (const double sign : {1.0, -1.0}) {
+        const Corner c = supportAlong(pair, sign * d, any);
+        if (const double far = distance(c.w); far > most) {
+          most = far;
+          best = c;
+        }
+      }
+    return best;
+  };
+  const auto axes = {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())};
+  const Corner c0 = farthest(axes, [&](const Vec3& w) { return (w - any.w).norm(); });
+  const Corner c1 = farthest(axes, [&](const Vec3& w) { return (w - c0.w).norm(); });
+  const double length = (c1.w - c0.w).norm();
+  if (!(length > 0.0)) return false;
+  const Vec3 along = (c1.w - c0.w) / length;
+  const TangentBasis across = tangentBasis(along);
+  const Corner c2 =
+      farthest({across.t1, across.t2}, [&](const Vec3& w) { return along.cross(w - c0.w).norm(); });
+  const Vec3 normal = along.cross(c2.w - c0.w);
+  const double breadth = normal.norm();
+  if (!(breadth > kFlat * length)) return false;
+  const Vec3 up = normal / breadth;
+  const Corner c3 = farthest({up}, [&](const Vec3& w) { return std::abs(up.dot(w - c0.w)); });
+  const double rise = up.dot(c3.w - c0.w);
+  if (!(std::abs(rise) > kFlat * length)) return false;
+  corners_ = {c0, c1, c2, c3};
+  if (rise > 0.0) std::swap(corners_[1], corners_[2]);  // 0, 1, 2 counter-clockwise seen from opposite 3
+  for (const auto& corners : {std::array{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+    addTriangle(pair, corners);
+  triangles_[0].neighbours = {1, 2, 3};
+  triangles_[1].neighbours = {3, 2, 0};
+  triangles_[2].neighbours = {1, 3, 0};
+  triangles_[3].neighbours = {2, 1, 0};
+  corners_when_built_ = 0;
+  return true;
+}
+
+bool InnerPolytope::raise(const PolyhedronPair& pair) {
+  const int limit = 200 + 20 * (pair.a.vertexCount() + pair.b.vertexCount());
+  for (int i = 0; i < limit; ++i) {
+    const int lowest = lowestBelow(pair, -best_.gap_m - noise_m_);
+    if (lowest < 0) {
+      if (corners_when_built_ == 0) corners_when_built_ = corners_.size();
+      return true;
+    }
+    const Triangle& t = triangles_[at(lowest)];
+    const Corner support = supportAlong(pair, t.normal, corners_[at(t.corners[0])]);
+    const double height = t.normal.dot(support.w);
+    if (-height > best_.gap_m) considerFacetsAt(pair, support, t.normal);
+    if (height > t.height_m + 0.5 * noise_m_) {
+      expand(pair, support, lowest);
+    } else if (-height > best_.gap_m + 0.5 * noise_m_) {
+      // On the surface of M, on a facet with no feature pair that was looked at: the plane itself.
+      best_ = {-height,
+               t.normal,
+               {vertexFeature(support.a), vertexFeature(support.b)},
+               pair.a.vertex(support.a),
+               pair.toA(pair.b.vertex(support.b))};
+    }
+  }
+  return false;
+}
+
+// The triangle of least height, if that is below `enough_m`; -1 if none is.
+int InnerPolytope::lowestBelow(const PolyhedronPair& pair, double enough_m) {
+  int lowest = -1;
+  double least = enough_m;
+  for (std::size_t i = 0; i < reach_.size(); ++i) {
+    if (boundNow(i) >= least) continue;
+    const Triangle& t = triangles_[i];
+    if (t.measured != query_) measure(pair, static_cast<int>(i));
+    if (t.height_m < least) {
+      least = t.height_m;
+      lowest = static_cast<int>(i);
+    }
+  }
+  return lowest;
+}
+
+// The axes of the facets of M around a corner: each is an upper bound of the depth, the facet that holds the
+// corner's triangle the exact one.
+void InnerPolytope::considerFacetsAt(const PolyhedronPair& pair, const Corner& corner, const Vec3& n) {
+  const Vec3 minus_n_B = -pair.directionToB(n);
+  if (const int f = faceTowards(pair.a, corner.a, n); f >= 0) keep(gapOverFaceOfA(pair, f, corner.b));
+  if (const int f = faceTowards(pair.b, corner.b, minus_n_B); f >= 0) keep(gapOverFaceOfB(pair, f, corner.a));
+  const LevelEdges on_a(pair.a, corner.a, n);
+  const LevelEdges on_b(pair.b, corner.b, minus_n_B);
+  for (const int e1 : on_a.edges)
+    for (const int e2 : on_b.edges)
+      if (e1 >= 0 && e2 >= 0)
+        if (const auto across = gapAcrossEdges(pair, e1, e2, n)) keep(*across);
+}
+
+// Puts the corner over `seen` and the triangles around it that it is not below.
+void InnerPolytope::expand(const PolyhedronPair& pair, const Corner& corner, int seen) {
+  ++expansions_;
+  const int tip = static_cast<int>(corners_.size());
+  corners_.push_back(corner);
+  findHorizon(pair, corner.w, seen);
+  for (const int i : visible_) {
+    reach_[at(i)] = kInfinity;
+    free_.push_back(i);
+  }
+  // Each edge of the horizon carries a triangle up to the tip; `inner` now names that.
+  for (HorizonEdge& edge : horizon_) {
+    edge.inner = addTriangle(pair, {edge.from, edge.to, tip});
+    triangles_[at(edge.inner)].neighbours[0] = edge.outer;
+    connect(edge.outer, edge.to, edge.inner);
+  }
+  for (const HorizonEdge& edge : horizon_)
+    for (const HorizonEdge& next : horizon_)
+      if (next.from == edge.to && triangles_[at(next.inner)].neighbours[2] < 0) {
+        triangles_[at(edge.inner)].neighbours[1] = next.inner;
+        triangles_[at(next.inner)].neighbours[2] = edge.inner;
+        break;
+      }
+}
+
+// The connected triangles around `seen` that w is not below, and the edges where they end.
+void InnerPolytope::findHorizon(const PolyhedronPair& pair, const Vec3& w, int seen) {
+  visible_.assign(1, seen);
+  horizon_.clear();
+  triangles_[at(seen)].removed = true;
+  for (std::size_t i = 0; i < visible_.size(); ++i) {
+    const Triangle& t = triangles_[at(visible_[i])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int n = t.neighbours[k];
+      Triangle& neighbour = triangles_[at(n)];
+      if (neighbour.removed) continue;
+      if (neighbour.measured != query_) measure(pair, n);
+      if (neighbour.normal.dot(w) > neighbour.height_m - 0.25 * noise_m_) {
+        neighbour.removed = true;
+        visible_.push_back(n);
+      }
+    }
+  }
+  for (const int i : visible_) {
+    const Triangle& t = triangles_[at(i)];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!triangles_[at(t.neighbours[k])].removed)
+        horizon_.push_back({t.corners[k], t.corners[(k + 1) % 3], t.neighbours[k], i});
+  }
+}
+
+// The triangle's edge that begins at corner `from` now leads to `neighbour`.
+void InnerPolytope::connect(int triangle, int from, int neighbour) {
+  Triangle& t = triangles_[at(triangle)];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.corners[k] == from) t.neighbours[k] = neighbour;
+}
+
+InnerPolytope::Corner InnerPolytope::supportAlong(const PolyhedronPair& pair, const Vec3& n,
+                                                  const Corner& start) const {
+  return cornerOf(pair, pair.a.support(n, start.a), pair.b.support(-pair.directionToB(n), start.b));
+}
+
+InnerPolytope::Corner InnerPolytope::cornerOf(const PolyhedronPair& pair, int a, int b) const {
+  return {a, b, pair.a.vertex(a) - pair.toA(pair.b.vertex(b)), query_};
+}
+
+const Vec3& InnerPolytope::position(const PolyhedronPair& pair, int corner) {
+  Corner& c = corners_[at(corner)];
+  if (c.moved != query_) c = cornerOf(pair, c.a, c.b);
+  return c.w;
+}
+
+void InnerPolytope::measure(const PolyhedronPair& pair, int triangle) {
+  Triangle& t = triangles_[at(triangle)];
+  const Vec3& w0 = position(pair, t.corners[0]);
+  const Vec3& w1 = position(pair, t.corners[1]);
+  const Vec3& w2 = position(pair, t.corners[2]);
+  const Vec3 side1 = w1 - w0;
+  const Vec3 side2 = w2 - w0;
+  const Vec3 across = side1.cross(side2);
+  const double twice_area = across.norm();
+  if (twice_area > kSliver * (side1.squaredNorm() + side2.squaredNorm())) {
+    t.normal = across / twice_area;
+    t.height_m = std::min({t.normal.dot(w0), t.normal.dot(w1), t.normal.dot(w2)});
+  } else {
+    t.normal = Vec3::Zero();
+    t.height_m = kInfinity;
+  }
+  t.measured = query_;
+  reach_[at(triangle)] = t.height_m + odometer_m_;
+}
+
+int InnerPolytope::addTriangle(const PolyhedronPair& pair, const std::array<int, 3>& corners) {
+  int place = static_cast<int>(triangles_.size());
+  if (free_.empty()) {
+    triangles_.emplace_back();
+    reach_.emplace_back();
+  } else {
+    place = free_.back();
+    free_.pop_back();
+  }
+  Triangle& t = triangles_[at(place)];
+  t.corners = corners;
+  t.neighbours = {-1, -1, -1};
+  t.removed = false;
+  measure(pair, place);
+  return place;
+}
+
+}  // namespace carom

@@ -1,0 +1,92 @@
+#pragma once
+// The exact depth of two intersecting polyhedra by a polytope that grows inside their Minkowski difference
+// M = A - B (the expanding polytope of van den Bergen 2001), kept from query to query.
+//
+// Depth = the least height of a supporting plane of M over the origin. Any direction n bounds it from above
+// by its support, max n.w over M, which hill climbing finds exactly. From below it is bounded by a closed
+// surface of triangles between points of M that winds around the origin: a ball that stays under all the
+// triangles' planes lies inside the surface, so inside M. The lowest triangle is raised by the support point
+// over it until it lies on M's own surface; then both bounds meet. The proof asks for no convexity, only that
+// a triangle is replaced when the new point is not below its plane, so that what is swept holds no interior
+// point; rounding can cost a needless triangle, not the bound.
+//
+// From query to query the corners move by less than the bodies' relative motion. A triangle whose height,
+// less the motion since it was measured, is above the depth needs no look; and the surface still winds around
+// the origin as long as no triangle can have passed through it. Tested in
+// tests/engine/closest_features/inner_polytope_test.cpp.
+
+#include <array>
+#include <vector>
+
+#include "engine/closest_features/penetration.h"
+
+namespace carom {
+
+class InnerPolytope {
+ public:
+  /// The minimum translation of `pair`; what was built for the pair's last query is used if it still holds.
+  /// At least one of the two must have faces. `gap_m` > 0: a separating axis was found.
+  MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m);
+
+  /// Triangles of the surface that proves the last answer.
+  int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }
+  /// Support points added by the last query.
+  int expansions() const { return expansions_; }
+  /// The least height of a triangle's plane over the origin: the last answer's proven lower bound.
+  double provenDepth() const;
+  void forget();
+
+ private:
+  struct Corner {
+    int a, b;  // the vertices whose difference it is
+    Vec3 w;
+    int moved;  // the query at which w was computed
+  };
+  struct Triangle {
+    std::array<int, 3> corners;     // counter-clockwise seen from outside
+    std::array<int, 3> neighbours;  // across the edge from the k-th to the next corner
+    Vec3 normal;
+    double height_m;  // of the plane over the origin when it was measured
+    int measured;     // the query in which that was
+    bool removed;
+  };
+  struct HorizonEdge {
+    int from, to;
+    int outer;  // the triangle that stays, beyond the edge
+    int inner;  // the triangle that goes
+  };
+
+  bool stillHolds(const PolyhedronPair& pair);
+  bool build(const PolyhedronPair& pair);
+  bool raise(const PolyhedronPair& pair);
+  int lowestBelow(const PolyhedronPair& pair, double enough_m);
+  void expand(const PolyhedronPair& pair, const Corner& corner, int seen);
+  void findHorizon(const PolyhedronPair& pair, const Vec3& w, int seen);
+  void recall(const PolyhedronPair& pair, FeaturePair last);
+  void considerFacetsAt(const PolyhedronPair& pair, const Corner& corner, const Vec3& n);
+  void keep(const MinimumTranslation& found);
+  Corner supportAlong(const PolyhedronPair& pair, const Vec3& n, const Corner& start) const;
+  Corner cornerOf(const PolyhedronPair& pair, int a, int b) const;
+  const Vec3& position(const PolyhedronPair& pair, int corner);
+  void measure(const PolyhedronPair& pair, int triangle);
+  int addTriangle(const PolyhedronPair& pair, const std::array<int, 3>& corners);
+  void connect(int triangle, int from, int neighbour);
+  double boundNow(std::size_t triangle) const { return reach_[triangle] - odometer_m_; }
+
+  std::vector<Corner> corners_;
+  std::vector<Triangle> triangles_;
+  std::vector<double> reach_;  // by triangle: the odometer at which its plane may have come to the origin
+  std::vector<int> free_;      // places of removed triangles
+  std::vector<int> visible_;
+  std::vector<HorizonEdge> horizon_;
+  std::size_t corners_when_built_ = 0;
+  int query_ = 0;
+  int expansions_ = 0;
+  double noise_m_ = 0.0;
+  double odometer_m_ = 0.0;  // how far the corners may have moved since the polytope was built
+  Mat3 R_AB_ = Mat3::Identity();
+  Vec3 t_AB_ = Vec3::Zero();
+  MinimumTranslation best_;
+};
+
+}  // namespace carom
