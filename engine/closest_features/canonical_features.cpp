@@ -1,24 +1,20 @@
 #include "engine/closest_features/canonical_features.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "engine/closest_features/level_axes.h"
+
 namespace carom {
 namespace {
 
-// A vertex of the feature (of a face: any).
-int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
-  switch (feature.kind) {
-    case FeatureKind::kVertex:
-      return feature.index;
-    case FeatureKind::kEdge:
-      return polyhedron.edge(feature.index).tail;
-    default:
-      return polyhedron.faceVertices(feature.index)[0];
-  }
-}
+// Edges closer to parallel than this do not cross: their ends lie over each other.
+constexpr double kParallelSine = 1e-9;
+// Witnesses this many times the noise beside an axis still are its witnesses.
+constexpr double kOffAxis = 32.0;
 
 // Everything of a polyhedron that touches its support plane along a direction, within a tolerance.
 class SupportSet {
@@ -125,34 +121,10 @@ struct SupportSets {
 };
 thread_local SupportSets support_sets;
 
-// The face normals at the features, as directions from A to B, that the way between the witnesses might be.
-std::optional<Vec3> levelNormal(const PolyhedronPair& pair, const CoreAnswer& answer, double sine) {
-  const auto nearest = [sine](const ConvexPolyhedron& polyhedron, int v,
-                              const Vec3& n) -> std::optional<Vec3> {
-    for (const Spoke& spoke : polyhedron.spokes(v)) {
-      const Edge& edge = polyhedron.edge(spoke.edge);
-      const int face = edge.tail == v ? edge.left : edge.right;
-      if (face < 0) continue;
-      const Vec3& normal = polyhedron.plane(face).normal;
-      if (normal.dot(n) > 0.0 && normal.cross(n).squaredNorm() <= sine * sine) return normal;
-    }
-    return std::nullopt;
-  };
-  if (const auto n = nearest(pair.a, vertexOf(pair.a, answer.features.a), answer.normal)) return n;
-  const Vec3 minus_n_B = -pair.directionToB(answer.normal);
-  if (const auto n = nearest(pair.b, vertexOf(pair.b, answer.features.b), minus_n_B))
-    return Vec3(-pair.directionToA(*n));
-  return std::nullopt;
-}
-
 void gatherAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n, double noise_m,
                  double shift_m) {
   support_sets.a.gather(pair.a, n, vertexOf(pair.a, start.a), noise_m, shift_m);
   support_sets.b.gather(pair.b, -pair.directionToB(n), vertexOf(pair.b, start.b), noise_m, shift_m);
-}
-
-double slabAlong(const PolyhedronPair& pair, const Vec3& n) {
-  return n.dot(pair.toA(support_sets.b.top()) - support_sets.a.top());
 }
 
 // A vertex of one set over the other: the corner with the lowest vertex index.
@@ -186,7 +158,7 @@ bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
 }
 
 // No vertex of one set lies over the other: edges of the sets cross, and the lowest indices count.
-void takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
+bool takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
   std::optional<std::pair<int, int>> lowest;
   support_sets.a.forEachEdge([&](int i) {
     support_sets.b.forEachEdge([&](int j) {
@@ -197,7 +169,7 @@ void takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
       const Vec3 d2 = pair.directionToA(e2.direction);
       const Vec3 across = e1.direction.cross(d2);
       const double squared = across.squaredNorm();
-      if (!(squared > 0.0)) return;
+      if (squared < kParallelSine * kParallelSine) return;
       const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - pair.a.vertex(e1.tail);
       const double s1 = between.cross(d2).dot(across) / squared;
       const double s2 = between.cross(e1.direction).dot(across) / squared;
@@ -208,6 +180,7 @@ void takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
       answer.p_b = answer.p_a + answer.gap_m * answer.normal;
     });
   });
+  return lowest.has_value();
 }
 
 bool definesNormal(const FeaturePair& features) {
@@ -217,24 +190,30 @@ bool definesNormal(const FeaturePair& features) {
 
 }  // namespace
 
-void makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
-  const FeaturePair start = answer.features;
-  if (!definesNormal(start)) {
-    // The normal is as blurred as the witnesses are close; a level face has it exactly.
-    const auto level = levelNormal(pair, answer, 4.0 * noise_m / std::abs(answer.gap_m));
-    if (level) {
-      gatherAlong(pair, start, *level, noise_m, shift_m);
-      const double slab = slabAlong(pair, *level);
-      if (std::abs(slab - answer.gap_m) <= noise_m) {
-        answer.normal = *level;
-        answer.gap_m = slab;
-        if (!takeLowestVertex(pair, answer)) takeLowestCrossing(pair, answer);
-        return;
-      }
-    }
+bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
+  const CoreAnswer given = answer;
+  const auto takeLowest = [&] {
+    gatherAlong(pair, given.features, answer.normal, noise_m, shift_m);
+    return takeLowestVertex(pair, answer) || takeLowestCrossing(pair, answer);
+  };
+  const double slab = slabAlong(pair, given.features, given.normal);
+  if (definesNormal(given.features) && std::abs(slab - given.gap_m) <= noise_m) return takeLowest();
+  thread_local std::vector<MinimumTranslation> axes;
+  gatherLevelAxes(pair, given, noise_m, axes);
+  const MinimumTranslation* widest = nullptr;
+  for (const MinimumTranslation& axis : axes) {
+    if (std::abs(axis.gap_m - given.gap_m) > noise_m) continue;
+    if (!widest || axis.gap_m > widest->gap_m) widest = &axis;
+    answer.normal = axis.normal;
+    answer.gap_m = axis.gap_m;
+    if (takeLowest()) return true;
   }
-  gatherAlong(pair, start, answer.normal, noise_m, shift_m);
-  if (!takeLowestVertex(pair, answer)) takeLowestCrossing(pair, answer);
+  answer = given;
+  if (takeLowest()) return true;
+  const bool on_axis =
+      widest && (given.p_b - given.p_a - given.gap_m * widest->normal).norm() <= kOffAxis * noise_m;
+  if (on_axis && widest->gap_m > slab) answer.normal = widest->normal;
+  return false;
 }
 
 }  // namespace carom

@@ -15,7 +15,7 @@ namespace carom {
 /// Replaces the features and witnesses of an answer by the canonical ones. Features within `noise_m` of a
 /// support plane are level with it, points within `shift_m` of each other across the normal coincide. The gap
 /// and normal change only by less than the noise (a normal taken from two witnesses becomes that of a face
-/// that is level with them).
-void makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m);
+/// that is level with them). False: no features hold the witnesses across the normal, nothing was changed.
+bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m);
 
 }  // namespace carom

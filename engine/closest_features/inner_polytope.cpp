@@ -11,8 +11,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A triangle lower than this share of its length has no trustworthy normal, and no point farther than that
 // from its neighbours' edges: it bounds nothing.
 constexpr double kSliver = 0x1p-46;
-// A polytope with this many times the corners it was built with carries more than it needs.
-constexpr std::size_t kOvergrown = 2;
+// Corners that are no longer extreme dent the surface, and each dent must be raised anew: a polytope that has
+// gained this many since it was built is better begun again.
+constexpr std::size_t kAgeing = 16;
+// Planes whose normals are this close are of one facet.
+constexpr double kSameDirection = 1.0 - 1e-12;
 // The start is a tetrahedron of at least this share of its size.
 constexpr double kFlat = 1e-12;
 
@@ -113,7 +116,7 @@ bool InnerPolytope::stillHolds(const PolyhedronPair& pair) {
   odometer_m_ += step;
   R_AB_ = pair.R_AB;
   t_AB_ = pair.t_AB;
-  if (triangles_.empty() || corners_.size() > kOvergrown * corners_when_built_ + 16) return false;
+  if (triangles_.empty() || corners_.size() > corners_when_built_ + kAgeing) return false;
   if (provenDepth() > 0.0) return true;
   // Something may have passed through the origin. It still winds around an inner point if that is below all
   // triangles' planes.
@@ -174,45 +177,116 @@ bool InnerPolytope::build(const PolyhedronPair& pair) {
 }
 
 bool InnerPolytope::raise(const PolyhedronPair& pair) {
+  // The least support so far: the depth is at most that.
+  double depth = -best_.gap_m;
+  Corner deepest{};
+  Vec3 normal = best_.normal;
+  findLow(pair, depth - noise_m_);
   const int limit = 200 + 20 * (pair.a.vertexCount() + pair.b.vertexCount());
   for (int i = 0; i < limit; ++i) {
-    const int lowest = lowestBelow(pair, -best_.gap_m - noise_m_);
+    const int lowest = takeLowest(depth - noise_m_);
     if (lowest < 0) {
+      if (depth < -best_.gap_m) nameFacet(pair, deepest, normal, depth);
       if (corners_when_built_ == 0) corners_when_built_ = corners_.size();
       return true;
     }
     const Triangle& t = triangles_[at(lowest)];
     const Corner support = supportAlong(pair, t.normal, corners_[at(t.corners[0])]);
     const double height = t.normal.dot(support.w);
-    if (-height > best_.gap_m) considerFacetsAt(pair, support, t.normal);
-    if (height > t.height_m + 0.5 * noise_m_) {
-      expand(pair, support, lowest);
-    } else if (-height > best_.gap_m + 0.5 * noise_m_) {
-      // On the surface of M, on a facet with no feature pair that was looked at: the plane itself.
-      best_ = {-height,
-               t.normal,
-               {vertexFeature(support.a), vertexFeature(support.b)},
-               pair.a.vertex(support.a),
-               pair.toA(pair.b.vertex(support.b))};
+    if (height < depth) {
+      depth = height;
+      deepest = support;
+      normal = t.normal;
     }
+    if (height > t.height_m + 0.5 * noise_m_) expand(pair, support, lowest);
   }
   return false;
 }
 
-// The triangle of least height, if that is below `enough_m`; -1 if none is.
-int InnerPolytope::lowestBelow(const PolyhedronPair& pair, double enough_m) {
+// Every triangle that is lower than `enough_m`, measured.
+void InnerPolytope::findLow(const PolyhedronPair& pair, double enough_m) {
+  low_.clear();
+  const double reached = odometer_m_ + enough_m;
+  for (std::size_t i = 0; i < reach_.size(); ++i) {
+    if (!(reach_[i] < reached)) continue;
+    if (triangles_[i].measured != query_) measure(pair, static_cast<int>(i));
+    if (triangles_[i].height_m < enough_m) low_.push_back(static_cast<int>(i));
+  }
+}
+
+// The lowest of the low triangles that stand, if it is below `enough_m`; -1 if none is.
+int InnerPolytope::takeLowest(double enough_m) {
   int lowest = -1;
   double least = enough_m;
-  for (std::size_t i = 0; i < reach_.size(); ++i) {
-    if (boundNow(i) >= least) continue;
-    const Triangle& t = triangles_[i];
-    if (t.measured != query_) measure(pair, static_cast<int>(i));
+  std::size_t kept = 0;
+  for (const int i : low_) {
+    const Triangle& t = triangles_[at(i)];
+    if (t.removed || t.height_m >= enough_m) continue;
+    low_[kept++] = i;
     if (t.height_m < least) {
       least = t.height_m;
-      lowest = static_cast<int>(i);
+      lowest = i;
     }
   }
+  low_.resize(kept);
   return lowest;
+}
+
+// The features of the facet of M that a plane with this normal, at this height, touches at a corner.
+void InnerPolytope::nameFacet(const PolyhedronPair& pair, const Corner& corner, const Vec3& normal,
+                              double height_m) {
+  considerFacetsAt(pair, corner, normal);
+  if (height_m < -best_.gap_m - 0.5 * noise_m_)
+    best_ = {-height_m,
+             normal,
+             {vertexFeature(corner.a), vertexFeature(corner.b)},
+             pair.a.vertex(corner.a),
+             pair.toA(pair.b.vertex(corner.b))};
+}
+
+void InnerPolytope::equalFacets(const PolyhedronPair& pair, std::vector<MinimumTranslation>& facets) {
+  const MinimumTranslation best = best_;
+  facets.assign(1, best);
+  for (std::size_t i = 0; i < reach_.size(); ++i) {
+    if (!(boundNow(i) <= noise_m_ - best.gap_m)) continue;
+    if (triangles_[i].measured != query_) measure(pair, static_cast<int>(i));
+    const Triangle& t = triangles_[i];
+    const bool known = std::any_of(facets.begin(), facets.end(), [&](const MinimumTranslation& facet) {
+      return facet.normal.dot(t.normal) > kSameDirection;
+    });
+    if (known || t.height_m > noise_m_ - best.gap_m) continue;
+    best_.gap_m = -kInfinity;
+    considerFacetsAt(pair, supportAlong(pair, t.normal, corners_[at(t.corners[0])]), t.normal);
+    if (best_.gap_m >= best.gap_m - noise_m_) facets.push_back(best_);
+  }
+  best_ = best;
+}
+
+void InnerPolytope::placeWitnesses(const PolyhedronPair& pair, MinimumTranslation& answer) {
+  const Vec3 foot = -answer.gap_m * answer.normal;  // the point of M's surface nearest the origin
+  double innermost = -kInfinity;
+  for (std::size_t i = 0; i < reach_.size(); ++i) {
+    if (!(boundNow(i) <= 4.0 * noise_m_ - answer.gap_m)) continue;
+    const Triangle& t = triangles_[i];
+    const std::array<Vec3, 3> w{position(pair, t.corners[0]), position(pair, t.corners[1]),
+                                position(pair, t.corners[2])};
+    std::array<double, 3> share{};
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& next = w[(k + 1) % 3];
+      share[k] = answer.normal.dot((w[(k + 2) % 3] - next).cross(foot - next));
+      sum += share[k];
+    }
+    const double inside = std::min({share[0], share[1], share[2]}) / sum;
+    if (!(sum > 0.0) || inside <= innermost) continue;
+    innermost = inside;
+    sum = 0.0;
+    for (double& s : share) sum += s = std::max(s, 0.0);
+    answer.p_a = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      answer.p_a += share[k] / sum * pair.a.vertex(corners_[at(t.corners[k])].a);
+    answer.p_b = answer.p_a + answer.gap_m * answer.normal;
+  }
 }
 
 // The axes of the facets of M around a corner: each is an upper bound of the depth, the facet that holds the
@@ -242,6 +316,7 @@ void InnerPolytope::expand(const PolyhedronPair& pair, const Corner& corner, int
   // Each edge of the horizon carries a triangle up to the tip; `inner` now names that.
   for (HorizonEdge& edge : horizon_) {
     edge.inner = addTriangle(pair, {edge.from, edge.to, tip});
+    low_.push_back(edge.inner);
     triangles_[at(edge.inner)].neighbours[0] = edge.outer;
     connect(edge.outer, edge.to, edge.inner);
   }

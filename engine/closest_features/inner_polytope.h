@@ -30,6 +30,33 @@ class InnerPolytope {
 
   /// Triangles of the surface that proves the last answer.
   int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }
+  /// The facets that are as near as the last answer's, to rounding: that one, and others in exact ties.
+  void equalFacets(const PolyhedronPair& pair, std::vector<MinimumTranslation>& facets);
+  /// Witnesses of the last answer as weighted means of vertices, where no feature pair holds them clearly.
+  void placeWitnesses(const PolyhedronPair& pair, MinimumTranslation& answer);
+
+  /// Calls visit(corners, neighbours) for each triangle: its corners as the vertices (of A, of B) whose
+  /// differences they are, counter-clockwise seen from outside, and the numbers of the triangles across the
+  /// edges that begin at each, counted in the order of the visits.
+  template <typename Visit>
+  void forEachTriangle(Visit&& visit) const {
+    std::vector<int> number(triangles_.size(), -1);
+    int count = 0;
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+      if (!triangles_[i].removed) number[i] = count++;
+    for (const Triangle& t : triangles_) {
+      if (t.removed) continue;
+      std::array<std::array<int, 2>, 3> corners;
+      std::array<int, 3> neighbours;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corner& c = corners_[static_cast<std::size_t>(t.corners[k])];
+        corners[k] = {c.a, c.b};
+        neighbours[k] = number[static_cast<std::size_t>(t.neighbours[k])];
+      }
+      visit(corners, neighbours);
+    }
+  }
+
   /// Support points added by the last query.
   int expansions() const { return expansions_; }
   /// The least height of a triangle's plane over the origin: the last answer's proven lower bound.
@@ -59,7 +86,9 @@ class InnerPolytope {
   bool stillHolds(const PolyhedronPair& pair);
   bool build(const PolyhedronPair& pair);
   bool raise(const PolyhedronPair& pair);
-  int lowestBelow(const PolyhedronPair& pair, double enough_m);
+  void findLow(const PolyhedronPair& pair, double enough_m);
+  int takeLowest(double enough_m);
+  void nameFacet(const PolyhedronPair& pair, const Corner& corner, const Vec3& normal, double height_m);
   void expand(const PolyhedronPair& pair, const Corner& corner, int seen);
   void findHorizon(const PolyhedronPair& pair, const Vec3& w, int seen);
   void recall(const PolyhedronPair& pair, FeaturePair last);
@@ -78,6 +107,7 @@ class InnerPolytope {
   std::vector<double> reach_;  // by triangle: the odometer at which its plane may have come to the origin
   std::vector<int> free_;      // places of removed triangles
   std::vector<int> visible_;
+  std::vector<int> low_;
   std::vector<HorizonEdge> horizon_;
   std::size_t corners_when_built_ = 0;
   int query_ = 0;

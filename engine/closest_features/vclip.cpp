@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/closest_features/canonical_features.h"
+#include "engine/closest_features/certificate.h"
 #include "engine/closest_features/feature_distance.h"
+#include "engine/closest_features/level_axes.h"
 #include "engine/closest_features/penetration.h"
 #include "engine/closest_features/v_region.h"
 #include "engine/closest_features/warm_pair.h"
+#include "engine/foundation/contract.h"
 
 namespace carom {
 namespace {
@@ -24,26 +29,27 @@ constexpr double kFlatSlope = 1e-15;
 // Rounding within a query, relative to its lengths, and of the positions, relative to their coordinates.
 constexpr double kNoise = 0x1p-47;
 constexpr double kShift = 0x1p-51;
-// A walk of this many states began far off: the features that face each other are tried as a new start.
+// A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
-constexpr double kSlack = 1e-12;
+constexpr double kSlack = 0x1p-50;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
 // this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
 // Edges that cross at a larger angle have a well-defined common perpendicular.
 constexpr double kCrossingSine = 1e-3;
-// Relative to the size: the direction between witnesses closer than this is blurred by rounding.
-constexpr double kShortDistance = 1e-6;
 
-// Vertices that face each other: far along the line between the bodies' first vertices.
-FeaturePair coldSeed(const PolyhedronPair& pair) {
-  const Vec3 toward_b = pair.toA(pair.b.center()) - pair.a.center();
+// The vertices that face each other along a direction from A to B.
+FeaturePair facingVertices(const PolyhedronPair& pair, const Vec3& toward_b) {
   const int va = pair.a.support(toward_b);
   const int vb = pair.b.support(-pair.directionToB(toward_b));
   return {vertexFeature(va), vertexFeature(vb)};
+}
+
+FeaturePair coldSeed(const PolyhedronPair& pair) {
+  return facingVertices(pair, pair.toA(pair.b.center()) - pair.a.center());
 }
 
 // A point outside A whose way to a point of A's surface begins inside A: the face through which that way
@@ -118,18 +124,6 @@ FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, Feature a, Featur
   return best;
 }
 
-// A vertex of the feature (of a face: any).
-int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
-  switch (feature.kind) {
-    case FeatureKind::kVertex:
-      return feature.index;
-    case FeatureKind::kEdge:
-      return polyhedron.edge(feature.index).tail;
-    default:
-      return polyhedron.faceVertices(feature.index)[0];
-  }
-}
-
 // The way from A to B across a pair of features, of any length. A face's normal and the common perpendicular
 // of two edges are exact; the difference of the witnesses is as good as it is long.
 struct Across {
@@ -151,6 +145,14 @@ Across acrossOf(const PolyhedronPair& pair, const FeatureDistance& d) {
     if (sine > kCrossingSine) return {common.dot(between) > 0.0 ? common : -common, sine, true};
   }
   return {between, d.distance(), false};
+}
+
+void answerFrom(const PolyhedronPair& pair, const FeatureDistance& found, CoreAnswer& answer) {
+  answer.gap_m = found.distance();
+  answer.normal = acrossOf(pair, found).unit();
+  answer.p_a = found.p_a;
+  answer.p_b = found.p_b;
+  answer.features = found.features;
 }
 
 enum class Move { kTaken, kClear, kStuck, kInside };
@@ -185,16 +187,14 @@ class Walk {
       return Move::kClear;
     if (pointsInward(pair_.a, at.features.a, n.w)) return enterA();
     if (pointsInward(pair_.b, at.features.b, minus_n_B)) return enterB();
-    const bool doubtful = steepest > flat || at.distance() < kShortDistance * scale_m_;
-    if (!doubtful) return Move::kStuck;
     const Vec3 unit = n.unit();
-    const Vec3 minus_unit_B = minus_n_B / n.length;
-    return slack(unit, minus_unit_B) > kSlack * scale_m_ && moveAlongBoth(unit, minus_unit_B) ? Move::kTaken
-                                                                                              : Move::kStuck;
+    if (at.distance() - slabAlong(pair_, at.features, unit) <= kSlack * scale_m_) return Move::kStuck;
+    return moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length) ? Move::kTaken : Move::kStuck;
   }
 
-  /// Goes on from another pair if that is closer.
-  void jumpTo(FeaturePair seed) { moveTo(seed); }
+  /// Goes on from another pair if that is closer: from what faces each other along the line of centres, or
+  /// along the way between the witnesses.
+  void jump() { moveTo(coldSeed(pair_)) || moveTo(facingVertices(pair_, here().p_b - here().p_a)); }
 
   const FeatureDistance& here() const { return seen_[here_]; }
   /// After kInside: the witness that lies in both bodies.
@@ -227,13 +227,15 @@ class Walk {
     return moved ? Move::kTaken : Move::kInside;
   }
 
-  // How much farther apart the witnesses are than the slab across n that is free of both bodies: the most by
-  // which the distance can be wrong.
-  double slack(const Vec3& n, const Vec3& minus_n_B) const {
-    const Vec3& far_a = pair_.a.vertex(pair_.a.support(n, vertexOf(pair_.a, here().features.a)));
-    const Vec3 far_b =
-        pair_.toA(pair_.b.vertex(pair_.b.support(minus_n_B, vertexOf(pair_.b, here().features.b))));
-    return here().distance() - n.dot(far_b - far_a);
+  // The features of a slab wider than the present one are closer than the present ones, if they hold it.
+  bool moveToLevelAxis() {
+    thread_local std::vector<MinimumTranslation> axes;
+    CoreAnswer present;
+    answerFrom(pair_, here(), present);
+    gatherLevelAxes(pair_, present, noise_m_, axes);
+    bool moved = false;
+    for (const MinimumTranslation& axis : axes) moved = moveTo(axis.features) || moved;
+    return moved;
   }
 
   // Between almost parallel features a step on one body alone gains less than rounding (half the slope
@@ -292,14 +294,6 @@ struct Scale {
   double shift_m;  // how far one body may be moved against the other by the rounding of their positions
 };
 
-void answerFrom(const PolyhedronPair& pair, const FeatureDistance& found, CoreAnswer& answer) {
-  answer.gap_m = found.distance();
-  answer.normal = acrossOf(pair, found).unit();
-  answer.p_a = found.p_a;
-  answer.p_b = found.p_b;
-  answer.features = found.features;
-}
-
 CoreAnswer answerFrom(const MinimumTranslation& m) {
   return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
 }
@@ -326,18 +320,45 @@ void settle(const PolyhedronPair& pair, const Walk& walk, Move move, const Scale
   if (directed) return answerFrom(pair, found, answer);
   const MinimumTranslation m = minimumTranslation(pair, scale.noise_m, polytope);
   answer = answerFrom(m);
-  if (m.gap_m < -kNoDirection * scale.size_m) return;
-  // The cores merely touch: the axes give the normal, but the foot of a support vertex may lie beside its
-  // face when several are equally far.
+  if (m.gap_m < -scale.noise_m) return;
   polytope.forget();
-  if (inside) {
+  if (inside) {  // they touch, to rounding
     answer.p_a = common;
     answer.p_b = common + m.gap_m * m.normal;
-  } else {
-    answer.gap_m = found.distance();
-    answer.p_a = found.p_a;
-    answer.p_b = found.p_b;
-    answer.features = found.features;
+    return;
+  }
+  // A facet whose features hold its witnesses is the answer; else what the walk found is, and the wider slab
+  // has the better normal.
+  if (makeCanonical(pair, answer, scale.noise_m, scale.shift_m)) return;
+  answerFrom(pair, found, answer);
+  if (!(answer.gap_m > 0.0) || m.gap_m > slabAlong(pair, answer.features, answer.normal))
+    answer.normal = m.normal;
+}
+
+// Features in an order that swapping the bodies does not change.
+std::array<int, 3> swapFreeOrder(const FeaturePair& f) {
+  return {static_cast<int>(f.a.kind) + static_cast<int>(f.b.kind), std::min(f.a.index, f.b.index),
+          std::max(f.a.index, f.b.index)};
+}
+
+// The canonical features of a depth; of facets that are equally near, the lowest. Where rounding leaves no
+// features that hold the witnesses, they lie between vertices.
+void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPolytope& polytope, bool tracked,
+                        CoreAnswer& answer) {
+  thread_local std::vector<MinimumTranslation> facets;
+  facets.assign(1, {answer.gap_m, answer.normal, answer.features, answer.p_a, answer.p_b});
+  if (!tracked && polytope.triangleCount() > 0) polytope.equalFacets(pair, facets);
+  std::optional<CoreAnswer> lowest;
+  for (const MinimumTranslation& facet : facets) {
+    CoreAnswer candidate = answerFrom(facet);
+    if (!makeCanonical(pair, candidate, scale.noise_m, scale.shift_m)) continue;
+    if (!lowest || swapFreeOrder(candidate.features) < swapFreeOrder(lowest->features)) lowest = candidate;
+  }
+  if (lowest) {
+    answer = *lowest;
+  } else if (polytope.triangleCount() > 0) {
+    polytope.placeWitnesses(pair, facets[0]);
+    answer = answerFrom(facets[0]);
   }
 }
 
@@ -348,8 +369,8 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   result.states = 1;
   if (polytope.triangleCount() > 0) {
     answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m));
-    if (answer.gap_m < -kNoDirection * scale.size_m) {
-      makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+    if (answer.gap_m < -scale.noise_m) {
+      if (!clearlyAlone(pair, answer, scale.shift_m)) makeDepthCanonical(pair, scale, polytope, true, answer);
       return answer;
     }
     polytope.forget();
@@ -364,14 +385,17 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   Walk walk(pair, tracked, scale.size_m, scale.shift_m);
   Move move = Move::kTaken;
   for (; result.states < bound && (move = walk.next()) == Move::kTaken; ++result.states)
-    if (result.states == kStaleStates) walk.jumpTo(coldSeed(pair));
+    if (result.states % kStaleStates == 0) walk.jump();
   result.reached_limit = move == Move::kTaken;
   if (move == Move::kClear) {
     answerFrom(pair, walk.here(), answer);
     return answer;
   }
   settle(pair, walk, move, scale, polytope, answer);
-  makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+  if (answer.gap_m < -scale.noise_m)
+    makeDepthCanonical(pair, scale, polytope, false, answer);
+  else
+    makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
   return answer;
 }
 
@@ -394,6 +418,10 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   result.status = result.distance_m > touching     ? Separation::kSeparated
                   : result.distance_m >= -touching ? Separation::kTouching
                                                    : Separation::kPenetrating;
+#ifndef NDEBUG
+  const Certificate certificate = certify(result, a, X_WA, b, X_WB, &memory);
+  REQUIRE(certificate.error_m <= certifiedError(a, X_WA, b, X_WB), certificate.error_m, result.distance_m);
+#endif
   return result;
 }
 

@@ -22,4 +22,8 @@ struct CoreAnswer {
 /// every end of a feature's neighbours farther than that behind its support plane. Fills `answer` if so.
 bool clearlyClosest(const PolyhedronPair& pair, FeaturePair features, double noise_m, CoreAnswer& answer);
 
+/// The same question about the facet of a minimum translation: whether `features`, F-V or E-E with their
+/// witnesses in `answer`, clearly are the only ones that touch along its normal.
+bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
+
 }  // namespace carom
