@@ -1,12 +1,15 @@
-# What the build needs on Debian 12, in one place: sourced by demos/run.sh and tests/run.sh.
-# install_missing_packages installs what is missing (root or sudo); without the right to, one line says what is missing.
+# What the build needs on Debian 12, in one place: sourced by demos/run.sh, tests/run.sh and tests/bench/run.sh.
+# install_missing_packages [PACKAGE...] installs what is missing (root or sudo); without the right to, one line says what is missing.
 
 carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libassimp-dev libpng-dev libqhull-dev
   libcli11-dev nlohmann-json3-dev libgtest-dev)
+# What the benchmarks compare with; each can be missing.
+benchmark_peers=(libfcl-dev libccd-dev libbullet-dev libode-dev)
 
 install_missing_packages() {
-  local missing=() package as_root=()
-  for package in "${carom_packages[@]}"; do
+  local wanted=("$@") missing=() package as_root=()
+  [ $# -gt 0 ] || wanted=("${carom_packages[@]}")
+  for package in "${wanted[@]}"; do
     [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
   done
   [ ${#missing[@]} -gt 0 ] || return 0
@@ -32,15 +35,19 @@ install_missing_packages() {
   rm -f "$log"
 }
 
-# build_release TARGET...: configures the release preset and builds the targets, in the checkout's root. Speaks only of
+# build_release TARGET...: configures the release preset and builds the targets.
+build_release() { build_preset release "$@"; }
+
+# build_preset PRESET TARGET...: configures the preset and builds the targets, in the checkout's root. Speaks only of
 # phases unless something fails.
-build_release() {
-  local log
+build_preset() {
+  local preset=$1 log
+  shift
   log=$(mktemp)
-  echo "configuring build/release"
-  cmake --preset release >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
+  echo "configuring build/$preset"
+  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
   echo "building $* with $(nproc) jobs"
-  cmake --build --preset release -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
+  cmake --build --preset "$preset" -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
     { grep -vE '^\[[0-9]+/[0-9]+\]' "$log" | head -n 60 >&2; rm -f "$log"; echo "building failed" >&2; return 1; }
   rm -f "$log"
 }

@@ -13,6 +13,8 @@ namespace {
 
 // Edges closer to parallel than this do not cross: their ends lie over each other.
 constexpr double kParallelSine = 1e-9;
+// Slabs that agree with the distance to this share of the noise are preferred to those that only just do.
+constexpr double kEqual = 0.125;
 // Witnesses this many times the noise beside an axis still are its witnesses.
 constexpr double kOffAxis = 32.0;
 
@@ -197,17 +199,18 @@ bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_
     return takeLowestVertex(pair, answer) || takeLowestCrossing(pair, answer);
   };
   const double slab = slabAlong(pair, given.features, given.normal);
-  if (definesNormal(given.features) && std::abs(slab - given.gap_m) <= noise_m) return takeLowest();
+  if (definesNormal(given.features) && std::abs(slab - given.gap_m) <= kEqual * noise_m) return takeLowest();
   thread_local std::vector<MinimumTranslation> axes;
   gatherLevelAxes(pair, given, noise_m, axes);
   const MinimumTranslation* widest = nullptr;
-  for (const MinimumTranslation& axis : axes) {
-    if (std::abs(axis.gap_m - given.gap_m) > noise_m) continue;
-    if (!widest || axis.gap_m > widest->gap_m) widest = &axis;
-    answer.normal = axis.normal;
-    answer.gap_m = axis.gap_m;
-    if (takeLowest()) return true;
-  }
+  for (const double tolerance_m : {kEqual * noise_m, noise_m})
+    for (const MinimumTranslation& axis : axes) {
+      if (std::abs(axis.gap_m - given.gap_m) > tolerance_m) continue;
+      if (!widest || axis.gap_m > widest->gap_m) widest = &axis;
+      answer.normal = axis.normal;
+      answer.gap_m = axis.gap_m;
+      if (takeLowest()) return true;
+    }
   answer = given;
   if (takeLowest()) return true;
   const bool on_axis =

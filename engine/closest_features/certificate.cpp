@@ -51,8 +51,9 @@ double provenDepth(const InnerPolytope& polytope, const ConvexPolyhedron& a, con
       const auto other = static_cast<std::size_t>(neighbours[i][k]);
       bool matched = false;
       for (std::size_t m = 0; m < 3; ++m)
-        matched = matched || (triangles[other][m] == next && triangles[other][(m + 1) % 3] == triangles[i][k] &&
-                              neighbours[other][m] == static_cast<int>(i));
+        matched =
+            matched || (triangles[other][m] == next && triangles[other][(m + 1) % 3] == triangles[i][k] &&
+                        neighbours[other][m] == static_cast<int>(i));
       if (!matched) return -kInfinity;
     }
     const Vec3 side1 = w[1] - w[0];
@@ -97,8 +98,8 @@ Certificate certify(const ClosestFeatures& answer, const ConvexPart& a, const Po
 }
 
 double certifiedError(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB) {
-  const double size = (X_WB.position - X_WA.position).norm() + a.core.reach() + b.core.reach() + a.radius_m +
-                      b.radius_m;
+  const double size =
+      (X_WB.position - X_WA.position).norm() + a.core.reach() + b.core.reach() + a.radius_m + b.radius_m;
   return 1e-12 * size + 0x1p-50 * (X_WA.position.norm() + X_WB.position.norm());
 }
 

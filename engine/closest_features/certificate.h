@@ -16,8 +16,8 @@ namespace carom {
 struct Certificate {
   /// The distance (or depth), the witnesses and the normal are right to within this, metres.
   double error_m = 0.0;
-  /// False: the depth is proven to free the parts but not to be the least that does (no polytope was given, or
-  /// parts without faces).
+  /// False: the depth is proven to free the parts but not to be the least that does (no polytope was given,
+  /// or parts without faces).
   bool complete = true;
 };
 

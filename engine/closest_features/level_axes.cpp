@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom {
 namespace {
@@ -31,6 +32,22 @@ void forEachLevelEdge(const ConvexPolyhedron& polyhedron, Feature feature, const
     if (std::abs(spoke.direction.dot(n)) <= sine) visit(spoke.edge);
 }
 
+// The side through which a way along a face leaves it.
+int exitSide(const ConvexPolyhedron& polyhedron, int face, const Vec3& from, const Vec3& along) {
+  const auto sides = polyhedron.faceSides(face);
+  int exit = -1;
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const double sinking = -sides[i].normal.dot(along);
+    if (sinking <= 0.0) continue;
+    if (const double t = sides[i].signedDistance(from) / sinking; t < first) {
+      first = t;
+      exit = polyhedron.faceEdges(face)[i];
+    }
+  }
+  return exit;
+}
+
 }  // namespace
 
 int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
@@ -58,13 +75,29 @@ void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, doubl
   const int va = vertexOf(pair.a, a);
   const int vb = vertexOf(pair.b, b);
   const Vec3 minus_n_B = -pair.directionToB(answer.normal);
-  forEachLevelFace(pair.a, va, answer.normal, sine, [&](int f) { axes.push_back(gapOverFaceOfA(pair, f, vb)); });
+  forEachLevelFace(pair.a, va, answer.normal, sine,
+                   [&](int f) { axes.push_back(gapOverFaceOfA(pair, f, vb)); });
   forEachLevelFace(pair.b, vb, minus_n_B, sine, [&](int f) { axes.push_back(gapOverFaceOfB(pair, f, va)); });
   forEachLevelEdge(pair.a, a, answer.normal, sine, [&](int i) {
     forEachLevelEdge(pair.b, b, minus_n_B, sine, [&](int j) {
       if (const auto across = gapAcrossEdges(pair, i, j, answer.normal)) axes.push_back(*across);
     });
   });
+  // Over a face, an edge that is level with it may be lower where it passes over one of the face's sides.
+  if (a.kind == FeatureKind::kFace)
+    forEachLevelEdge(pair.b, b, minus_n_B, sine, [&](int j) {
+      const Edge& edge = pair.b.edge(j);
+      const Vec3 along = pair.directionToA(edge.tail == vb ? edge.direction : Vec3(-edge.direction));
+      const int side = exitSide(pair.a, a.index, answer.p_b, along);
+      if (const auto across = gapAcrossEdges(pair, side, j, answer.normal)) axes.push_back(*across);
+    });
+  if (b.kind == FeatureKind::kFace)
+    forEachLevelEdge(pair.a, a, answer.normal, sine, [&](int i) {
+      const Edge& edge = pair.a.edge(i);
+      const Vec3 along = pair.directionToB(edge.tail == va ? edge.direction : Vec3(-edge.direction));
+      const int side = exitSide(pair.b, b.index, pair.toB(answer.p_a), along);
+      if (const auto across = gapAcrossEdges(pair, i, side, answer.normal)) axes.push_back(*across);
+    });
 }
 
 }  // namespace carom

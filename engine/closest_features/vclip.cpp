@@ -29,8 +29,11 @@ constexpr double kFlatSlope = 1e-15;
 // Rounding within a query, relative to its lengths, and of the positions, relative to their coordinates.
 constexpr double kNoise = 0x1p-47;
 constexpr double kShift = 0x1p-51;
+// Squared distances this close are equal, to rounding.
+constexpr double kAsClose = 1.0 + 0x1p-50;
 // A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
+constexpr int kLongWalk = 12;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
@@ -155,6 +158,10 @@ void answerFrom(const PolyhedronPair& pair, const FeatureDistance& found, CoreAn
   answer.features = found.features;
 }
 
+int dimensions(const FeaturePair& features) {
+  return static_cast<int>(features.a.kind) + static_cast<int>(features.b.kind);
+}
+
 enum class Move { kTaken, kClear, kStuck, kInside };
 
 class Walk {
@@ -164,7 +171,8 @@ class Walk {
         scale_m_(scale_m),
         noise_m_(noise_m),
         noise_slope_(noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge())),
-        seen_{anyFeatureDistance(pair, seed.a, seed.b), FeatureDistance{}} {}
+        seen_{anyFeatureDistance(pair, seed.a, seed.b), FeatureDistance{}},
+        lowest_m2_(seen_[0].squared_m2) {}
 
   Move next() {
     const FeatureDistance& at = here();
@@ -187,13 +195,18 @@ class Walk {
       return Move::kClear;
     if (pointsInward(pair_.a, at.features.a, n.w)) return enterA();
     if (pointsInward(pair_.b, at.features.b, minus_n_B)) return enterB();
+    if (at.distance() <= noise_m_) {  // touching or deep inside: the axes tell
+      common_is_on_a_ = false;
+      return Move::kInside;
+    }
     const Vec3 unit = n.unit();
     if (at.distance() - slabAlong(pair_, at.features, unit) <= kSlack * scale_m_) return Move::kStuck;
     return moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length) ? Move::kTaken : Move::kStuck;
   }
 
-  /// Goes on from another pair if that is closer: from what faces each other along the line of centres, or
-  /// along the way between the witnesses.
+  /// Goes on from another pair if that is closer: from a given one, or from what faces each other along the
+  /// line of centres, or along the way between the witnesses.
+  void jumpTo(FeaturePair seed) { moveTo(seed); }
   void jump() { moveTo(coldSeed(pair_)) || moveTo(facingVertices(pair_, here().p_b - here().p_a)); }
 
   const FeatureDistance& here() const { return seen_[here_]; }
@@ -205,7 +218,10 @@ class Walk {
     // Built in its place: to copy what has just been written costs more than to compute it.
     const FeatureDistance& there =
         *::new (&seen_[1 - here_]) FeatureDistance(anyFeatureDistance(pair_, features.a, features.b));
-    if (!there.crossing && !(there.squared_m2 < here().squared_m2)) return false;
+    const bool closer = there.crossing || there.squared_m2 < lowest_m2_;
+    const bool as_close = there.squared_m2 <= lowest_m2_ * kAsClose;
+    if (!closer && !(as_close && dimensions(there.features) > dimensions(here().features))) return false;
+    lowest_m2_ = std::min(lowest_m2_, there.squared_m2);
     here_ = 1 - here_;
     return true;
   }
@@ -246,7 +262,8 @@ class Walk {
     const LevelNeighbours on_b(pair_.b, here().features.b, minus_n_B, level_sine);
     bool moved = false;
     for (const Feature a : on_a.all())
-      for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;
+      for (const Feature b : on_b.all())
+        if (a.kind != FeatureKind::kFace || b.kind != FeatureKind::kFace) moved = moveTo({a, b}) || moved;
     return moved;
   }
 
@@ -254,6 +271,7 @@ class Walk {
   double scale_m_, noise_m_, noise_slope_;
   std::array<FeatureDistance, 2> seen_;
   std::size_t here_ = 0;
+  double lowest_m2_;
   bool common_is_on_a_ = false;
 };
 
@@ -384,8 +402,20 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   const int bound = 100 + 2 * (pair.a.edgeCount() + pair.b.edgeCount());
   Walk walk(pair, tracked, scale.size_m, scale.shift_m);
   Move move = Move::kTaken;
-  for (; result.states < bound && (move = walk.next()) == Move::kTaken; ++result.states)
+  for (; result.states < bound && (move = walk.next()) == Move::kTaken; ++result.states) {
     if (result.states % kStaleStates == 0) walk.jump();
+    if (result.states != kLongWalk) continue;
+    // Around large faces of bodies that intersect a walk can be long; the axes tell, and lead on if they
+    // don't.
+    const MinimumTranslation m = minimumTranslation(pair, scale.noise_m, polytope);
+    if (m.gap_m < -scale.noise_m) {
+      answer = answerFrom(m);
+      makeDepthCanonical(pair, scale, polytope, false, answer);
+      return answer;
+    }
+    polytope.forget();
+    walk.jumpTo(m.features);
+  }
   result.reached_limit = move == Move::kTaken;
   if (move == Move::kClear) {
     answerFrom(pair, walk.here(), answer);
