@@ -71,7 +71,7 @@ void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, doubl
                      std::vector<MinimumTranslation>& axes) {
   axes.clear();
   const double sine = std::min(kMostBlur, 4.0 * std::sqrt(noise_m / std::abs(answer.gap_m)));
-  const auto [a, b] = answer.features;
+  const Feature a = answer.features.a, b = answer.features.b;
   const int va = vertexOf(pair.a, a);
   const int vb = vertexOf(pair.b, b);
   const Vec3 minus_n_B = -pair.directionToB(answer.normal);
