@@ -128,11 +128,11 @@ class BevelledPart {
     const Vec3 n = vertex_normal_[at(v)].normalized();
     Vec3 inward = Vec3::Zero();
     double lean = 0.0;
-    for (const int e : core_.vertexEdges(v)) {
-      inward += (core_.edge(e).tail == v ? 1.0 : -1.0) * core_.edge(e).direction;
-      lean += n.dot(core_.plane(core_.edge(e).left).normal);
+    for (const Spoke& spoke : core_.spokes(v)) {
+      inward += spoke.direction;
+      lean += n.dot(core_.plane(core_.edge(spoke.edge).left).normal);
     }
-    lean = std::clamp(lean / static_cast<double>(core_.vertexEdges(v).size()), 0.1, 1.0);
+    lean = std::clamp(lean / static_cast<double>(core_.spokes(v).size()), 0.1, 1.0);
     const double depth = std::min(kMaxVertexPull, kPullIn * (1.0 / lean - 1.0)) * vertex_width_[at(v)];
     peak_.push_back(append(mesh_, core_.vertex(v) + depth * inward.normalized(), n));
   }

@@ -8,7 +8,7 @@
 // onto itself has two equal answers; body A's then counts.) Tested in
 // tests/engine/closest_features/canonical_features_test.cpp.
 
-#include "engine/closest_features/warm_pair.h"
+#include "engine/closest_features/core_answer.h"
 
 namespace carom {
 

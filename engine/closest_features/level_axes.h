@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/closest_features/penetration.h"
-#include "engine/closest_features/warm_pair.h"
+#include "engine/closest_features/core_answer.h"
 
 namespace carom {
 

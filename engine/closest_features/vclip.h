@@ -1,22 +1,11 @@
 #pragma once
-// V-Clip (paper §2; Mirtich 1997): the closest features of two convex parts, found by walking from a feature
-// pair to a neighbouring pair that is closer, until each witness lies in the V-region of the other's feature.
-//
-// Why it ends, in floating point too: the distance of the two closed features is a pure function of the
-// feature pair, and a move is taken only if that number strictly falls; there are finitely many pairs. Where
-// it ends is the answer: by convexity two points each in the other's V-region are the closest points of the
-// whole bodies, and a violated V-region offers a closer pair. Three ways that rounding or degeneracy hide it
-// are looked for at the end of a walk:
-// - the way between the witnesses runs inside a body (the classic local minimum behind a face; also at the
-// flat edges
-//   of coplanar faces, whose V-planes do not tell out from in): the other witness is inside, or the way
-//   enters the body earlier, through a face that is closer;
-// - between almost parallel features a step on one body gains half the slope squared, below rounding, a step
-// on both
-//   the slope itself: the free slab between the support planes bounds the error and asks for a step on both;
-// - witnesses too close together have no direction: the separating axes give it, and the depth if there is
-// one. A walk that reaches its bound all the same is counted and answered by exhaustive search. Tested in
-// tests/engine/closest_features/vclip_test.cpp.
+// The closest features of two convex parts: the query that everything above asks (paper §2). A pair that was
+// closest last time and clearly still is gets proven so in place (warm_pair.h); else a walk looks for the
+// closest features (feature_walk.h holds the argument that it ends); bodies that intersect get their exact
+// depth (inner_polytope.h). What is found is then named by canonical features (canonical_features.h), so that
+// the answer does not depend on where the search began. Certificates (certificate.h) prove answers; debug
+// builds check every one. A walk that reaches its bound is counted and answered by exhaustive search. Tested
+// in tests/engine/closest_features/vclip_test.cpp.
 
 #include "engine/closest_features/feature.h"
 #include "engine/closest_features/inner_polytope.h"

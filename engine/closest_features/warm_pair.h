@@ -4,19 +4,9 @@
 // ways off them at once; anything less than clear is left to the walk. Tested in
 // tests/engine/closest_features/warm_pair_test.cpp.
 
-#include "engine/closest_features/feature.h"
-#include "engine/closest_features/polyhedron_pair.h"
+#include "engine/closest_features/core_answer.h"
 
 namespace carom {
-
-/// The gap of two polyhedra with its normal (unit, from A to B) and witnesses, in the frame of A.
-struct CoreAnswer {
-  double gap_m = 0.0;
-  Vec3 normal = Vec3::UnitZ();
-  Vec3 p_a = Vec3::Zero();
-  Vec3 p_b = Vec3::Zero();
-  FeaturePair features;
-};
 
 /// Whether `features` are clearly the closest: witnesses farther than `noise_m` inside their features, and
 /// every end of a feature's neighbours farther than that behind its support plane. Fills `answer` if so.

@@ -69,8 +69,11 @@ FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3
     consider(core.edge(feature.index).left);
     consider(core.edge(feature.index).right);
   } else {
-    for (const int e : core.vertexEdges(feature.index))  // each face once: it is left of one edge that leaves
-      consider(core.edge(e).tail == feature.index ? core.edge(e).left : core.edge(e).right);
+    for (const Spoke& spoke :
+         core.spokes(feature.index)) {  // each face once: it is left of one edge that leaves
+      const Edge& edge = core.edge(spoke.edge);
+      consider(edge.tail == feature.index ? edge.left : edge.right);
+    }
   }
   return best;
 }
@@ -88,10 +91,10 @@ int edgeAcross(const ConvexPolyhedron& core, Feature feature, const Vec3& normal
   };
   if (feature.kind == FeatureKind::kEdge) {
     consider(feature.index);
+  } else if (feature.kind == FeatureKind::kFace) {
+    for (const int e : core.faceEdges(feature.index)) consider(e);
   } else {
-    const std::span<const int> edges = feature.kind == FeatureKind::kVertex ? core.vertexEdges(feature.index)
-                                                                            : core.faceEdges(feature.index);
-    for (const int e : edges) consider(e);
+    for (const Spoke& spoke : core.spokes(feature.index)) consider(spoke.edge);
   }
   return best;
 }

@@ -141,7 +141,6 @@ void ConvexPolyhedron::buildSpokes() {
   }
   for (const std::vector<Spoke>& star : stars) {
     spokes_.insert(spokes_.end(), star.begin(), star.end());
-    for (const Spoke& spoke : star) vertex_edges_.push_back(spoke.edge);
     vertex_begin_.push_back(static_cast<int>(spokes_.size()));
   }
 }

@@ -65,9 +65,7 @@ class ConvexPolyhedron {
   std::span<const int> faceVertices(int f) const { return slice(face_vertices_, face_begin_, f); }
   /// The edges around face f: the i-th joins the i-th and the next vertex of `faceVertices(f)`.
   std::span<const int> faceEdges(int f) const { return slice(face_edges_, face_begin_, f); }
-  /// The edges at vertex v.
-  std::span<const int> vertexEdges(int v) const { return slice(vertex_edges_, vertex_begin_, v); }
-  /// The same edges seen from v, contiguous: their directions are the normals of the V-planes of v.
+  /// The edges at vertex v seen from there: their directions are the normals of its V-planes.
   std::span<const Spoke> spokes(int v) const { return slice(spokes_, vertex_begin_, v); }
   /// The V-planes of face f, the i-th through `faceEdges(f)[i]`: the prism over the face is where all are >=
   /// 0.
@@ -122,7 +120,7 @@ class ConvexPolyhedron {
   std::vector<Plane> planes_;
   std::vector<int> face_begin_{0}, face_vertices_, face_edges_;
   std::vector<Plane> face_sides_;
-  std::vector<int> vertex_begin_{0}, vertex_edges_;
+  std::vector<int> vertex_begin_{0};
   std::vector<Spoke> spokes_;
   SupportTable support_table_;
   Vec3 center_ = Vec3::Zero();

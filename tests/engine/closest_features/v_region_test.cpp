@@ -32,7 +32,10 @@ void forDirectionsAt(const ConvexPolyhedron& p, Check&& check) {
   };
   for (int v = 0; v < p.vertexCount(); ++v) {
     std::vector<int> faces;
-    for (int e : p.vertexEdges(v)) faces.push_back(p.edge(e).tail == v ? p.edge(e).left : p.edge(e).right);
+    for (const Spoke& spoke : p.spokes(v)) {
+      const Edge& edge = p.edge(spoke.edge);
+      faces.push_back(edge.tail == v ? edge.left : edge.right);
+    }
     check(vertexFeature(v), mixOf(faces));
   }
   for (int e = 0; e < p.edgeCount(); ++e) check(edgeFeature(e), mixOf({p.edge(e).left, p.edge(e).right}));

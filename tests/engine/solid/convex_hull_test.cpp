@@ -79,7 +79,7 @@ int largestFace(const ConvexPolyhedron& hull) {
 
 int largestDegree(const ConvexPolyhedron& hull) {
   std::size_t most = 0;
-  for (int v = 0; v < hull.vertexCount(); ++v) most = std::max(most, hull.vertexEdges(v).size());
+  for (int v = 0; v < hull.vertexCount(); ++v) most = std::max(most, hull.spokes(v).size());
   return static_cast<int>(most);
 }
 
@@ -198,7 +198,7 @@ TEST(ConvexHull, SpikeOverA200Gon_HasAVertexOfDegree200) {
   points.emplace_back(0, 0, 1);
   const ConvexPolyhedron spike = convexHull(points).polyhedron;
   std::size_t most = 0;
-  for (int v = 0; v < spike.vertexCount(); ++v) most = std::max(most, spike.vertexEdges(v).size());
+  for (int v = 0; v < spike.vertexCount(); ++v) most = std::max(most, spike.spokes(v).size());
   EXPECT_EQ(most, 200u);
 }
 

@@ -56,13 +56,15 @@ TEST(ConvexPolyhedron, EveryEdgeKnowsItsFacesAndTheyKnowIt) {
   }
 }
 
-TEST(ConvexPolyhedron, EveryVertexKnowsExactlyItsEdges) {
+TEST(ConvexPolyhedron, EveryVertexKnowsExactlyItsEdgesAndWhereTheyLead) {
   for (const ConvexPolyhedron& p : population()) {
     int listed = 0;
     for (int v = 0; v < p.vertexCount(); ++v)
-      for (int e : p.vertexEdges(v)) {
-        EXPECT_TRUE(p.edge(e).tail == v || p.edge(e).head == v);
-        EXPECT_NE(p.otherEnd(e, v), v);
+      for (const Spoke& spoke : p.spokes(v)) {
+        const Edge& edge = p.edge(spoke.edge);
+        EXPECT_TRUE(edge.tail == v || edge.head == v);
+        EXPECT_EQ(spoke.head, edge.tail == v ? edge.head : edge.tail);
+        EXPECT_EQ(spoke.direction, edge.tail == v ? edge.direction : -edge.direction);
         ++listed;
       }
     EXPECT_EQ(listed, 2 * p.edgeCount());
@@ -166,13 +168,13 @@ TEST(ConvexPolyhedron, TranslationMovesVerticesAndPlanesTogether) {
 TEST(ConvexPolyhedron, PointAndSegment_AreTheFacelessMembers) {
   const ConvexPolyhedron point = ConvexPolyhedron::point({1, 2, 3});
   EXPECT_EQ(point.vertexCount(), 1);
-  EXPECT_EQ(point.vertexEdges(0).size(), 0u);
+  EXPECT_EQ(point.spokes(0).size(), 0u);
   const ConvexPolyhedron segment = ConvexPolyhedron::segment({1, 2, 3}, {1, 2, 7});
   EXPECT_EQ(segment.edgeCount(), 1);
   EXPECT_EQ(segment.faceCount(), 0);
   EXPECT_EQ(segment.edge(0).length_m, 4.0);
   EXPECT_EQ(segment.edge(0).direction, Vec3(0, 0, 1));
-  EXPECT_EQ(segment.vertexEdges(1).size(), 1u);
+  EXPECT_EQ(segment.spokes(1).size(), 1u);
   EXPECT_EQ(segment.support({0, 0, 1}), 1);
 }
 

@@ -1,0 +1,29 @@
+#include "engine/closest_features/core_answer.h"
+
+namespace carom {
+namespace {
+
+// Edges that cross at a larger angle have a well-defined common perpendicular.
+constexpr double kCrossingSine = 1e-3;
+
+}  // namespace
+
+Across acrossOf(const PolyhedronPair& pair, const FeatureDistance& d) {
+  const auto [a, b] = d.features;
+  if (a.kind == FeatureKind::kFace) return {pair.a.plane(a.index).normal, 1.0, true};
+  if (b.kind == FeatureKind::kFace) return {-pair.directionToA(pair.b.plane(b.index).normal), 1.0, true};
+  const Vec3 between = d.p_b - d.p_a;
+  if (a.kind == FeatureKind::kEdge && b.kind == FeatureKind::kEdge) {
+    const Vec3 common =
+        pair.a.edge(a.index).direction.cross(pair.directionToA(pair.b.edge(b.index).direction));
+    const double sine = common.norm();
+    if (sine > kCrossingSine) return {common.dot(between) > 0.0 ? common : -common, sine, true};
+  }
+  return {between, d.distance(), false};
+}
+
+CoreAnswer answerFrom(const PolyhedronPair& pair, const FeatureDistance& found) {
+  return {found.distance(), acrossOf(pair, found).unit(), found.p_a, found.p_b, found.features};
+}
+
+}  // namespace carom

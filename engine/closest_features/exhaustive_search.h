@@ -1,0 +1,14 @@
+#pragma once
+// The fallback of a walk that was cut short: every feature against every feature. It is counted where it is
+// used, and no input is known that reaches it. Tested in
+// tests/engine/closest_features/exhaustive_search_test.cpp.
+
+#include "engine/closest_features/feature_distance.h"
+
+namespace carom {
+
+/// The closest features of two polyhedra; `crossing` if they intersect, one inside the other too. Cost: the
+/// product of their feature counts.
+FeatureDistance exhaustiveSearch(const PolyhedronPair& pair);
+
+}  // namespace carom
