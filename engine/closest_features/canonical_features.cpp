@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/closest_features/level_axes.h"
@@ -35,6 +36,7 @@ class SupportSet {
         if (!contains(spoke.head) && n.dot(polyhedron.vertex(top) - polyhedron.vertex(spoke.head)) <= level_m)
           add(spoke.head);
     std::sort(vertices_.begin(), vertices_.end());
+    gatherEdges();
     gatherFaces();
   }
 
@@ -53,19 +55,12 @@ class SupportSet {
     for (const int v : vertices_)
       if (alongPlane(p - polyhedron_->vertex(v)).squaredNorm() <= shift_m_ * shift_m_)
         return vertexFeature(v);
-    std::optional<Feature> edge;
-    forEachEdge([&](int e) {
-      if (!edge && isOver(e, p)) edge = edgeFeature(e);
-    });
-    return edge;
+    for (const int e : edges_)
+      if (isOver(e, p)) return edgeFeature(e);
+    return std::nullopt;
   }
 
-  template <typename Visit>
-  void forEachEdge(Visit&& visit) const {
-    for (const int v : vertices_)
-      for (const Spoke& spoke : polyhedron_->spokes(v))
-        if (spoke.head > v && contains(spoke.head)) visit(spoke.edge);
-  }
+  const std::vector<int>& edges() const { return edges_; }
 
  private:
   void add(int v) {
@@ -74,6 +69,12 @@ class SupportSet {
   }
   bool contains(int v) const { return seen_[static_cast<std::size_t>(v)] == gathering_; }
 
+  void gatherEdges() {
+    edges_.clear();
+    for (const int v : vertices_)
+      for (const Spoke& spoke : polyhedron_->spokes(v))
+        if (spoke.head > v && contains(spoke.head)) edges_.push_back(spoke.edge);
+  }
   void gatherFaces() {
     faces_.clear();
     if (vertices_.size() < 3) return;
@@ -81,8 +82,8 @@ class SupportSet {
       for (const Spoke& spoke : polyhedron_->spokes(v)) {
         const Edge& edge = polyhedron_->edge(spoke.edge);
         const int face = edge.tail == v ? edge.left : edge.right;
-        if (contains(spoke.head) && isLevel(face) &&
-            std::find(faces_.begin(), faces_.end(), face) == faces_.end())
+        if (contains(spoke.head) && std::find(faces_.begin(), faces_.end(), face) == faces_.end() &&
+            isLevel(face))
           faces_.push_back(face);
       }
     std::sort(faces_.begin(), faces_.end());
@@ -102,17 +103,24 @@ class SupportSet {
     return s > 0.0 && s < edge.length_m &&
            alongPlane(from_tail - s * edge.direction).squaredNorm() <= shift_m_ * shift_m_;
   }
+  // How far p is inside the sides of a face; of a point beyond one of them, only that it is. It is beyond all
+  // sides of one stretch, which long strides around the face soon meet.
   double insideFace(int f, const Vec3& p) const {
+    const std::span<const Plane> sides = polyhedron_->faceSides(f);
+    const std::size_t stride = std::max<std::size_t>(1, sides.size() / 8);
     double least = std::numeric_limits<double>::infinity();
-    for (const Plane& side : polyhedron_->faceSides(f)) least = std::min(least, side.signedDistance(p));
+    for (std::size_t first = 0; first < stride; ++first)
+      for (std::size_t i = first; i < sides.size(); i += stride) {
+        least = std::min(least, sides[i].signedDistance(p));
+        if (least < -shift_m_) return least;
+      }
     return least;
   }
 
   const ConvexPolyhedron* polyhedron_ = nullptr;
   Vec3 n_ = Vec3::Zero();
   double shift_m_ = 0.0;
-  std::vector<int> vertices_;
-  std::vector<int> faces_;
+  std::vector<int> vertices_, edges_, faces_;
   std::vector<int> seen_;  // by vertex: the gathering that last added it
   int gathering_ = 0;
 };
@@ -162,26 +170,25 @@ bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
 // No vertex of one set lies over the other: edges of the sets cross, and the lowest indices count.
 bool takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
   std::optional<std::pair<int, int>> lowest;
-  support_sets.a.forEachEdge([&](int i) {
-    support_sets.b.forEachEdge([&](int j) {
+  for (const int i : support_sets.a.edges())
+    for (const int j : support_sets.b.edges()) {
       const std::pair<int, int> key = std::minmax(i, j);
-      if (lowest && key >= *lowest) return;
+      if (lowest && key >= *lowest) continue;
       const Edge& e1 = pair.a.edge(i);
       const Edge& e2 = pair.b.edge(j);
       const Vec3 d2 = pair.directionToA(e2.direction);
       const Vec3 across = e1.direction.cross(d2);
       const double squared = across.squaredNorm();
-      if (squared < kParallelSine * kParallelSine) return;
+      if (squared < kParallelSine * kParallelSine) continue;
       const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - pair.a.vertex(e1.tail);
       const double s1 = between.cross(d2).dot(across) / squared;
       const double s2 = between.cross(e1.direction).dot(across) / squared;
-      if (!(s1 > 0.0 && s1 < e1.length_m && s2 > 0.0 && s2 < e2.length_m)) return;
+      if (!(s1 > 0.0 && s1 < e1.length_m && s2 > 0.0 && s2 < e2.length_m)) continue;
       lowest = key;
       answer.features = {edgeFeature(i), edgeFeature(j)};
       answer.p_a = pair.a.vertex(e1.tail) + s1 * e1.direction;
       answer.p_b = answer.p_a + answer.gap_m * answer.normal;
-    });
-  });
+    }
   return lowest.has_value();
 }
 
