@@ -1,6 +1,7 @@
 #include "engine/closest_features/canonical_features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,6 +19,37 @@ constexpr double kParallelSine = 1e-9;
 constexpr double kEqual = 0.125;
 // Witnesses this many times the noise beside an axis still are its witnesses.
 constexpr double kOffAxis = 32.0;
+
+// Relative poses that differ by less than this, relative to the bodies' size, are the same.
+constexpr double kSamePose = 1e-9;
+
+int sign(double x, double tolerance) {
+  return x > tolerance ? 1 : x < -tolerance ? -1 : 0;
+}
+
+// The order of two solids: negative if the first comes first, 0 if they are equal.
+int compareSolids(const ConvexPolyhedron& a, const ConvexPolyhedron& b) {
+  if (&a == &b) return 0;
+  if (a.vertexCount() != b.vertexCount()) return a.vertexCount() - b.vertexCount();
+  if (a.edgeCount() != b.edgeCount()) return a.edgeCount() - b.edgeCount();
+  for (int v = 0; v < a.vertexCount(); ++v)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (const int s = sign(a.vertex(v)[k] - b.vertex(v)[k], 0.0)) return s;
+  return 0;
+}
+
+// Whether A is the first of the two, in an order that swapping them turns around and moving both keeps: by
+// their solids, of equal ones by where each sees the other.
+bool firstIsA(const PolyhedronPair& pair) {
+  if (const int s = compareSolids(pair.a, pair.b)) return s < 0;
+  const PolyhedronPair swapped = pair.swapped();
+  const double size = pair.t_AB.lpNorm<1>() + pair.a.reach();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (const int s = sign(pair.t_AB[k] - swapped.t_AB[k], kSamePose * size)) return s < 0;
+  for (Eigen::Index k = 0; k < 9; ++k)
+    if (const int s = sign(pair.R_AB(k % 3, k / 3) - swapped.R_AB(k % 3, k / 3), kSamePose)) return s < 0;
+  return true;
+}
 
 // Everything of a polyhedron that touches its support plane along a direction, within a tolerance.
 class SupportSet {
@@ -149,7 +181,9 @@ bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
     if (try_a) holds_a = support_sets.b.holding(pair.toB(pair.a.vertex(on_a[i])));
     if (try_b) holds_b = support_sets.a.holding(pair.toA(pair.b.vertex(on_b[j])));
     const auto order = [](Feature f) { return std::pair{f.kind, f.index}; };
-    if (holds_a && (!holds_b || order(*holds_a) <= order(*holds_b))) {
+    const bool a_holds_lower = holds_a && (!holds_b || order(*holds_a) < order(*holds_b) ||
+                                           (order(*holds_a) == order(*holds_b) && firstIsA(pair)));
+    if (a_holds_lower) {
       answer.features = {vertexFeature(on_a[i]), *holds_a};
       answer.p_a = pair.a.vertex(on_a[i]);
       answer.p_b = answer.p_a + answer.gap_m * answer.normal;
@@ -173,7 +207,7 @@ bool takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
   for (const int i : support_sets.a.edges())
     for (const int j : support_sets.b.edges()) {
       const std::pair<int, int> key = std::minmax(i, j);
-      if (lowest && key >= *lowest) continue;
+      if (lowest && key >= *lowest && !(key == *lowest && i != j && (i < j) == firstIsA(pair))) continue;
       const Edge& e1 = pair.a.edge(i);
       const Edge& e2 = pair.b.edge(j);
       const Vec3 d2 = pair.directionToA(e2.direction);
@@ -198,6 +232,19 @@ bool definesNormal(const FeaturePair& features) {
 }
 
 }  // namespace
+
+bool comesBefore(const PolyhedronPair& pair, const FeaturePair& x, const FeaturePair& y) {
+  const auto order = [](const FeaturePair& f) {
+    return std::array{static_cast<int>(f.a.kind) + static_cast<int>(f.b.kind), std::min(f.a.index, f.b.index),
+                      std::max(f.a.index, f.b.index)};
+  };
+  if (order(x) != order(y)) return order(x) < order(y);
+  const auto ofFirst = [&pair](const FeaturePair& f) {
+    const Feature first = firstIsA(pair) ? f.a : f.b;
+    return std::pair{first.kind, first.index};
+  };
+  return ofFirst(x) < ofFirst(y);
+}
 
 bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
   const CoreAnswer given = answer;

@@ -4,8 +4,8 @@
 // from geometry alone: all features within the noise of the two support planes are gathered, and among the
 // corners of their overlap the one with the lowest vertex index is taken, with the lowest feature of the
 // other body that holds it. So the answer does not change with the start of the walk, when both bodies move
-// together, or by motion below the noise; swapping the bodies swaps the features. (A pose that a swap maps
-// onto itself has two equal answers; body A's then counts.) Tested in
+// together, or by motion below the noise; swapping the bodies swaps the features. (Equal solids in a pose
+// that a swap maps onto itself have two equal answers; that of body A then counts.) Tested in
 // tests/engine/closest_features/canonical_features_test.cpp.
 
 #include "engine/closest_features/core_answer.h"
@@ -17,5 +17,8 @@ namespace carom {
 /// and normal change only by less than the noise (a normal taken from two witnesses becomes that of a face
 /// that is level with them). False: no features hold the witnesses across the normal, nothing was changed.
 bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m);
+
+/// Whether features come before others that are as good, in an order that swapping the bodies keeps.
+bool comesBefore(const PolyhedronPair& pair, const FeaturePair& x, const FeaturePair& y);
 
 }  // namespace carom

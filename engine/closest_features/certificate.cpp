@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace carom {
@@ -29,8 +30,41 @@ double highest(const ConvexPolyhedron& core, const Vec3& n) {
   return most;
 }
 
-// The depth that the polytope proves: the least height of its triangles over the origin, or minus infinity if
-// it is no closed surface.
+double distanceToSegment(const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double s = d.squaredNorm() > 0.0 ? std::clamp(-d.dot(a) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (a + s * d).norm();
+}
+
+// How far the origin is from a triangle. Of a sliver, whose plane is blurred, the edges tell: its points are
+// those of its edges, to rounding.
+double distanceToTriangle(const std::array<Vec3, 3>& w) {
+  const Vec3 side1 = w[1] - w[0];
+  const Vec3 side2 = w[2] - w[0];
+  const Vec3 n = side1.cross(side2);
+  const double twice_area = n.norm();
+  bool over = twice_area > 0x1p-46 * (side1.squaredNorm() + side2.squaredNorm());
+  double nearest = kInfinity;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& from = w[k];
+    const Vec3& to = w[(k + 1) % 3];
+    nearest = std::min(nearest, distanceToSegment(from, to));
+    over = over && n.dot(from.cross(to)) > 0.0;
+  }
+  return over ? std::min(nearest, std::abs(n.dot(w[0])) / twice_area) : nearest;
+}
+
+// The solid angle under which the origin sees a triangle, positive from its inner side (van Oosterom and
+// Strackee 1983).
+double solidAngle(const std::array<Vec3, 3>& w) {
+  const double l0 = w[0].norm(), l1 = w[1].norm(), l2 = w[2].norm();
+  return 2.0 * std::atan2(w[0].dot(w[1].cross(w[2])),
+                          l0 * l1 * l2 + w[0].dot(w[1]) * l2 + w[1].dot(w[2]) * l0 + w[2].dot(w[0]) * l1);
+}
+
+// The depth that the polytope proves: the least distance of its triangles from the origin, or minus infinity
+// if it is no closed surface or does not wind around the origin. (Not the heights of their planes: a tracked
+// triangle may have become a sliver, whose plane can stand anywhere while its points have hardly moved.)
 double provenDepth(const InnerPolytope& polytope, const ConvexPolyhedron& a, const ConvexPolyhedron& b,
                    const Mat3& R_AB, const Vec3& t_AB) {
   using Corners = std::array<std::array<int, 2>, 3>;
@@ -41,6 +75,7 @@ double provenDepth(const InnerPolytope& polytope, const ConvexPolyhedron& a, con
     neighbours.push_back(across);
   });
   double least = triangles.empty() ? -kInfinity : kInfinity;
+  double angle = 0.0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<Vec3, 3> w;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -56,15 +91,11 @@ double provenDepth(const InnerPolytope& polytope, const ConvexPolyhedron& a, con
                         neighbours[other][m] == static_cast<int>(i));
       if (!matched) return -kInfinity;
     }
-    const Vec3 side1 = w[1] - w[0];
-    const Vec3 side2 = w[2] - w[0];
-    const Vec3 n = side1.cross(side2);
-    const double twice_area = n.norm();
-    // The points of a sliver are those of its edges, to rounding, which its neighbours have too.
-    if (twice_area <= 0x1p-46 * (side1.squaredNorm() + side2.squaredNorm())) continue;
-    for (const Vec3& corner : w) least = std::min(least, n.dot(corner) / twice_area);
+    angle += solidAngle(w);
+    least = std::min(least, distanceToTriangle(w));
   }
-  return least;
+  // A whole number of 4 pi, and at least one.
+  return angle > 2.0 * std::numbers::pi ? least : -kInfinity;
 }
 
 }  // namespace
@@ -86,10 +117,16 @@ Certificate certify(const ClosestFeatures& answer, const ConvexPart& a, const Po
       std::max({std::abs(slab - answer.distance_m), outside(a.core, core_a), outside(b.core, core_b),
                 (answer.p_B_W - answer.p_A_W - answer.distance_m * answer.n_W).norm(),
                 std::abs(answer.n_W.norm() - 1.0) * (std::abs(answer.distance_m) + a.radius_m + b.radius_m)});
+  const bool finite = std::isfinite(answer.distance_m) && answer.n_W.allFinite() &&
+                      answer.p_A_W.allFinite() && answer.p_B_W.allFinite() &&
+                      std::isfinite(certificate.error_m);
+  if (!finite) certificate.error_m = kInfinity;
   const double core_gap = answer.distance_m + a.radius_m + b.radius_m;
   if (core_gap >= 0.0) return certificate;
-  if (!memory || memory->penetration.triangleCount() == 0) {
-    certificate.complete = -core_gap <= certifiedError(a, X_WA, b, X_WB);
+  // Of a depth below the bound the witnesses, that close together, are proof enough.
+  const bool small = -core_gap <= certifiedError(a, X_WA, b, X_WB);
+  if (small || !memory || memory->penetration.triangleCount() == 0) {
+    certificate.complete = small;
     return certificate;
   }
   const double proven = provenDepth(memory->penetration, a.core, b.core, R_AB, t_AB);

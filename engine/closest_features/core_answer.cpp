@@ -6,20 +6,28 @@ namespace {
 // Edges that cross at a larger angle have a well-defined common perpendicular.
 constexpr double kCrossingSine = 1e-3;
 
+Vec3 acrossEdge(const Vec3& direction, const Vec3& w) {
+  return w - direction.dot(w) * direction;
+}
+
 }  // namespace
 
 Across acrossOf(const PolyhedronPair& pair, const FeatureDistance& d) {
   const auto [a, b] = d.features;
   if (a.kind == FeatureKind::kFace) return {pair.a.plane(a.index).normal, 1.0, true};
   if (b.kind == FeatureKind::kFace) return {-pair.directionToA(pair.b.plane(b.index).normal), 1.0, true};
-  const Vec3 between = d.p_b - d.p_a;
+  // Across an edge to the last bit: of a short way rounding would leave a slope along it.
+  Vec3 between = d.p_b - d.p_a;
+  if (a.kind == FeatureKind::kEdge) between = acrossEdge(pair.a.edge(a.index).direction, between);
+  if (b.kind == FeatureKind::kEdge)
+    between = acrossEdge(pair.directionToA(pair.b.edge(b.index).direction), between);
   if (a.kind == FeatureKind::kEdge && b.kind == FeatureKind::kEdge) {
     const Vec3 common =
         pair.a.edge(a.index).direction.cross(pair.directionToA(pair.b.edge(b.index).direction));
     const double sine = common.norm();
     if (sine > kCrossingSine) return {common.dot(between) > 0.0 ? common : -common, sine, true};
   }
-  return {between, d.distance(), false};
+  return {between, between.norm(), false};
 }
 
 CoreAnswer answerFrom(const PolyhedronPair& pair, const FeatureDistance& found) {

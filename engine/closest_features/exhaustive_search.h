@@ -1,6 +1,7 @@
 #pragma once
 // The fallback of a walk that was cut short: every feature against every feature. It is counted where it is
-// used, and no input is known that reaches it. Tested in
+// used (`reached_limit`): never of a cold or tracked start in the adversarial families, about once in 1e5
+// arbitrary starts between nearly parallel faces. Tested in
 // tests/engine/closest_features/exhaustive_search_test.cpp.
 
 #include "engine/closest_features/feature_distance.h"

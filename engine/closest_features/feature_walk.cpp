@@ -15,10 +15,12 @@ namespace {
 // A slope below this is rounding of a unit product: walking along it could not shorten the distance
 // measurably.
 constexpr double kFlatSlope = 1e-15;
-// Squared distances this close are equal, to rounding.
-constexpr double kAsClose = 1.0 + 0x1p-50;
+// Distances this close, relative to the size, are equal to rounding.
+constexpr double kAsClose = 0x1p-51;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
 constexpr double kSlack = 0x1p-50;
+// One that may be wrong by more than this is no answer.
+constexpr double kLost = 0x1p-41;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
 // this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
@@ -89,17 +91,11 @@ struct LevelNeighbours {
   std::size_t count_ = 0;
 };
 
-// The closed features' distance, of two faces too: those are closest at an edge of one of them.
-FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, Feature a, Feature b) {
-  if (a.kind != FeatureKind::kFace || b.kind != FeatureKind::kFace) return featureDistance(pair, {a, b});
-  FeatureDistance best = featureDistance(pair, {edgeFeature(pair.a.faceEdges(a.index)[0]), b});
-  const auto consider = [&](FeaturePair features) {
-    const FeatureDistance there = featureDistance(pair, features);
-    if (there.crossing || (!best.crossing && there.squared_m2 < best.squared_m2)) best = there;
-  };
-  for (int e : pair.a.faceEdges(a.index)) consider({edgeFeature(e), b});
-  for (int e : pair.b.faceEdges(b.index)) consider({a, edgeFeature(e)});
-  return best;
+// Two faces stand for one of them and the other body's vertex that faces it.
+FeatureDistance anyFeatureDistance(const PolyhedronPair& pair, FeaturePair features) {
+  if (features.a.kind == FeatureKind::kFace && features.b.kind == FeatureKind::kFace)
+    features.b = vertexFeature(pair.b.support(-pair.directionToB(pair.a.plane(features.a.index).normal)));
+  return featureDistance(pair, features);
 }
 
 int dimensions(const FeaturePair& features) {
@@ -117,7 +113,7 @@ FeatureWalk::FeatureWalk(const PolyhedronPair& pair, FeaturePair seed, double si
       size_m_(size_m),
       noise_m_(noise_m),
       noise_slope_(noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge())),
-      seen_{anyFeatureDistance(pair, seed.a, seed.b), FeatureDistance{}},
+      seen_{anyFeatureDistance(pair, seed), FeatureDistance{}},
       lowest_m2_(seen_[0].squared_m2) {}
 
 Move FeatureWalk::next() {
@@ -130,12 +126,17 @@ Move FeatureWalk::next() {
   const Across n = acrossOf(pair_, at);
   const Vec3 minus_n_B = -pair_.directionToB(n.w);
   const double flat = kFlatSlope * n.length;
+  // The steeper way first: a level one taken before it may have as many dimensions, and bar it.
   const WayOff off_a = steepestWayOff(pair_.a, at.features.a, n.w);
-  if (off_a.slope > flat && moveTo({off_a.neighbour, at.features.b})) return Move::kTaken;
   const WayOff off_b = steepestWayOff(pair_.b, at.features.b, minus_n_B);
-  if (off_b.slope > flat && moveTo({at.features.a, off_b.neighbour})) return Move::kTaken;
-  // Every way off leads down by more than rounding can hide: both bodies lie beyond their support planes.
+  const FeaturePair on_a{off_a.neighbour, at.features.b};
+  const FeaturePair on_b{at.features.a, off_b.neighbour};
+  const bool a_first = off_a.slope >= off_b.slope;
+  const double lesser = std::min(off_a.slope, off_b.slope);
   const double steepest = std::max(off_a.slope, off_b.slope);
+  if (steepest > flat && moveTo(a_first ? on_a : on_b)) return Move::kTaken;
+  if (lesser > flat && moveTo(a_first ? on_b : on_a)) return Move::kTaken;
+  // Every way off leads down by more than rounding can hide: both bodies lie beyond their support planes.
   const double margin = noise_slope_ * n.length + (n.exact ? 0.0 : noise_m_);
   if (steepest < -margin && at.inside_m > noise_m_ && at.squared_m2 > noise_m_ * noise_m_)
     return Move::kClear;
@@ -146,21 +147,36 @@ Move FeatureWalk::next() {
     return Move::kInside;
   }
   const Vec3 unit = n.unit();
-  if (at.distance() - slabAlong(pair_, at.features, unit) <= kSlack * size_m_) return Move::kStuck;
-  return moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length) ? Move::kTaken : Move::kStuck;
+  const double room = at.distance() - slabAlong(pair_, at.features, unit);
+  if (room <= kSlack * size_m_) return Move::kLevel;
+  if (moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length)) return Move::kTaken;
+  return room <= kLost * size_m_ ? Move::kLevel : Move::kLost;
+}
+
+bool FeatureWalk::asClose(const FeatureDistance& there) const {
+  return there.squared_m2 - lowest_m2_ <= 2.0 * kAsClose * size_m_ * std::sqrt(lowest_m2_);
 }
 
 void FeatureWalk::jump() {
   moveTo(coldSeed(pair_)) || moveTo(facingVertices(pair_, here().p_b - here().p_a));
 }
 
+void FeatureWalk::restart(FeaturePair seed) {
+  startFrom(anyFeatureDistance(pair_, seed));
+}
+
+void FeatureWalk::startFrom(const FeatureDistance& found) {
+  seen_[here_] = found;
+  lowest_m2_ = found.squared_m2;
+  common_is_on_a_ = false;
+}
+
 bool FeatureWalk::moveTo(FeaturePair features) {
   // Built in its place: to copy what has just been written costs more than to compute it.
   const FeatureDistance& there =
-      *::new (&seen_[1 - here_]) FeatureDistance(anyFeatureDistance(pair_, features.a, features.b));
+      *::new (&seen_[1 - here_]) FeatureDistance(anyFeatureDistance(pair_, features));
   const bool closer = there.crossing || there.squared_m2 < lowest_m2_;
-  const bool as_close = there.squared_m2 <= lowest_m2_ * kAsClose;
-  if (!closer && !(as_close && dimensions(there.features) > dimensions(here().features))) return false;
+  if (!closer && !(asClose(there) && dimensions(there.features) > dimensions(here().features))) return false;
   lowest_m2_ = std::min(lowest_m2_, there.squared_m2);
   here_ = 1 - here_;
   return true;
@@ -181,8 +197,8 @@ Move FeatureWalk::moveToEntry(int face, bool entered_a) {
   const Feature entry = faceFeature(face);
   const bool moved =
       moveTo(entered_a ? FeaturePair{entry, here().features.b} : FeaturePair{here().features.a, entry});
-  // Only rounding can deny the closer face: the witness then is in the surface, and the axes decide.
-  return moved ? Move::kTaken : Move::kInside;
+  // A way that enters at the witness itself finds no closer face.
+  return moved ? Move::kTaken : Move::kLost;
 }
 
 // The features of a slab wider than the present one are closer than the present ones, if they hold it.
@@ -195,16 +211,32 @@ bool FeatureWalk::moveToLevelAxis() {
 }
 
 // Between almost parallel features a step on one body alone gains less than rounding (half the slope
-// squared), a step on both together gains the slope itself.
+// squared), a step on both together gains the slope itself. Where not even that can be measured the support
+// planes tell: the slab of the closest pair is the widest.
 bool FeatureWalk::moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
   const double level_sine = kLevelSine * std::sqrt(std::max(1.0, size_m_ / here().distance()));
   const LevelNeighbours on_a(pair_.a, here().features.a, n, level_sine);
   const LevelNeighbours on_b(pair_.b, here().features.b, minus_n_B, level_sine);
   bool moved = false;
   for (const Feature a : on_a.all())
+    for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;
+  if (moved) return true;
+  const double slab = slabAlong(pair_, here().features, n);
+  if (here().distance() - slab <= kLost * size_m_) return false;
+  for (const Feature a : on_a.all())
     for (const Feature b : on_b.all())
-      if (a.kind != FeatureKind::kFace || b.kind != FeatureKind::kFace) moved = moveTo({a, b}) || moved;
-  return moved;
+      if (moveToWiderSlab({a, b}, slab)) return true;
+  return false;
+}
+
+bool FeatureWalk::moveToWiderSlab(FeaturePair features, double slab_m) {
+  const FeatureDistance there = anyFeatureDistance(pair_, features);
+  if (!asClose(there) || dimensions(there.features) < dimensions(here().features)) return false;
+  const Vec3 n = acrossOf(pair_, there).unit();
+  if (slabAlong(pair_, there.features, n) <= slab_m + kSlack * size_m_) return false;
+  seen_[1 - here_] = there;
+  here_ = 1 - here_;
+  return true;
 }
 
 }  // namespace carom

@@ -4,8 +4,8 @@
 //
 // Depth = the least height of a supporting plane of M over the origin. Any direction n bounds it from above
 // by its support, max n.w over M, which hill climbing finds exactly. From below it is bounded by a closed
-// surface of triangles between points of M that winds around the origin: a ball that stays under all the
-// triangles' planes lies inside the surface, so inside M. The lowest triangle is raised by the support point
+// surface of triangles between points of M that winds around the origin: a ball about the origin that reaches
+// no triangle lies inside the surface, so inside M. The lowest triangle is raised by the support point
 // over it until it lies on M's own surface; then both bounds meet. The proof asks for no convexity, only that
 // a triangle is replaced when the new point is not below its plane, so that what is swept holds no interior
 // point; rounding can cost a needless triangle, not the bound.
@@ -59,7 +59,8 @@ class InnerPolytope {
 
   /// Support points added by the last query.
   int expansions() const { return expansions_; }
-  /// The least height of a triangle's plane over the origin: the last answer's proven lower bound.
+  /// The least height of a triangle's plane over the origin: a lower bound of the last answer's depth, as no
+  /// triangle is nearer than its plane.
   double provenDepth() const;
   void forget();
 

@@ -1,6 +1,6 @@
 #pragma once
 // Two polyhedra and where the second stands in the frame of the first: what every part of a query works on.
-// Tested in tests/engine/closest_features/feature_distance_test.cpp.
+// Tested in tests/engine/closest_features/polyhedron_pair_test.cpp.
 
 #include <cmath>
 

@@ -27,6 +27,8 @@ constexpr double kShift = 0x1p-51;
 // A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
 constexpr int kLongWalk = 12;
+// An answer that support planes leave more room than this, relative to the size, is not proven.
+constexpr double kRoom = 0x1p-41;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
 
@@ -51,47 +53,6 @@ MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m
   return solid ? polytope.minimumTranslation(pair, noise_m) : largestGap(pair);
 }
 
-// The end of a walk that left doubt: the features are not unique, or too close for the witnesses to have a
-// direction, or the bodies intersect.
-void settle(const PolyhedronPair& pair, const FeatureWalk& walk, Move move, const Scale& scale,
-            InnerPolytope& polytope, CoreAnswer& answer) {
-  FeatureDistance found = walk.here();
-  Vec3 common = walk.commonPoint();
-  bool inside = move == Move::kInside;
-  if (move == Move::kTaken) {
-    found = exhaustiveSearch(pair);
-    inside = found.crossing;
-    common = found.p_b;
-  }
-  const bool directed = !inside && (found.distance() > kNoDirection * scale.size_m ||
-                                    (found.squared_m2 > 0.0 && acrossOf(pair, found).exact));
-  if (directed) {
-    answer = answerFrom(pair, found);
-    return;
-  }
-  const MinimumTranslation m = minimumTranslation(pair, scale.noise_m, polytope);
-  answer = answerFrom(m);
-  if (m.gap_m < -scale.noise_m) return;
-  polytope.forget();
-  if (inside) {  // they touch, to rounding
-    answer.p_a = common;
-    answer.p_b = common + m.gap_m * m.normal;
-    return;
-  }
-  // A facet whose features hold its witnesses is the answer; else what the walk found is, and the wider slab
-  // has the better normal.
-  if (makeCanonical(pair, answer, scale.noise_m, scale.shift_m)) return;
-  answer = answerFrom(pair, found);
-  if (!(answer.gap_m > 0.0) || m.gap_m > slabAlong(pair, answer.features, answer.normal))
-    answer.normal = m.normal;
-}
-
-// Features in an order that swapping the bodies does not change.
-std::array<int, 3> swapFreeOrder(const FeaturePair& f) {
-  return {static_cast<int>(f.a.kind) + static_cast<int>(f.b.kind), std::min(f.a.index, f.b.index),
-          std::max(f.a.index, f.b.index)};
-}
-
 // The canonical features of a depth; of facets that are equally near, the lowest. Where rounding leaves no
 // features that hold the witnesses, they lie between vertices.
 void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPolytope& polytope, bool tracked,
@@ -103,7 +64,7 @@ void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPol
   for (const MinimumTranslation& facet : facets) {
     CoreAnswer candidate = answerFrom(facet);
     if (!makeCanonical(pair, candidate, scale.noise_m, scale.shift_m)) continue;
-    if (!lowest || swapFreeOrder(candidate.features) < swapFreeOrder(lowest->features)) lowest = candidate;
+    if (!lowest || comesBefore(pair, candidate.features, lowest->features)) lowest = candidate;
   }
   if (lowest) {
     answer = *lowest;
@@ -111,6 +72,38 @@ void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPol
     polytope.placeWitnesses(pair, facets[0]);
     answer = answerFrom(facets[0]);
   }
+}
+
+// The end of a walk that left doubt: the features are not unique, or too close for the witnesses to have a
+// direction. `axes`: the minimum translation, if it has been asked for; the bodies do not intersect.
+void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
+            const std::optional<MinimumTranslation>& axes, const Scale& scale, InnerPolytope& polytope,
+            CoreAnswer& answer) {
+  const FeatureDistance& found = walk.here();
+  const bool directed = !inside && (found.distance() > kNoDirection * scale.size_m ||
+                                    (found.distance() > scale.noise_m && acrossOf(pair, found).exact));
+  if (directed) {
+    answer = answerFrom(pair, found);
+    makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+    return;
+  }
+  const MinimumTranslation m = axes ? *axes : minimumTranslation(pair, scale.noise_m, polytope);
+  answer = answerFrom(m);
+  if (m.gap_m < -scale.noise_m) return makeDepthCanonical(pair, scale, polytope, false, answer);
+  polytope.forget();
+  if (inside) {  // they touch, to rounding
+    answer.p_a = walk.commonPoint();
+    answer.p_b = walk.commonPoint() + m.gap_m * m.normal;
+    makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+    return;
+  }
+  // A facet whose features hold its witnesses is the answer; else what the walk found is, and the wider slab
+  // has the better normal.
+  if (makeCanonical(pair, answer, scale.noise_m, scale.shift_m)) return;
+  answer = answerFrom(pair, found);
+  if (!(answer.gap_m > 0.0) || m.gap_m > slabAlong(pair, answer.features, answer.normal))
+    answer.normal = m.normal;
+  makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
 }
 
 // From the features of the last query to those of this one.
@@ -134,28 +127,43 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   // never needs.
   const int bound = 100 + 2 * (pair.a.edgeCount() + pair.b.edgeCount());
   FeatureWalk walk(pair, tracked, scale.size_m, scale.shift_m);
+  std::optional<MinimumTranslation> axes;
+  bool restarted = false;
   Move move = Move::kTaken;
-  for (; result.states < bound && (move = walk.next()) == Move::kTaken; ++result.states) {
-    if (result.states % kStaleStates == 0) walk.jump();
-    if (result.states != kLongWalk) continue;
-    // Around large faces of bodies that intersect a walk can be long; the axes tell, and lead on if they
-    // don't.
-    const MinimumTranslation m = minimumTranslation(pair, scale.noise_m, polytope);
-    if (m.gap_m < -scale.noise_m) {
-      answer = answerFrom(m);
+  for (; result.states < bound; ++result.states) {
+    move = walk.next();
+    if (move == Move::kClear) return answerFrom(pair, walk.here());
+    if (move == Move::kLevel) break;
+    if (move == Move::kTaken) {
+      if (result.states % kStaleStates == 0) walk.jump();
+      if (result.states != kLongWalk) continue;
+    }
+    // A walk with no way on, or a long one (around large faces of bodies that intersect it can be): the axes
+    // tell whether the bodies intersect, and lead on if not.
+    axes = minimumTranslation(pair, scale.noise_m, polytope);
+    if (axes->gap_m < -scale.noise_m) {
+      answer = answerFrom(*axes);
       makeDepthCanonical(pair, scale, polytope, false, answer);
       return answer;
     }
     polytope.forget();
-    walk.jumpTo(m.features);
+    if (move == Move::kInside && (axes->gap_m <= scale.noise_m || walk.here().distance() <= scale.shift_m))
+      break;
+    if (walk.jumpTo(axes->features) || move == Move::kTaken) {
+      move = Move::kTaken;
+      continue;
+    }
+    if (restarted) break;
+    restarted = true;
+    walk.restart(axes->features);
   }
-  result.reached_limit = move == Move::kTaken;
-  if (move == Move::kClear) return answerFrom(pair, walk.here());
-  settle(pair, walk, move, scale, polytope, answer);
-  if (answer.gap_m < -scale.noise_m)
-    makeDepthCanonical(pair, scale, polytope, false, answer);
-  else
-    makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+  settle(pair, walk, move == Move::kInside, axes, scale, polytope, answer);
+  // The support planes leave no room for a shorter way, or a longer search has to find it.
+  result.reached_limit =
+      std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kRoom * scale.size_m;
+  if (!result.reached_limit) return answer;
+  walk.startFrom(exhaustiveSearch(pair));
+  settle(pair, walk, walk.here().crossing, std::nullopt, scale, polytope, answer);
   return answer;
 }
 

@@ -92,6 +92,7 @@ class WarmPair {
     if (!(std::min(s, edge.length_m - s) > noise_m_)) return false;
     foot = tail + s * edge.direction;
     w = p - foot;
+    w -= edge.direction.dot(w) * edge.direction;  // of a short way rounding would leave a slope
     return true;
   }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -30,14 +31,17 @@ class Random {
   double logUniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   Vec3 direction() {
     for (;;) {
-      const Vec3 p(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      // One after the other: in which order a call's arguments are drawn would be the compiler's choice.
+      Vec3 p;
+      for (int i = 2; i >= 0; --i) p[i] = uniform(-1, 1);
       const double length = p.norm();
       if (length > 0.1 && length < 1.0) return p / length;
     }
   }
   Quat rotation() {
     for (;;) {
-      const Eigen::Vector4d q(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      Eigen::Vector4d q;
+      for (int i = 3; i >= 0; --i) q[i] = uniform(-1, 1);
       const double length = q.norm();
       if (length > 0.1 && length < 1.0) return Quat(q / length);
     }
@@ -46,7 +50,8 @@ class Random {
   Pose pose(double reach) {
     Pose X;
     X.rotation = rotation();
-    X.position = uniform(0.0, reach) * direction();
+    const Vec3 away = direction();
+    X.position = uniform(0.0, reach) * away;
     return X;
   }
 
@@ -68,6 +73,55 @@ inline ConvexPolyhedron triangulatedBox(const Vec3& size_m) {
     loops.push_back({c[0], c[2], c[3]});
   }
   return ConvexPolyhedron::fromFaces(box.vertices(), loops);
+}
+
+/// A box whose faces are cut into `cells` x `cells` rectangles, every other one of them into two triangles:
+/// coplanar neighbours all over, vertices in the middle of edges and faces. Nothing is merged.
+inline ConvexPolyhedron coplanarGrid(int cells, const Vec3& size_m) {
+  std::vector<Vec3> vertices;
+  std::map<std::array<int, 3>, int> number;
+  const auto vertexAt = [&](int axis, int side, int i, int j) {
+    std::array<int, 3> at{};
+    const auto k = static_cast<std::size_t>(axis);
+    at[k] = side;
+    at[(k + 1) % 3] = i;
+    at[(k + 2) % 3] = j;
+    const auto [known, added] = number.try_emplace(at, static_cast<int>(vertices.size()));
+    if (added)
+      vertices.push_back((Vec3(at[0], at[1], at[2]) / cells - Vec3::Constant(0.5)).cwiseProduct(size_m));
+    return known->second;
+  };
+  std::vector<std::vector<int>> loops;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, cells})
+      for (int i = 0; i < cells; ++i)
+        for (int j = 0; j < cells; ++j) {
+          std::array<int, 4> c{vertexAt(axis, side, i, j), vertexAt(axis, side, i + 1, j),
+                               vertexAt(axis, side, i + 1, j + 1), vertexAt(axis, side, i, j + 1)};
+          if (side == 0) std::swap(c[1], c[3]);
+          if ((i + j) % 2 == 0) {
+            loops.push_back({c[0], c[1], c[2], c[3]});
+          } else {
+            loops.push_back({c[0], c[1], c[2]});
+            loops.push_back({c[0], c[2], c[3]});
+          }
+        }
+  return ConvexPolyhedron::fromFaces(std::move(vertices), loops);
+}
+
+/// The same part with every coordinate multiplied, and built anew.
+inline ConvexPart scaledPart(const ConvexPart& part, double factor) {
+  const ConvexPolyhedron& p = part.core;
+  const double radius_m = factor * part.radius_m;
+  if (p.vertexCount() == 1) return {ConvexPolyhedron::point(factor * p.vertex(0)), radius_m};
+  if (p.faceCount() == 0)
+    return {ConvexPolyhedron::segment(factor * p.vertex(0), factor * p.vertex(1)), radius_m};
+  std::vector<Vec3> vertices;
+  for (const Vec3& v : p.vertices()) vertices.push_back(factor * v);
+  std::vector<std::vector<int>> loops;
+  for (int f = 0; f < p.faceCount(); ++f)
+    loops.emplace_back(p.faceVertices(f).begin(), p.faceVertices(f).end());
+  return {ConvexPolyhedron::fromFaces(std::move(vertices), loops), radius_m};
 }
 
 /// A right prism over a regular n-gon of circumradius `radius_m`, along z, centred.
