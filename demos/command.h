@@ -73,6 +73,23 @@ struct DistanceOptions {
 };
 ExitCode distance(const DistanceOptions& options);
 
+struct CompareOptions {
+  std::filesystem::path actual;  ///< Two files or two folders.
+  std::filesystem::path golden;
+  int tolerance = 2;    ///< Of 8-bit images, in steps of 1/255.
+  int tolerance16 = 0;  ///< Of 16-bit images, in steps of 1/65535.
+  std::int64_t allowed_pixels = 0;
+  std::string report;  ///< Empty: compare-report.html, and only when a pair does not pass; "none": never.
+  int report_pairs = 20;
+  std::filesystem::path differences;  ///< Folder of difference images; empty: none.
+  int amplify = 16;
+  std::filesystem::path junit;
+  bool json = false;
+  bool update = false;
+  Telling telling;
+};
+ExitCode compare(const CompareOptions& options);
+
 ExitCode doctor();
 
 }  // namespace carom::demos

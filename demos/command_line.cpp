@@ -78,18 +78,21 @@ struct CommandLine {
   SimulateOptions simulate_options;
   CheckOptions check_options;
   DistanceOptions distance_options;
+  CompareOptions compare_options;
   std::string size;
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
   CLI::App* simulate_command = nullptr;
   CLI::App* check_command = nullptr;
   CLI::App* distance_command = nullptr;
+  CLI::App* compare_command = nullptr;
   CLI::App* doctor_command = nullptr;
 
   CommandLine();
   void addRender();
   void addSimulate();
   void addDistance();
+  void addCompare();
 };
 
 CommandLine::CommandLine() {
@@ -111,6 +114,7 @@ CommandLine::CommandLine() {
                             "A mesh file in place of the scene's replaceable hulls");
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
+  addCompare();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   doctor_command->footer("Example: carom doctor");
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
@@ -170,6 +174,48 @@ void CommandLine::addDistance() {
       "Example: carom distance cube.obj gem.obj --pose-b 0.9,0.1,0,1,0,0,0\n"
       "A line of --batch: {\"a\": \"cube.obj\", \"b\": \"gem.obj\",\n"
       "                    \"poseB\": {\"position\": [0.9, 0.1, 0], \"rotation\": [1, 0, 0, 0]}}");
+}
+
+void CommandLine::addCompare() {
+  CompareOptions& options = compare_options;
+  compare_command = app.add_subcommand(
+      "compare",
+      "Gates rendered PNG files against golden ones: files or folders; exit 1 when a pair does not pass");
+  compare_command->add_option("ACTUAL", options.actual, "What was rendered: a file or a folder")->required();
+  compare_command->add_option("GOLDEN", options.golden, "What it is to look like")->required();
+  compare_command
+      ->add_option("--tolerance", options.tolerance,
+                   "Largest difference of any pixel's channel, in steps of 1/255")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+  compare_command
+      ->add_option("--tolerance16", options.tolerance16, "The same of 16-bit images, in steps of 1/65535")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  compare_command
+      ->add_option("--allow-pixels", options.allowed_pixels,
+                   "This many pixels of an image may differ by more all the same")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  compare_command->add_option("--report", options.report,
+                              "HTML report, or none (compare-report.html, when a pair does not pass)");
+  compare_command
+      ->add_option("--report-pairs", options.report_pairs, "The report holds the images of the worst N")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  compare_command->add_option("--differences", options.differences,
+                              "Folder for an amplified difference image of each pair that differs");
+  compare_command->add_option("--amplify", options.amplify, "Factor of the difference images")
+      ->check(CLI::Range(1, 255))
+      ->capture_default_str();
+  compare_command->add_flag("--json", options.json, "One JSON object instead of lines");
+  compare_command->add_option("--junit", options.junit, "JUnit XML file for a build server");
+  compare_command->add_flag("--update", options.update,
+                            "Replaces the golden files that do not pass, and adds new ones; deletes none");
+  addTellingOptions(*compare_command, options.telling);
+  compare_command->footer(
+      "Example: carom compare out tests/golden/sliding --report out/report.html --junit out/report.xml\n"
+      "Accept what was rendered: carom compare out tests/golden/sliding --update");
 }
 
 std::vector<std::string> optionNames(const CLI::App& command) {
@@ -241,6 +287,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.simulate_command->parsed()) return simulate(line.simulate_options);
   if (line.check_command->parsed()) return check(line.check_options);
   if (line.distance_command->parsed()) return distance(line.distance_options);
+  if (line.compare_command->parsed()) return compare(line.compare_options);
   return doctor();
 }
 

@@ -106,18 +106,41 @@ bool writeImage(png_structp png, png_infop info, const Image& image, png_textp t
   return true;
 }
 
+// Every filter is tried and deflate takes its time: for reports, which hold many images.
+bool writeRaster(png_structp png, png_infop info, const Raster& raster, const std::uint8_t* bytes,
+                 png_textp text, int text_count) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  constexpr std::array<int, 4> kColorTypes = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                              PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+  png_set_IHDR(png, info, static_cast<png_uint_32>(raster.width), static_cast<png_uint_32>(raster.height),
+               raster.bits, kColorTypes[static_cast<std::size_t>(raster.channels - 1)], PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (raster.bits == 8) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (text_count > 0) png_set_text(png, info, text, text_count);
+  png_write_info(png, info);
+  const std::size_t stride = png_get_rowbytes(png, info);
+  for (int y = 0; y < raster.height; ++y) png_write_row(png, bytes + stride * static_cast<std::size_t>(y));
+  png_write_end(png, info);
+  return true;
+}
+
 struct Header {
   png_uint_32 width = 0;
   png_uint_32 height = 0;
+  std::size_t row_bytes = 0;
+  int channels = 3;
+  int bits = 8;
   int passes = 1;
 };
+
+enum class Samples { kRgb8, kAsStored };
 
 // Deflate packs at most 1032 to 1, so that a short file that claims a large image is refused before it is
 // given memory.
 constexpr std::size_t kMaxDeflateRatio = 1032;
 
-// Whatever the file holds becomes 8-bit RGB.
-bool readHeader(png_structp png, png_infop info, std::size_t file_size, Header* header) {
+// Whatever the file holds becomes 8-bit RGB, or whole samples of the channels and bits it has.
+bool readHeader(png_structp png, png_infop info, std::size_t file_size, Samples wanted, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, kMaxPngSide, kMaxPngSide);
   png_read_info(png, info);
@@ -126,19 +149,23 @@ bool readHeader(png_structp png, png_infop info, std::size_t file_size, Header* 
   if (png_get_rowbytes(png, info) * header->height / kMaxDeflateRatio > file_size)
     png_error(png, "the file is truncated");
   png_set_expand(png);
-  png_set_scale_16(png);
-  png_set_gray_to_rgb(png);
-  png_set_strip_alpha(png);
+  if (wanted == Samples::kRgb8) {
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_strip_alpha(png);
+  }
   header->passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
+  header->row_bytes = png_get_rowbytes(png, info);
+  header->channels = png_get_channels(png, info);
+  header->bits = png_get_bit_depth(png, info);
   return true;
 }
 
-bool readRows(png_structp png, png_infop info, const Header& header, std::uint8_t* rgb) {
+bool readRows(png_structp png, png_infop info, const Header& header, std::uint8_t* rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  const std::size_t stride = png_get_rowbytes(png, info);
   for (int pass = 0; pass < header.passes; ++pass)
-    for (png_uint_32 y = 0; y < header.height; ++y) png_read_row(png, rgb + stride * y, nullptr);
+    for (png_uint_32 y = 0; y < header.height; ++y) png_read_row(png, rows + header.row_bytes * y, nullptr);
   png_read_end(png, info);
   return true;
 }
@@ -183,6 +210,51 @@ PngText readText(const Reader& reader) {
   return text;
 }
 
+struct DecodedBytes {
+  Header header;
+  std::vector<std::uint8_t> bytes;
+  PngText text;
+};
+
+DecodedBytes decode(const std::filesystem::path& path, Samples wanted) {
+  const std::vector<std::uint8_t> file = readBytes(path);
+  if (file.size() < 8 || png_sig_cmp(file.data(), 0, 8) != 0)
+    throw InputError("'" + path.string() + "' is no PNG file: its first bytes are not PNG's");
+  ErrorText error;
+  const Reader reader(error);
+  ByteSource source{file.data(), file.size(), 0};
+  png_set_read_fn(reader.png, &source, takeBytes);
+
+  DecodedBytes decoded;
+  bool complete = readHeader(reader.png, reader.info, file.size(), wanted, &decoded.header);
+  if (complete) {
+    decoded.bytes.resize(decoded.header.row_bytes * decoded.header.height);
+    complete = readRows(reader.png, reader.info, decoded.header, decoded.bytes.data());
+  }
+  if (!complete) throw InputError("cannot decode PNG '" + path.string() + "': " + error.message.data());
+  decoded.text = readText(reader);
+  return decoded;
+}
+
+// PNG stores the high byte of a 16-bit sample first.
+std::vector<std::uint8_t> bytesOf(const Raster& raster) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
+  for (const std::uint16_t sample : raster.samples) {
+    if (raster.bits == 16) bytes.push_back(static_cast<std::uint8_t>(sample >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(sample & 0xff));
+  }
+  return bytes;
+}
+
+std::vector<std::uint16_t> samplesOf(const std::vector<std::uint8_t>& bytes, int bits) {
+  if (bits == 8) return {bytes.begin(), bytes.end()};
+  std::vector<std::uint16_t> samples(bytes.size() / 2);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+  return samples;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text) {
@@ -200,27 +272,44 @@ std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text) {
   return bytes;
 }
 
-DecodedPng readPng(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = readBytes(path);
-  if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0)
-    throw InputError("'" + path.string() + "' is no PNG file: its first bytes are not PNG's");
+std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text) {
+  REQUIRE(raster.width > 0 && raster.height > 0, raster.width, raster.height);
+  REQUIRE(raster.channels >= 1 && raster.channels <= 4, raster.channels);
+  REQUIRE(raster.bits == 8 || raster.bits == 16, raster.bits);
+  const std::size_t pixels = static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
+  REQUIRE(raster.samples.size() == pixels * static_cast<std::size_t>(raster.channels), raster.samples.size());
+  std::vector<png_text> chunks = textChunks(text);
+  const std::vector<std::uint8_t> rows = bytesOf(raster);
+  std::vector<std::uint8_t> bytes;
   ErrorText error;
-  const Reader reader(error);
-  ByteSource source{bytes.data(), bytes.size(), 0};
-  png_set_read_fn(reader.png, &source, takeBytes);
+  const Writer writer(error);
+  png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
+  if (!writeRaster(writer.png, writer.info, raster, rows.data(), chunks.data(),
+                   static_cast<int>(chunks.size())))
+    throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
+  return bytes;
+}
 
-  Header header;
-  DecodedPng decoded;
-  bool complete = readHeader(reader.png, reader.info, bytes.size(), &header);
-  if (complete) {
-    decoded.image.width = static_cast<int>(header.width);
-    decoded.image.height = static_cast<int>(header.height);
-    decoded.image.rgb.resize(3 * static_cast<std::size_t>(header.width) * header.height);
-    complete = readRows(reader.png, reader.info, header, decoded.image.rgb.data());
-  }
-  if (!complete) throw InputError("cannot decode PNG '" + path.string() + "': " + error.message.data());
-  decoded.text = readText(reader);
-  return decoded;
+DecodedPng readPng(const std::filesystem::path& path) {
+  DecodedBytes decoded = decode(path, Samples::kRgb8);
+  DecodedPng png;
+  png.image.width = static_cast<int>(decoded.header.width);
+  png.image.height = static_cast<int>(decoded.header.height);
+  png.image.rgb = std::move(decoded.bytes);
+  png.text = std::move(decoded.text);
+  return png;
+}
+
+DecodedRaster readPngRaster(const std::filesystem::path& path) {
+  DecodedBytes decoded = decode(path, Samples::kAsStored);
+  DecodedRaster png;
+  png.raster.width = static_cast<int>(decoded.header.width);
+  png.raster.height = static_cast<int>(decoded.header.height);
+  png.raster.channels = decoded.header.channels;
+  png.raster.bits = decoded.header.bits;
+  png.raster.samples = samplesOf(decoded.bytes, decoded.header.bits);
+  png.text = std::move(decoded.text);
+  return png;
 }
 
 }  // namespace carom::renderer

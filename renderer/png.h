@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/image.h"
+#include "renderer/raster.h"
 
 namespace carom::renderer {
 
@@ -21,6 +22,9 @@ using PngText = std::vector<std::pair<std::string, std::string>>;
 /// is 1 to 79 ASCII characters; a text may be UTF-8.
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {});
 
+/// The raster's own channels and bits, packed for size rather than speed; tagged sRGB when it has 8 bits.
+std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text = {});
+
 struct DecodedPng {
   Image image;
   PngText text;
@@ -29,5 +33,14 @@ struct DecodedPng {
 /// Any PNG file as 8-bit RGB (alpha is dropped, 16 bits are scaled), and its text chunks in the file's order.
 /// Throws InputError naming the file when it cannot be read, is no PNG, or is truncated.
 DecodedPng readPng(const std::filesystem::path& path);
+
+struct DecodedRaster {
+  Raster raster;
+  PngText text;
+};
+
+/// Any PNG file with the channels and bits it has; palettes become RGB, fewer than 8 bits become 8, a
+/// transparent colour becomes an alpha channel. Throws as readPng does.
+DecodedRaster readPngRaster(const std::filesystem::path& path);
 
 }  // namespace carom::renderer

@@ -37,6 +37,7 @@ TEST(Program, HelpOfEveryCommandShowsAnExample) {
                                              {"render", "--help"},
                                              {"simulate", "--help"},
                                              {"check", "--help"},
+                                             {"compare", "--help"},
                                              {"doctor", "--help"}}) {
     const ProgramEnd end = runCarom(arguments);
     EXPECT_EQ(end.code, 0);

@@ -1,0 +1,185 @@
+// `carom compare`: rendered images against golden ones. Compares all, writes what was asked for (report,
+// difference images, JUnit), replaces golden files last, so that the report still shows what they were.
+#include "demos/command.h"
+
+#include <iostream>
+#include <optional>
+
+#include "demos/atomic_file.h"
+#include "demos/comparison_json.h"
+#include "demos/comparison_report.h"
+#include "demos/comparison_run.h"
+#include "demos/interrupt.h"
+#include "demos/junit.h"
+#include "demos/progress.h"
+#include "engine/foundation/contract.h"
+#include "renderer/png.h"
+
+namespace carom::demos {
+namespace {
+namespace fs = std::filesystem;
+
+/// Whether `path` is `folder` or lies below it.
+bool isWithin(const fs::path& path, const fs::path& folder) {
+  std::error_code failed;
+  const fs::path relative =
+      fs::weakly_canonical(path, failed).lexically_relative(fs::weakly_canonical(folder, failed));
+  return !failed && !relative.empty() && *relative.begin() != "..";
+}
+
+void checkOptions(const CompareOptions& options) {
+  if (options.differences.empty()) return;
+  for (const fs::path& folder : {options.actual, options.golden})
+    if (fs::is_directory(folder) && isWithin(options.differences, folder))
+      throw UsageError("compare: --differences " + options.differences.string() + " lies in " +
+                       folder.string() +
+                       ", and would be compared the next time; accepted: a folder elsewhere");
+}
+
+std::vector<Comparison> compareAll(const CompareOptions& options, const Gate& gate) {
+  const std::vector<ImagePair> pairs = imagePairs({options.actual, options.golden, options.update});
+  const ProgressStyle style =
+      options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+  Progress progress({"pair", static_cast<int>(pairs.size())}, style, std::cerr, steadySeconds);
+  return comparedPairs(pairs, gate, [&progress](int count) { progress.done(count); });
+}
+
+/// The report's path, or nothing when none is wanted.
+fs::path reportPath(const CompareOptions& options, bool passes) {
+  if (options.report == "none") return {};
+  if (options.report.empty()) return passes ? "" : "compare-report.html";
+  return options.report;
+}
+
+void writeDifferences(const CompareOptions& options, const std::vector<Comparison>& comparisons,
+                      const Gate& gate) {
+  for (const Comparison& c : comparisons) {
+    if (c.verdict != Verdict::kBeyond) continue;
+    throwIfInterrupted();
+    const renderer::Raster actual = renderer::readPngRaster(c.pair.actual).raster;
+    const renderer::Raster golden = renderer::readPngRaster(c.pair.golden).raster;
+    const int tolerance = gate.toleranceOf(actual.fullScale());
+    AtomicFile file(options.differences / c.pair.name);
+    file.write(renderer::encodePng(renderer::differenceImage(actual, golden, {tolerance, options.amplify})));
+    file.commit();
+  }
+}
+
+void writeJunit(const CompareOptions& options, const std::vector<Comparison>& comparisons, const Gate& gate) {
+  AtomicFile file(options.junit);
+  file.write(junitText(options.golden.string(), comparisons, gate));
+  file.commit();
+}
+
+std::vector<Update> updateAll(const std::vector<Comparison>& comparisons) {
+  std::vector<Update> updates;
+  for (const Comparison& c : comparisons) {
+    throwIfInterrupted();
+    updates.push_back(updateGolden(c));
+  }
+  return updates;
+}
+
+/// The pairs that do not pass, worst first, and the counts.
+void printLines(const ComparisonOutcome& outcome) {
+  for (const std::size_t i : bySeverity(outcome.comparisons)) {
+    const Comparison& c = outcome.comparisons[i];
+    if (c.passes()) continue;
+    const std::string update =
+        outcome.updates.empty() ? "" : std::string(updateName(outcome.updates[i])) + "  ";
+    std::cout << update << c.pair.name << "  " << comparisonLine(c, outcome.gate) << '\n';
+  }
+  std::cout << tallyText(tallyOf(outcome.comparisons)) << '\n';
+}
+
+/// A word for a shell, quoted where it must be.
+std::string shellWord(const std::string& word) {
+  if (!word.empty() && word.find_first_of(" \t\n\"'\\$&|;<>()*?#~`![]{}") == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The command that would accept what was rendered, with the gate of this one.
+std::string updateCommand(const CompareOptions& options) {
+  std::string command =
+      "carom compare " + shellWord(options.actual.string()) + " " + shellWord(options.golden.string());
+  const CompareOptions plain;
+  if (options.tolerance != plain.tolerance) command += " --tolerance " + std::to_string(options.tolerance);
+  if (options.tolerance16 != plain.tolerance16)
+    command += " --tolerance16 " + std::to_string(options.tolerance16);
+  if (options.allowed_pixels != plain.allowed_pixels)
+    command += " --allow-pixels " + std::to_string(options.allowed_pixels);
+  return command + " --update";
+}
+
+const Comparison* firstUnreadable(const std::vector<Comparison>& comparisons) {
+  for (const Comparison& c : comparisons)
+    if (c.verdict == Verdict::kUnreadable) return &c;
+  return nullptr;
+}
+
+/// What is left unsettled after an update: golden files that nothing replaces.
+ExitCode afterUpdate(const ComparisonOutcome& outcome) {
+  const Comparison* first = nullptr;
+  int kept = 0;
+  for (std::size_t i = 0; i < outcome.updates.size(); ++i) {
+    if (outcome.updates[i] != Update::kRefused) continue;
+    if (kept++ == 0) first = &outcome.comparisons[i];
+    if (outcome.comparisons[i].verdict == Verdict::kUnreadable)
+      throw InputError(outcome.comparisons[i].problem);
+  }
+  if (first == nullptr) return ExitCode::kOk;
+  const std::string path = first->pair.golden.string();
+  if (kept == 1) {
+    std::cerr << "carom: 1 golden file has no counterpart and stays: " << path
+              << "; delete it if it is meant to go\n";
+  } else {
+    std::cerr << "carom: " << kept << " golden files have no counterpart and stay, the first " << path
+              << "; delete those that are meant to go\n";
+  }
+  return ExitCode::kNo;
+}
+
+ExitCode afterComparison(const CompareOptions& options, const ComparisonOutcome& outcome) {
+  const Tally tally = tallyOf(outcome.comparisons);
+  const std::string report = outcome.report.empty() ? "" : "; report: " + outcome.report;
+  if (const Comparison* c = firstUnreadable(outcome.comparisons)) {
+    const int others = tally.total - tally.passed - 1;
+    throw InputError(c->problem +
+                     (others > 0 ? "; " + std::to_string(others) + " more of " + std::to_string(tally.total) +
+                                       " pairs do not pass"
+                                 : "") +
+                     report);
+  }
+  if (tally.passed == tally.total) return ExitCode::kOk;
+  std::cerr << "carom: " << tallyText(tally) << report << "; accept with: " << updateCommand(options) << '\n';
+  return ExitCode::kNo;
+}
+
+}  // namespace
+
+ExitCode compare(const CompareOptions& options) {
+  checkOptions(options);
+  catchInterrupts();
+  const Gate gate{options.tolerance, options.tolerance16, options.allowed_pixels};
+  const std::vector<Comparison> comparisons = compareAll(options, gate);
+  const Tally tally = tallyOf(comparisons);
+  const fs::path report = reportPath(options, tally.passed == tally.total);
+  if (!report.empty())
+    writeComparisonReport(report, comparisons,
+                          {options.actual.string(), options.golden.string(), gate, options.report_pairs,
+                           options.amplify, options.update});
+  if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
+  if (!options.junit.empty()) writeJunit(options, comparisons, gate);
+  ComparisonOutcome outcome{comparisons, gate, report.string(), {}};
+  if (options.update) outcome.updates = updateAll(comparisons);
+  if (options.json) {
+    std::cout << comparisonJson(outcome).text(2) << '\n';
+  } else {
+    printLines(outcome);
+  }
+  return options.update ? afterUpdate(outcome) : afterComparison(options, outcome);
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,31 @@
+#pragma once
+// Which files of two folders belong together: PNG files of the same relative path, sub-folders included, in
+// the order of their names. Tested in tests/demos/image_pairs_test.cpp.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace carom::demos {
+
+struct ImagePair {
+  std::string name;              ///< Relative to the folders, with forward slashes.
+  std::filesystem::path actual;  ///< Where each is, or would be.
+  std::filesystem::path golden;
+  bool has_actual = false;
+  bool has_golden = false;
+};
+
+/// What is to be compared with what; both files or both folders.
+struct ComparedPaths {
+  std::filesystem::path actual;
+  std::filesystem::path golden;
+  bool golden_may_be_missing = false;  ///< It is about to be written.
+};
+
+/// Every pair in the byte order of the names. Two files are one pair, named as the golden one. Throws
+/// InputError for a path that is not there and for folders without a single PNG file (comparing nothing is no
+/// success), and UsageError for a file against a folder.
+std::vector<ImagePair> imagePairs(const ComparedPaths& paths);
+
+}  // namespace carom::demos
