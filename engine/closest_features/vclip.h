@@ -4,7 +4,7 @@
 // closest features (feature_walk.h holds the argument that it ends); bodies that intersect get their exact
 // depth (inner_polytope.h). What is found is then named by canonical features (canonical_features.h), so that
 // the answer does not depend on where the search began. Certificates (certificate.h) prove answers; debug
-// builds check every one. A walk that reaches its bound is counted and answered by exhaustive search. Tested
+// builds check every one. A walk that finds no way on is counted and answered by exhaustive search. Tested
 // in tests/engine/closest_features/vclip_test.cpp.
 
 #include "engine/closest_features/feature.h"
