@@ -114,7 +114,8 @@ FeatureWalk::FeatureWalk(const PolyhedronPair& pair, FeaturePair seed, double si
       noise_m_(noise_m),
       noise_slope_(noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge())),
       seen_{anyFeatureDistance(pair, seed), FeatureDistance{}},
-      lowest_m2_(seen_[0].squared_m2) {}
+      lowest_m2_(seen_[0].squared_m2),
+      across_{Vec3::Zero(), 1.0, false} {}
 
 Move FeatureWalk::next() {
   const FeatureDistance& at = here();
@@ -123,19 +124,21 @@ Move FeatureWalk::next() {
     return Move::kInside;
   }
   if (at.behind) return at.features.a.kind == FeatureKind::kFace ? enterA() : enterB();
-  const Across n = acrossOf(pair_, at);
+  across_ = acrossOf(pair_, at);
+  const Across& n = across_;
   const Vec3 minus_n_B = -pair_.directionToB(n.w);
   const double flat = kFlatSlope * n.length;
-  // The steeper way first: a level one taken before it may have as many dimensions, and bar it.
+  // The steeper way first: so both orders of the bodies go the same way, and a level step that leaves as many
+  // dimensions does not bar a steeper one.
   const WayOff off_a = steepestWayOff(pair_.a, at.features.a, n.w);
   const WayOff off_b = steepestWayOff(pair_.b, at.features.b, minus_n_B);
-  const FeaturePair on_a{off_a.neighbour, at.features.b};
-  const FeaturePair on_b{at.features.a, off_b.neighbour};
-  const bool a_first = off_a.slope >= off_b.slope;
-  const double lesser = std::min(off_a.slope, off_b.slope);
   const double steepest = std::max(off_a.slope, off_b.slope);
-  if (steepest > flat && moveTo(a_first ? on_a : on_b)) return Move::kTaken;
-  if (lesser > flat && moveTo(a_first ? on_b : on_a)) return Move::kTaken;
+  if (steepest > flat) {
+    const FeaturePair on_a{off_a.neighbour, at.features.b}, on_b{at.features.a, off_b.neighbour};
+    const bool a_first = off_a.slope >= off_b.slope;
+    if (moveTo(a_first ? on_a : on_b)) return Move::kTaken;
+    if (std::min(off_a.slope, off_b.slope) > flat && moveTo(a_first ? on_b : on_a)) return Move::kTaken;
+  }
   // Every way off leads down by more than rounding can hide: both bodies lie beyond their support planes.
   const double margin = noise_slope_ * n.length + (n.exact ? 0.0 : noise_m_);
   if (steepest < -margin && at.inside_m > noise_m_ && at.squared_m2 > noise_m_ * noise_m_)

@@ -55,6 +55,10 @@ class FeatureWalk {
   void startFrom(const FeatureDistance& found);
 
   const FeatureDistance& here() const { return seen_[here_]; }
+  /// After kClear: the answer.
+  CoreAnswer answer() const {
+    return {here().distance(), across_.unit(), here().p_a, here().p_b, here().features};
+  }
   /// After kInside: the witness that lies in both bodies.
   const Vec3& commonPoint() const { return common_is_on_a_ ? here().p_a : here().p_b; }
 
@@ -73,6 +77,7 @@ class FeatureWalk {
   std::array<FeatureDistance, 2> seen_;
   std::size_t here_ = 0;
   double lowest_m2_;
+  Across across_;  // of the pair that next() last looked at
   bool common_is_on_a_ = false;
 };
 

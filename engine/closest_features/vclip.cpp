@@ -132,7 +132,7 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   Move move = Move::kTaken;
   for (; result.states < bound; ++result.states) {
     move = walk.next();
-    if (move == Move::kClear) return answerFrom(pair, walk.here());
+    if (move == Move::kClear) return walk.answer();
     if (move == Move::kLevel) break;
     if (move == Move::kTaken) {
       if (result.states % kStaleStates == 0) walk.jump();
