@@ -106,7 +106,8 @@ void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
   makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
 }
 
-// From the features of the last query to those of this one.
+// From the features of the last query to those of this one. One variable is returned everywhere: it is then
+// built in its place, and what has just been written is not copied.
 CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
                         InnerPolytope& polytope, ClosestFeatures& result) {
   CoreAnswer answer;
@@ -132,7 +133,10 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   Move move = Move::kTaken;
   for (; result.states < bound; ++result.states) {
     move = walk.next();
-    if (move == Move::kClear) return walk.answer();
+    if (move == Move::kClear) {
+      answer = walk.answer();
+      return answer;
+    }
     if (move == Move::kLevel) break;
     if (move == Move::kTaken) {
       if (result.states % kStaleStates == 0) walk.jump();
