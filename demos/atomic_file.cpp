@@ -3,12 +3,29 @@
 #include <cerrno>
 #include <cstring>
 
+#include <csignal>
+#include <regex>
+
 #include <unistd.h>
 
 #include "demos/exit_code.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
+
+void removeAbandoned(const fs::path& folder, const std::set<std::string>& names) {
+  static const std::regex temporary("\\.(.+)\\.([0-9]{1,9})\\.partial");
+  std::error_code none;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(folder.empty() ? fs::path(".") : folder, none)) {
+    const std::string name = entry.path().filename().string();
+    std::smatch match;
+    if (!std::regex_match(name, match, temporary) || !names.contains(match[1])) continue;
+    const bool is_gone = ::kill(std::stoi(match[2]), 0) != 0 && errno == ESRCH;
+    std::error_code ignored;
+    if (is_gone) fs::remove(entry.path(), ignored);
+  }
+}
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   std::error_code failed;

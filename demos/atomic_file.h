@@ -7,11 +7,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace carom::demos {
+
+/// Deletes what processes that were killed left of files with these names in a folder: temporary files whose
+/// process is no longer there.
+void removeAbandoned(const std::filesystem::path& folder, const std::set<std::string>& names);
 
 class AtomicFile {
  public:

@@ -37,11 +37,18 @@ ExitCode list(const ListOptions& options);
 
 struct RenderOptions {
   SceneChoice choice;
-  std::string output;  ///< Empty: frames/<scene>/frame_%04d.png.
+  std::string output;  ///< Empty: frames/<scene>/frame_%04d.png; "-" with `stream`.
+  std::string frames;  ///< "0-99,150,200-300x5"; empty: all.
+  std::string shard;   ///< "i/n"; empty: the whole.
+  bool resume = false;
+  std::string stream;            ///< ppm, png, rgb24, or empty.
+  std::filesystem::path from;    ///< A recording instead of simulating.
+  std::filesystem::path ffmpeg;  ///< A video instead of frames.
   double fps = 30.0;
   int width = 1280;
   int height = 720;
   std::string camera;  ///< Empty: "main", else the first.
+  bool portable = false;  ///< The same pixels on every CPU.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
 };
@@ -49,7 +56,8 @@ ExitCode render(const RenderOptions& options);
 
 struct SimulateOptions {
   SceneChoice choice;
-  double fps = 30.0;  ///< Of the rows of `csv`.
+  double fps = 30.0;             ///< Of the rows of `csv` and of the recording.
+  std::filesystem::path output;  ///< The recording.
   std::filesystem::path csv;
   std::filesystem::path audit;
   std::string expected_hash;

@@ -90,6 +90,7 @@ struct CommandLine {
 
   CommandLine();
   void addRender();
+  void addLongJobOptions();
   void addSimulate();
   void addDistance();
   void addCompare();
@@ -125,18 +126,40 @@ CommandLine::CommandLine() {
 void CommandLine::addRender() {
   render_command = app.add_subcommand("render", "Simulates a scene and writes PNG frames");
   addSceneOptions(*render_command, render_options.choice);
-  render_command->add_option("-o,--output", render_options.output,
-                             "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png)");
+  render_command->add_option(
+      "-o,--output", render_options.output,
+      "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png), or - and --stream");
+  addLongJobOptions();
   render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")
       ->capture_default_str();
+  render_command->get_option("--from")->excludes(render_command->get_option("--fps"));
   render_command->add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
   render_command->add_option("--camera", render_options.camera,
                              "One of the scene's cameras (main, or its first)");
+  render_command->add_flag("--portable", render_options.portable,
+                           "The same pixels on every CPU, a third slower: golden frames");
   addTellingOptions(*render_command, render_options.telling);
   render_command->add_flag("-v,--verbose", render_options.telling.verbose,
                            "Tell about scene and renderer first");
   render_command->footer(
       "Example: carom render drop-mesh --mesh part.stl --size 1920x1080 -o out/part_####.png");
+}
+
+void CommandLine::addLongJobOptions() {
+  RenderOptions& options = render_options;
+  CLI::App& render = *render_command;
+  render.get_option("SCENE")->required(false);  // a recording knows its scene
+  render.add_option("--frames", options.frames, "Only these, such as 0-99,150,200-300x5");
+  render.add_option("--shard", options.shard, "i/n: the i-th of n parts of the frames, i from 1");
+  CLI::Option* resume = render.add_flag("--resume", options.resume,
+                                        "Keeps frames that are whole and up to date, draws the others");
+  CLI::Option* stream = render.add_option("--stream", options.stream,
+                                          "With -o -: frames to standard output as ppm, png or rgb24");
+  CLI::Option* ffmpeg = render.add_option("--ffmpeg", options.ffmpeg, "A video by the installed ffmpeg");
+  CLI::Option* from = render.add_option("--from", options.from, "Draws a recording of simulate -o");
+  ffmpeg->excludes(render.get_option("--output"))->excludes(stream);
+  resume->excludes(stream)->excludes(ffmpeg);
+  from->excludes(render.get_option("--seed"))->excludes(render.get_option("--duration"));
 }
 
 void CommandLine::addSimulate() {
@@ -145,7 +168,9 @@ void CommandLine::addSimulate() {
   addSceneOptions(*simulate_command, simulate_options.choice);
   simulate_command->add_option("--csv", simulate_options.csv,
                                "One row a body and frame: poses, velocities, modes");
-  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv")
+  simulate_command->add_option("-o,--output", simulate_options.output,
+                               "Recording of poses and velocities, for render --from");
+  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv and -o")
       ->capture_default_str();
   simulate_command->add_option("--audit", simulate_options.audit,
                                "One row a step: energy, momentum, gap, counters");
@@ -247,11 +272,19 @@ void refuseExtras(const CommandLine& line) {
   throw UsageError(name + ": unexpected argument \"" + word + "\"");
 }
 
+void checkRender(const RenderOptions& options) {
+  if (options.choice.scene.empty() && options.from.empty())
+    throw UsageError("render: SCENE is required, or --from with a recording");
+  if ((options.output == "-") != !options.stream.empty())
+    throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
+}
+
 void checkValues(CommandLine& line) {
   for (const SceneChoice* choice : {&line.render_options.choice, &line.simulate_options.choice})
     if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
+  if (line.render_command->parsed()) checkRender(line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }

@@ -1,22 +1,36 @@
 // `carom render`: the loop of the paper. The world steps to the next frame's time, the frame is drawn, and a
-// second thread encodes it meanwhile.
+// second thread encodes it meanwhile. Long jobs draw a part of the frames, keep those that are up to date, or
+// take the motion from a recording; a frame's bytes are the same on every one of these ways.
 #include "demos/command.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <iostream>
+#include <set>
+#include <sstream>
 
-#include "demos/build_info.h"
+#include <unistd.h>
+
+#include "demos/atomic_file.h"
 #include "demos/content_hash.h"
+#include "demos/ffmpeg_video.h"
 #include "demos/frame_clock.h"
+#include "demos/frame_identity.h"
 #include "demos/frame_names.h"
+#include "demos/frame_selection.h"
 #include "demos/frame_states.h"
+#include "demos/frame_stream.h"
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
 #include "demos/nearest_name.h"
+#include "demos/pipe_writer.h"
 #include "demos/progress.h"
+#include "demos/recording.h"
 #include "demos/scene_world.h"
 #include "demos/simulation_check.h"
+#include "engine/foundation/contract.h"
 #include "renderer/frame_renderer.h"
 
 namespace carom::demos {
@@ -38,29 +52,72 @@ NamedCamera chosenCamera(const Scene& scene, const std::string& name) {
                    acceptedNames(name, names));
 }
 
-Manifest emptyManifest(const RenderOptions& options, const Scene& scene, const NamedCamera& camera) {
-  Manifest manifest;
-  manifest.command = options.command_line;
-  manifest.scene = scene.name;
-  manifest.scene_hash = sceneHash(scene, options.choice.mesh);
-  manifest.seed = scene.seed;
-  manifest.width = options.width;
-  manifest.height = options.height;
-  manifest.fps = options.fps;
-  manifest.steps_per_second = scene.rate_hz;
-  manifest.camera = camera.name;
-  return manifest;
+/// What is to be drawn, settled before anything is made.
+struct Plan {
+  SceneChoice choice;
+  Scene scene;
+  NamedCamera camera;
+  FrameClock clock;
+  int frame_count = 0;      ///< Of the whole run.
+  std::vector<int> frames;  ///< Those chosen.
+};
+
+/// The recording's scene and what was chosen of it; a scene on the command line says where that is now.
+SceneChoice recordedChoice(const RenderOptions& options, const RecordingHeader& header) {
+  SceneChoice choice = options.choice;
+  if (choice.scene.empty()) {
+    choice.scene = header.scene;
+    std::error_code ignored;
+    const std::filesystem::path file(header.scene);
+    if (file.is_absolute() && !std::filesystem::exists(file, ignored))
+      throw InputError(options.from.string() + ": its scene " + header.scene +
+                       " is not there; accepted: render SCENE --from with where it is now");
+  }
+  if (!choice.mesh && !header.mesh.empty()) choice.mesh = header.mesh;
+  choice.seed = header.seed;
+  choice.duration_s = header.duration_s;
+  return choice;
 }
 
-/// The identity of a frame inside its own file.
-renderer::PngText pngText(const Manifest& manifest, const FrameRecord& record) {
-  char time[32];
-  std::snprintf(time, sizeof time, "%.17g", record.time_s);
-  return {{"Software", "carom " + programVersion()},
-          {"Scene", manifest.scene + " " + hexText(manifest.scene_hash)},
-          {"Frame", std::to_string(record.frame)},
-          {"Time", time},
-          {"State", hexText(record.state_hash)}};
+void requireSameScene(const RenderOptions& options, const RecordingHeader& header, const Plan& plan) {
+  const std::uint64_t hash = sceneHash(plan.scene, plan.choice.mesh);
+  if (hash == header.scene_hash) return;
+  throw InputError(options.from.string() + ": recorded from scene hash " + hexText(header.scene_hash) +
+                   ", but " + plan.scene.file.string() + " has " + hexText(hash) +
+                   "; accepted: the scene as it was, or a new recording");
+}
+
+Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
+  const SceneChoice choice = recording ? recordedChoice(options, recording->header()) : options.choice;
+  const Scene scene = chosenScene(choice);
+  const double fps = recording ? recording->header().fps : options.fps;
+  const FrameClock clock({fps, scene.rate_hz});
+  Plan plan{choice, scene, chosenCamera(scene, options.camera), clock, clock.frameCount(scene.duration_s),
+            {}};
+  if (recording) {
+    requireSameScene(options, recording->header(), plan);
+    plan.frame_count = recording->header().frames;
+  }
+  if (plan.frame_count < 1)
+    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
+                     std::to_string(fps) + " fps");
+  plan.frames = shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard));
+  return plan;
+}
+
+Manifest emptyManifest(const RenderOptions& options, const Plan& plan) {
+  Manifest manifest;
+  manifest.command = options.command_line;
+  manifest.scene = plan.scene.name;
+  manifest.scene_hash = sceneHash(plan.scene, plan.choice.mesh);
+  manifest.seed = plan.scene.seed;
+  manifest.width = options.width;
+  manifest.height = options.height;
+  manifest.fps = plan.clock.fps();
+  manifest.steps_per_second = plan.scene.rate_hz;
+  manifest.camera = plan.camera.name;
+  manifest.frames_planned = static_cast<int>(plan.frames.size());
+  return manifest;
 }
 
 /// Milliseconds since the last call.
@@ -77,42 +134,58 @@ class Stopwatch {
   double last_s_ = steadySeconds();
 };
 
+/// The state at a frame, which is not before the last one asked for.
+using FrameSource = std::function<FrameState(int frame)>;
+
 /// What the frames of one run share.
 struct Run {
-  const FrameClock& clock;
-  const FrameNames& names;
-  const renderer::Camera& camera;
-  SceneWorld& scene;
-  RunFacts& facts;
+  const Plan& plan;
+  const FrameNames* names;  ///< None: the frames get no files.
+  bool resume = false;
+  const SceneWorld& scene;
+  FrameSource source;
   Manifest& manifest;
+  std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
 
+bool keepFrame(Run& run, FrameToWrite& frame) {
+  if (!run.resume) return false;
+  const std::optional<std::uint64_t> pixels =
+      wantedFrame(frame.path, frame.text, {run.manifest.width, run.manifest.height});
+  if (!pixels) return false;
+  frame.record.pixel_hash = *pixels;
+  frame.record.kept = true;
+  run.kept.push_back(frame.record);
+  return true;
+}
+
 void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer, Progress& progress) {
-  FrameStates states(run.scene.world, run.clock, [&run](const World& world) {
-    throwIfInterrupted();
-    checkStep(world, world.audit(), run.scene.names, run.facts);
-  });
-  for (int frame = 0; frame < run.manifest.frames_planned; ++frame) {
+  int done = 0;
+  for (const int frame : run.plan.frames) {
     throwIfInterrupted();
     Stopwatch watch;
     FrameToWrite next;
-    const std::vector<renderer::Instance> instances = drawnInstances(run.scene, states.advanceTo(frame));
+    const FrameState state = run.source(frame);
     next.record.timings.physics_ms = watch.lap_ms();
-    next.image = pictures.draw(instances, run.camera);
-    next.record.timings.draw_ms = watch.lap_ms();
-    next.path = run.names.file(frame);
+    if (run.names != nullptr) next.path = run.names->file(frame);
     next.record.frame = frame;
     next.record.file = next.path.filename().string();
-    next.record.time_s = run.clock.time(frame);
-    next.record.step = run.scene.world.stepCount();
-    next.record.state_hash = run.scene.world.stateHash();
-    next.text = pngText(run.manifest, next.record);
-    writer.submit(std::move(next));
-    progress.done(frame + 1);
+    next.record.time_s = run.plan.clock.time(frame);
+    next.record.step = state.step;
+    next.record.state_hash = state.state_hash;
+    next.text = frameText(run.manifest, next.record);
+    if (!keepFrame(run, next)) {
+      watch.lap_ms();
+      next.image = pictures.draw(drawnInstances(run.scene, state.bodies), run.plan.camera.camera);
+      next.record.timings.draw_ms = watch.lap_ms();
+      writer.submit(std::move(next));
+    }
+    progress.done(++done);
   }
 }
 
-void tellStart(const Run& run, const Scene& scene) {
+void tellStart(const Run& run) {
+  const Scene& scene = run.plan.scene;
   std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, " << run.manifest.frames_planned
             << " frames at " << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera "
             << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
@@ -120,17 +193,33 @@ void tellStart(const Run& run, const Scene& scene) {
             << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << '\n';
 }
 
-void printReport(const Run& run) {
+/// "12 frames  0.41 s  29.3 fps end to end", of a run whose frames went through a pipe.
+std::string pipedReport(const Run& run) {
+  char line[96];
+  const double count = run.manifest.frames_planned;
+  std::snprintf(line, sizeof line, "%d frames  %.2f s  %.1f fps end to end", run.manifest.frames_planned,
+                run.manifest.wall_s, count / run.manifest.wall_s);
+  return line;
+}
+
+std::string filesReport(const Run& run, const RunFacts& facts) {
   const Manifest& m = run.manifest;
   const FrameTimings total = totalTimings(m.frames);
-  const double count = static_cast<double>(m.frames.size());
+  const double count = std::max<double>(1.0, static_cast<double>(m.frames.size()));
+  const double drawn = std::max<double>(1.0, static_cast<double>(m.frames.size() - run.kept.size()));
   char line[256];
   std::snprintf(line, sizeof line,
-                "%zu frames  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms  "
-                "smallest gap %.3g m",
-                m.frames.size(), m.wall_s, count / m.wall_s, total.physics_ms / count, total.draw_ms / count,
-                total.encode_ms / count, run.facts.smallest_gap_m);
-  std::cout << run.names.pattern() << "  " << line << '\n';
+                "%zu frames  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms",
+                m.frames.size(), m.wall_s, count / m.wall_s, total.physics_ms / count, total.draw_ms / drawn,
+                total.encode_ms / drawn);
+  std::ostringstream report;
+  report.precision(3);
+  report << run.names->pattern() << "  " << line;
+  if (facts.smallest_gap_m < std::numeric_limits<double>::infinity())
+    report << "  smallest gap " << facts.smallest_gap_m << " m";
+  if (run.resume)
+    report << "  (" << m.frames.size() - run.kept.size() << " drawn, " << run.kept.size() << " kept)";
+  return report.str();
 }
 
 void noteOlderFrames(const FrameNames& names, int count) {
@@ -140,46 +229,115 @@ void noteOlderFrames(const FrameNames& names, int count) {
               << " and what follows it are from an earlier, longer run\n";
 }
 
-}  // namespace
+/// What an earlier run that was killed left of the files that this one is to write, and of nobody else's.
+void removeLeftOvers(const Run& run, const std::string& manifest_name) {
+  std::set<std::string> names{manifest_name};
+  for (const int frame : run.plan.frames) names.insert(run.names->file(frame).filename().string());
+  removeAbandoned(run.names->folder(), names);
+}
 
-ExitCode render(const RenderOptions& options) {
-  const double started_s = steadySeconds();
-  const Scene scene = chosenScene(options.choice);
-  const NamedCamera camera = chosenCamera(scene, options.camera);
-  const FrameNames names(options.output.empty() ? "frames/" + scene.name + "/frame_%04d.png"
-                                                : options.output);
-  const FrameClock clock({options.fps, scene.rate_hz});
-  Manifest manifest = emptyManifest(options, scene, camera);
-  manifest.frames_planned = clock.frameCount(scene.duration_s);
-  if (manifest.frames_planned < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
-                     std::to_string(options.fps) + " fps");
-
-  SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
-  renderer::FrameRenderer pictures({options.width, options.height}, made.world.solids());
-  manifest.gl = pictures.info();
-  RunFacts facts;
-  Run run{clock, names, camera.camera, made, facts, manifest};
-  if (options.telling.verbose) tellStart(run, scene);
-
-  catchInterrupts();
-  // A run that ends early still finishes the frames it has drawn and says which they are.
-  FrameWriter writer;
+/// Draws what is planned; a run that ends early still finishes the frames it has drawn and tells which they
+/// are in its manifest.
+void drawPlanned(Run& run, renderer::FrameRenderer& pictures, const FrameWriter::Write& write,
+                 const Telling& telling, const std::filesystem::path& manifest_file, double started_s) {
+  FrameWriter writer(write);
   std::exception_ptr ended_early;
   try {
-    const ProgressStyle style =
-        options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
-    Progress progress({"frame", manifest.frames_planned}, style, std::cerr, steadySeconds);
+    const ProgressStyle style = telling.quiet ? ProgressStyle::kNone : progressStyle(telling.progress);
+    Progress progress({"frame", run.manifest.frames_planned}, style, std::cerr, steadySeconds);
     drawFrames(run, pictures, writer, progress);
   } catch (const std::exception&) {
     ended_early = std::current_exception();
   }
-  manifest.frames = writer.finish();
-  manifest.wall_s = steadySeconds() - started_s;
-  writeManifest(manifest, names.folder() / "manifest.json");
+  std::vector<FrameRecord>& frames = run.manifest.frames;
+  frames = writer.finish();
+  frames.insert(frames.end(), run.kept.begin(), run.kept.end());
+  std::sort(frames.begin(), frames.end(),
+            [](const FrameRecord& a, const FrameRecord& b) { return a.frame < b.frame; });
+  run.manifest.wall_s = steadySeconds() - started_s;
+  if (run.names != nullptr) writeManifest(run.manifest, manifest_file);
   if (ended_early) std::rethrow_exception(ended_early);
-  if (!options.telling.quiet) noteOlderFrames(names, manifest.frames_planned);
-  printReport(run);
+}
+
+void renderFiles(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+                 const RunFacts& facts, double started_s) {
+  const std::string manifest_name = manifestName(options.frames, options.shard);
+  if (run.resume) removeLeftOvers(run, manifest_name);
+  drawPlanned(run, pictures, writeFrameFile, options.telling, run.names->folder() / manifest_name, started_s);
+  if (!options.telling.quiet) noteOlderFrames(*run.names, run.plan.frame_count);
+  std::cout << filesReport(run, facts) << '\n';
+}
+
+void renderStream(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+                  double started_s) {
+  const StreamFormat format = streamFormat(options.stream);
+  PipeWriter out(STDOUT_FILENO, "standard output");
+  const auto write = [&](const FrameToWrite& frame) -> std::optional<FrameRecord> {
+    out.write(streamedFrame(format, frame));
+    return std::nullopt;
+  };
+  drawPlanned(run, pictures, write, options.telling, {}, started_s);
+  if (!options.telling.quiet) std::cerr << pipedReport(run) << '\n';
+}
+
+void renderVideo(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+                 double started_s) {
+  FfmpegVideo video(options.ffmpeg, {options.width, options.height, run.manifest.fps});
+  const auto write = [&](const FrameToWrite& frame) -> std::optional<FrameRecord> {
+    video.write(frame.image.rgb);
+    return std::nullopt;
+  };
+  drawPlanned(run, pictures, write, options.telling, {}, started_s);
+  video.commit();
+  std::cout << options.ffmpeg.string() << "  " << pipedReport(run) << '\n';
+}
+
+}  // namespace
+
+ExitCode render(const RenderOptions& options) {
+  const double started_s = steadySeconds();
+  if (!options.stream.empty()) streamFormat(options.stream);
+  if (!options.stream.empty() && ::isatty(STDOUT_FILENO) != 0)
+    throw UsageError("-o -: standard output is a terminal; accepted: a pipe or a file");
+  std::optional<RecordingReader> recording;
+  if (!options.from.empty()) recording.emplace(options.from);
+  const Plan plan = planned(options, recording);
+  std::optional<FrameNames> names;
+  if (options.stream.empty() && options.ffmpeg.empty())
+    names.emplace(options.output.empty() ? "frames/" + plan.scene.name + "/frame_%04d.png" : options.output);
+  Manifest manifest = emptyManifest(options, plan);
+
+  SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh);
+  renderer::Settings settings{options.width, options.height};
+  if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
+  renderer::FrameRenderer pictures(settings, made.world.solids());
+  manifest.gl = pictures.info();
+  RunFacts facts;
+  FrameStates states(made.world, plan.clock, [&](const World& world) {
+    throwIfInterrupted();
+    checkStep(world, world.audit(), made.names, facts);
+  });
+  const auto simulated = [&](int frame) {
+    const std::span<const BodyState> bodies = states.advanceTo(frame);
+    return FrameState{bodies, made.world.stepCount(), made.world.stateHash()};
+  };
+  const auto recorded = [&](int frame) { return recording->advanceTo(frame); };
+  Run run{plan,
+          names ? &*names : nullptr,
+          options.resume,
+          made,
+          recording ? FrameSource(recorded) : simulated,
+          manifest,
+          {}};
+  if (options.telling.verbose) tellStart(run);
+
+  catchInterrupts();
+  if (run.names != nullptr)
+    renderFiles(run, pictures, options, facts, started_s);
+  else if (!options.stream.empty())
+    renderStream(run, pictures, options, started_s);
+  else
+    renderVideo(run, pictures, options, started_s);
   return ExitCode::kOk;
 }
 

@@ -11,6 +11,7 @@
 #include "demos/frame_states.h"
 #include "demos/interrupt.h"
 #include "demos/progress.h"
+#include "demos/recording.h"
 #include "demos/scene_world.h"
 #include "demos/simulation_check.h"
 
@@ -71,6 +72,38 @@ void writeAudit(CsvFile& csv, int step, const Audit& audit) {
   csv.row(row);
 }
 
+RecordingHeader recordingHeader(const SimulateOptions& options, const Scene& scene, const SceneWorld& made) {
+  const std::filesystem::path given(options.choice.scene);
+  const bool is_shipped_name = !given.has_parent_path() && !given.has_extension();
+  RecordingHeader header;
+  header.scene = is_shipped_name ? given.string() : std::filesystem::absolute(scene.file).string();
+  if (options.choice.mesh) header.mesh = std::filesystem::absolute(*options.choice.mesh).string();
+  header.scene_hash = sceneHash(scene, options.choice.mesh);
+  header.seed = scene.seed;
+  header.rate_hz = scene.rate_hz;
+  header.fps = options.fps;
+  header.duration_s = scene.duration_s;
+  header.bodies = static_cast<int>(made.names.size());
+  header.frames = FrameClock({options.fps, scene.rate_hz}).frameCount(scene.duration_s);
+  return header;
+}
+
+/// What there is to write of each frame.
+struct FrameOutputs {
+  CsvFile& trajectory;
+  std::optional<RecordingWriter>& recording;
+};
+
+void writeFrames(FrameOutputs outputs, const SceneWorld& made, const FrameClock& clock, int frames,
+                 FrameStates& states) {
+  if (!outputs.trajectory && !outputs.recording) return;
+  for (int frame = 0; frame < frames; ++frame) {
+    const std::span<const BodyState> bodies = states.advanceTo(frame);
+    if (outputs.trajectory) writeTrajectory(outputs.trajectory, frame, clock.time(frame), made.names, bodies);
+    if (outputs.recording) outputs.recording->add({bodies, made.world.stepCount(), made.world.stateHash()});
+  }
+}
+
 void printFacts(const World& world, const RunFacts& facts) {
   const Audit audit = world.audit();
   std::cout << hexText(world.stateHash()) << '\n'
@@ -89,6 +122,8 @@ ExitCode simulate(const SimulateOptions& options) {
   SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
   const FrameClock clock({options.fps, scene.rate_hz});
   const int steps = clock.stepCount(scene.duration_s);
+  if (!options.output.empty() && clock.frameCount(scene.duration_s) < 1)
+    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame to record");
   if (steps < 1) throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no step");
 
   catchInterrupts();
@@ -97,6 +132,8 @@ ExitCode simulate(const SimulateOptions& options) {
       options.audit,
       "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
       "distance_queries,contact_points,events,stopped_bodies,iteration_limits");
+  std::optional<RecordingWriter> recording;
+  if (!options.output.empty()) recording.emplace(options.output, recordingHeader(options, scene, made));
   RunFacts facts;
   const ProgressStyle style =
       options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
@@ -109,13 +146,12 @@ ExitCode simulate(const SimulateOptions& options) {
       if (audits) writeAudit(audits, world.stepCount(), audit);
       progress.done(world.stepCount());
     });
-    if (trajectory)
-      for (int frame = 0; frame < clock.frameCount(scene.duration_s); ++frame)
-        writeTrajectory(trajectory, frame, clock.time(frame), made.names, states.advanceTo(frame));
+    writeFrames({trajectory, recording}, made, clock, clock.frameCount(scene.duration_s), states);
     states.stepTo(steps);
   }
   trajectory.commit();
   audits.commit();
+  if (recording) recording->commit();
   printFacts(made.world, facts);
   const std::string hash = hexText(made.world.stateHash());
   if (options.expected_hash.empty() || options.expected_hash == hash) return ExitCode::kOk;

@@ -38,6 +38,12 @@ class SimulationInvalid : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whoever read the frames has gone.
+class PipeClosed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The person or the system asked the program to stop.
 class Interrupted : public std::runtime_error {
  public:

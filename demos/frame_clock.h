@@ -27,6 +27,7 @@ class FrameClock {
 
   int frameCount(double duration_s) const;
   int stepCount(double duration_s) const;
+  double fps() const { return rates_.fps; }
   double time(int frame) const { return frame / rates_.fps; }
   StepInstant instant(int frame) const;
 

@@ -1,25 +1,23 @@
 #include "demos/frame_writer.h"
 
 #include "demos/atomic_file.h"
-#include "demos/content_hash.h"
+#include "demos/frame_identity.h"
 #include "demos/progress.h"
 
 namespace carom::demos {
-namespace {
 
-FrameRecord writeFrame(FrameToWrite frame) {
+std::optional<FrameRecord> writeFrameFile(FrameToWrite frame) {
   const double started_s = steadySeconds();
-  frame.record.pixel_hash = ContentHash().add(frame.image.rgb.data(), frame.image.rgb.size()).value();
+  const EncodedFrame encoded = encodedFrame(frame.image, frame.text);
+  frame.record.pixel_hash = encoded.pixel_hash;
   AtomicFile file(frame.path);
-  file.write(renderer::encodePng(frame.image, frame.text));
+  file.write(encoded.bytes);
   file.commit();
   frame.record.timings.encode_ms = 1000.0 * (steadySeconds() - started_s);
   return frame.record;
 }
 
-}  // namespace
-
-FrameWriter::FrameWriter() : thread_([this] { work(); }) {}
+FrameWriter::FrameWriter(Write write) : write_(std::move(write)), thread_([this] { work(); }) {}
 
 FrameWriter::~FrameWriter() {
   end();
@@ -63,9 +61,9 @@ void FrameWriter::work() {
     changed_.notify_all();
     lock.unlock();
     try {
-      FrameRecord record = writeFrame(std::move(frame));
+      std::optional<FrameRecord> record = write_(std::move(frame));
       lock.lock();
-      written_.push_back(std::move(record));
+      if (record) written_.push_back(std::move(*record));
     } catch (...) {
       lock.lock();
       failure_ = std::current_exception();

@@ -5,7 +5,9 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -22,9 +24,14 @@ struct FrameToWrite {
   renderer::PngText text;
 };
 
+/// Writes the frame's file; its record, completed. Throws CannotWrite.
+std::optional<FrameRecord> writeFrameFile(FrameToWrite frame);
+
 class FrameWriter {
  public:
-  FrameWriter();
+  /// What is done with a frame in the thread; a record it returns is kept for `finish`.
+  using Write = std::function<std::optional<FrameRecord>(FrameToWrite)>;
+  explicit FrameWriter(Write write = writeFrameFile);
   /// Writes what was handed in, then ends; use `finish` to learn of failures.
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
@@ -50,6 +57,7 @@ class FrameWriter {
   std::vector<FrameRecord> written_;
   std::exception_ptr failure_;
   bool ending_ = false;
+  Write write_;
   std::thread thread_;  // last: it starts once everything above exists
 };
 

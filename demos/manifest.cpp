@@ -28,6 +28,7 @@ Json frameJson(const FrameRecord& record) {
                        {"step", record.step},
                        {"stateHash", hexText(record.state_hash)},
                        {"pixelHash", hexText(record.pixel_hash)},
+                       {"kept", record.kept},
                        {"ms", timingsJson(record.timings)}});
 }
 

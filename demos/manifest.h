@@ -27,6 +27,7 @@ struct FrameRecord {
   std::uint64_t state_hash = 0;  ///< Of the world after those steps.
   std::uint64_t pixel_hash = 0;  ///< ContentHash of the image's RGB bytes.
   FrameTimings timings;
+  bool kept = false;  ///< An earlier run had drawn it (--resume).
 };
 
 struct Manifest {

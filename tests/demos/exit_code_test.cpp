@@ -21,6 +21,7 @@ TEST(ExitCode, EachKindOfFailureHasItsOwn) {
   EXPECT_EQ(failureOfThrown(CannotWrite("x")).code, 4);
   EXPECT_EQ(failureOfThrown(SimulationInvalid("x")).code, 5);
   EXPECT_EQ(failureOfThrown(renderer::NoRenderer("x")).code, 6);
+  EXPECT_EQ(failureOfThrown(PipeClosed("x")).code, 141);
   EXPECT_EQ(failureOfThrown(Interrupted(SIGINT)).code, 130);
   EXPECT_EQ(failureOfThrown(Interrupted(SIGTERM)).code, 143);
   EXPECT_FALSE(failureOfThrown(InputError("x")).is_bug);

@@ -36,7 +36,8 @@ TEST(FrameWriter, WritesEveryFrameInOrderAndPixelForPixel) {
     const renderer::DecodedPng png = renderer::readPng(folder.path() / (std::to_string(k) + ".png"));
     EXPECT_EQ(record.frame, k);
     EXPECT_EQ(png.image.rgb, stripes(k).rgb);
-    EXPECT_EQ(png.text, (renderer::PngText{{"Frame", std::to_string(k)}}));
+    EXPECT_EQ(png.text,
+              (renderer::PngText{{"Frame", std::to_string(k)}, {"Pixels", hexText(record.pixel_hash)}}));
     EXPECT_EQ(record.pixel_hash, ContentHash().add(png.image.rgb.data(), png.image.rgb.size()).value());
   }
 }

@@ -1,0 +1,25 @@
+#include "demos/frame_stream.h"
+
+#include "demos/exit_code.h"
+#include "demos/frame_identity.h"
+
+namespace carom::demos {
+
+StreamFormat streamFormat(const std::string& name) {
+  if (name == "ppm") return StreamFormat::kPpm;
+  if (name == "png") return StreamFormat::kPng;
+  if (name == "rgb24") return StreamFormat::kRgb24;
+  throw UsageError("--stream " + name + ": accepted: ppm, png or rgb24");
+}
+
+std::vector<std::uint8_t> streamedFrame(StreamFormat format, const FrameToWrite& frame) {
+  if (format == StreamFormat::kPng) return encodedFrame(frame.image, frame.text).bytes;
+  if (format == StreamFormat::kRgb24) return frame.image.rgb;
+  const std::string head =
+      "P6\n" + std::to_string(frame.image.width) + " " + std::to_string(frame.image.height) + "\n255\n";
+  std::vector<std::uint8_t> bytes(head.begin(), head.end());
+  bytes.insert(bytes.end(), frame.image.rgb.begin(), frame.image.rgb.end());
+  return bytes;
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,263 @@
+#include "demos/recording.h"
+
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "demos/exit_code.h"
+#include "demos/json.h"
+#include "engine/foundation/contract.h"
+
+namespace carom::demos {
+namespace {
+
+constexpr char kMagic[] = "CAROMREC";
+constexpr std::size_t kMagicSize = 8;
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kSumSize = 8;
+constexpr unsigned kModeBits = 0x0f;
+constexpr unsigned kPoseFollows = 0x10;
+constexpr unsigned kVelocitiesFollow = 0x20;
+
+void putWord(std::string& out, std::uint64_t word, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i) out.push_back(static_cast<char>((word >> (8 * i)) & 0xff));
+}
+
+std::uint64_t word(const std::string& bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  return value;
+}
+
+void putVector(std::string& out, const Vec3& v) {
+  for (const double x : v) putWord(out, std::bit_cast<std::uint64_t>(x), 8);
+}
+
+void putPose(std::string& out, const Pose& X) {
+  putVector(out, X.position);
+  putWord(out, std::bit_cast<std::uint64_t>(X.rotation.w()), 8);
+  putVector(out, X.rotation.vec());
+}
+
+/// Bits, not values: -0 and +0 draw alike but are not the same state.
+bool samePoseBits(const Pose& a, const Pose& b) {
+  std::string bits_a, bits_b;
+  putPose(bits_a, a);
+  putPose(bits_b, b);
+  return bits_a == bits_b;
+}
+
+bool velocitiesAreZeroBits(const BodyState& s) {
+  std::string bits;
+  putVector(bits, s.linear_velocity);
+  putVector(bits, s.angular_velocity);
+  return bits.find_first_not_of('\0') == std::string::npos;
+}
+
+/// Takes values off the front of a payload; past its end everything is zero and `whole` is false.
+struct PayloadCursor {
+  const std::string& bytes;
+  std::size_t at = 0;
+  bool whole = true;
+
+  std::uint64_t take(std::size_t count) {
+    if (bytes.size() - at < count) {
+      whole = false;
+      return 0;
+    }
+    at += count;
+    return word(bytes.substr(at - count, count));
+  }
+  double number() { return std::bit_cast<double>(take(8)); }
+  Vec3 vector() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+};
+
+void takeBody(PayloadCursor& cursor, BodyState& state) {
+  const auto flags = static_cast<unsigned>(cursor.take(1));
+  const unsigned mode = flags & kModeBits;
+  if (mode > static_cast<unsigned>(Mode::kResting)) cursor.whole = false;
+  state.mode = static_cast<Mode>(mode);
+  if ((flags & kPoseFollows) != 0) {
+    state.X_WB.position = cursor.vector();
+    const double w = cursor.number();
+    const Vec3 v = cursor.vector();
+    state.X_WB.rotation = Quat(w, v.x(), v.y(), v.z());
+  }
+  state.linear_velocity.setZero();
+  state.angular_velocity.setZero();
+  if ((flags & kVelocitiesFollow) == 0) return;
+  state.linear_velocity = cursor.vector();
+  state.angular_velocity = cursor.vector();
+}
+
+std::string headerText(const RecordingHeader& header) {
+  return Json::object({{"scene", header.scene},
+                       {"mesh", header.mesh},
+                       {"sceneHash", hexText(header.scene_hash)},
+                       {"seed", std::to_string(header.seed)},
+                       {"stepsPerSecond", header.rate_hz},
+                       {"fps", header.fps},
+                       {"duration_s", header.duration_s},
+                       {"bodies", header.bodies},
+                       {"frames", header.frames}})
+      .text();
+}
+
+int count(const Json& json) {
+  const double value = json.asNumber();
+  if (!(value >= 0.0 && value <= 1e9)) json.fail("no count: " + json.shown());
+  return static_cast<int>(value);
+}
+
+RecordingHeader readHeader(const std::string& text, const std::string& origin) {
+  const Json json = Json::parse(text, origin);
+  RecordingHeader header;
+  header.scene = json.at("scene").asString();
+  header.mesh = json.at("mesh").asString();
+  header.scene_hash = std::strtoull(json.at("sceneHash").asString().c_str(), nullptr, 16);
+  header.seed = std::strtoull(json.at("seed").asString().c_str(), nullptr, 10);
+  header.rate_hz = json.at("stepsPerSecond").asNumber();
+  header.fps = json.at("fps").asNumber();
+  header.duration_s = json.at("duration_s").asNumber();
+  header.bodies = count(json.at("bodies"));
+  header.frames = count(json.at("frames"));
+  return header;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header)
+    : file_(path), header_(header) {
+  std::string start(kMagic, kMagicSize);
+  putWord(start, kVersion, 4);
+  file_.write(start);
+  block('H', headerText(header));
+}
+
+void RecordingWriter::block(char kind, const std::string& payload) {
+  std::string bytes(1, kind);
+  putWord(bytes, payload.size(), 4);
+  bytes += payload;
+  sum_.add(bytes);
+  putWord(bytes, sum_.value(), kSumSize);
+  file_.write(bytes);
+}
+
+void RecordingWriter::add(const FrameState& state) {
+  REQUIRE(static_cast<int>(state.bodies.size()) == header_.bodies, state.bodies.size(), header_.bodies);
+  std::string payload;
+  putWord(payload, static_cast<std::uint64_t>(frames_), 4);
+  putWord(payload, static_cast<std::uint64_t>(state.step), 4);
+  putWord(payload, state.state_hash, 8);
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyState& body = state.bodies[i];
+    const bool moved = last_.empty() || !samePoseBits(body.X_WB, last_[i].X_WB);
+    const bool moves = !velocitiesAreZeroBits(body);
+    putWord(payload,
+            static_cast<unsigned>(body.mode) | (moved ? kPoseFollows : 0u) | (moves ? kVelocitiesFollow : 0u),
+            1);
+    if (moved) putPose(payload, body.X_WB);
+    if (!moves) continue;
+    putVector(payload, body.linear_velocity);
+    putVector(payload, body.angular_velocity);
+  }
+  block('F', payload);
+  last_.assign(state.bodies.begin(), state.bodies.end());
+  ++frames_;
+}
+
+void RecordingWriter::commit() {
+  REQUIRE(frames_ == header_.frames, frames_, header_.frames);
+  std::string count;
+  putWord(count, static_cast<std::uint64_t>(frames_), 4);
+  block('E', count);
+  file_.commit();
+}
+
+RecordingReader::RecordingReader(const std::filesystem::path& path) : path_(path) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(path, failed))
+    throw InputError("cannot read " + path.string() + ": it is a folder");
+  start();
+  check();
+  start();
+}
+
+void RecordingReader::fail(const std::string& what) const {
+  const std::string after = frame_ >= 0 ? " after frame " + std::to_string(frame_) : "";
+  throw InputError(path_.string() + ": " + what + after);
+}
+
+std::string RecordingReader::take(std::size_t count) {
+  if (left_ < count) fail("the recording is truncated");
+  std::string bytes(count, '\0');
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(count))) fail("the recording is truncated");
+  left_ -= count;
+  return bytes;
+}
+
+void RecordingReader::start() {
+  errno = 0;
+  file_ = std::ifstream(path_, std::ios::binary);
+  std::error_code failed;
+  left_ = std::filesystem::file_size(path_, failed);
+  if (!file_ || failed)
+    throw InputError("cannot read " + path_.string() + ": " +
+                     (failed ? failed.message() : std::strerror(errno)));
+  sum_ = ContentHash();
+  frame_ = -1;
+  if (left_ < kMagicSize || take(kMagicSize) != kMagic)
+    fail("no recording: accepted: a file that simulate -o wrote");
+  const std::uint64_t version = word(take(4));
+  if (version != kVersion)
+    fail("a recording of version " + std::to_string(version) + ": accepted: version " +
+         std::to_string(kVersion));
+  const Block header = nextBlock();
+  if (header.kind != 'H') fail("the recording is damaged");
+  header_ = readHeader(header.payload, path_.string());
+  if (static_cast<std::uintmax_t>(header_.bodies) > left_ && header_.frames > 0)
+    fail("the recording is truncated");  // a body takes at least a byte
+  states_.assign(static_cast<std::size_t>(header_.bodies), BodyState{});
+}
+
+RecordingReader::Block RecordingReader::nextBlock() {
+  const std::string head = take(5);
+  const std::string payload = take(static_cast<std::size_t>(word(head.substr(1))));
+  sum_.add(head + payload);
+  if (word(take(kSumSize)) != sum_.value()) fail("the recording is damaged");
+  return {head[0], payload};
+}
+
+void RecordingReader::readFrame(const std::string& payload) {
+  PayloadCursor cursor{payload};
+  const auto frame = static_cast<int>(cursor.take(4));
+  step_ = static_cast<int>(cursor.take(4));
+  state_hash_ = cursor.take(8);
+  for (BodyState& state : states_) takeBody(cursor, state);
+  if (!cursor.whole || cursor.at != payload.size() || frame != frame_ + 1) fail("the recording is damaged");
+  frame_ = frame;
+}
+
+void RecordingReader::check() {
+  for (int k = 0; k < header_.frames; ++k) {
+    const Block block = nextBlock();
+    if (block.kind != 'F') fail("the recording is damaged");
+    readFrame(block.payload);
+  }
+  const Block end = nextBlock();
+  if (end.kind != 'E' || left_ != 0) fail("the recording is damaged");
+}
+
+FrameState RecordingReader::advanceTo(int frame) {
+  REQUIRE(frame >= frame_ && frame < header_.frames, frame, frame_, header_.frames);
+  while (frame_ < frame) readFrame(nextBlock().payload);
+  return {states_, step_, state_hash_};
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,154 @@
+// Visual regression of every shipped scene: three frames at 320x180, drawn with pixels that are the same on
+// every CPU, against the golden ones under tests/golden/. A failure says whether physics moved or the
+// renderer changed, and prints the command that accepts the new frames. What the gate can and cannot see is
+// tested beside it.
+
+#include <algorithm>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "demos/asset_path.h"
+#include "demos/scene_file.h"
+#include "demos/scene_world.h"
+#include "program_run.h"
+#include "renderer/frame_renderer.h"
+#include "renderer/image_difference.h"
+#include "renderer/png.h"
+#include "renderer/projection.h"
+
+namespace carom::demos {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 320, kHeight = 180;
+constexpr int kTolerance = 2;  // of 255: what `carom compare` lets pass
+
+fs::path goldenFolder(const std::string& scene) {
+  return fs::path(CAROM_SOURCE_DIR) / "tests" / "golden" / scene;
+}
+
+std::string testName(const fs::path& scene) {
+  std::string name = scene.stem().string();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+class GoldenFrames : public testing::TestWithParam<fs::path> {
+ protected:
+  std::string scene() const { return GetParam().stem().string(); }
+  /// Kept after a failure, to look at and to accept.
+  fs::path drawn() const { return fs::path(CAROM_BINARY).parent_path() / "golden" / scene(); }
+
+  ProgramEnd draw(const std::vector<std::string>& environment = {}) const {
+    fs::remove_all(drawn());
+    return Program({"render", scene(), "--portable", "--size", "320x180", "--fps", "2", "--duration", "1.5",
+                    "-q", "-o", (drawn() / "frame_%04d.png").string()},
+                   environment)
+        .wait();
+  }
+  ProgramEnd compare(const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> words{"compare", drawn().string(), goldenFolder(scene()).string(), "-q"};
+    words.insert(words.end(), options.begin(), options.end());
+    return runCarom(words);
+  }
+};
+
+TEST_P(GoldenFrames, AreDrawnAgain) {
+  const ProgramEnd drawing = draw();
+  ASSERT_EQ(drawing.code, 0) << drawing.err;
+  const fs::path report = drawn().parent_path() / (scene() + ".html");
+  const ProgramEnd end = compare({"--report", report.string()});
+  EXPECT_EQ(end.code, 0) << end.out << end.err << "report: " << report.string()
+                         << "\naccept with: carom compare " << drawn().string() << ' '
+                         << goldenFolder(scene()).string() << " --update";
+}
+
+// To the bit where the processor has no more than SSE2.
+TEST_P(GoldenFrames, AreTheSameWithoutTheInstructionsOfNewerProcessors) {
+  const ProgramEnd drawing = draw({"GALLIUM_OVERRIDE_CPU_CAPS=sse2", "LP_NATIVE_VECTOR_WIDTH=128"});
+  ASSERT_EQ(drawing.code, 0) << drawing.err;
+  const ProgramEnd end = compare({"--tolerance", "0", "--report", "none"});
+  EXPECT_EQ(end.code, 0) << end.out << end.err;
+}
+
+// The scene's first frame, of the same pixels as the program's.
+class FirstFrame {
+ public:
+  explicit FirstFrame(const fs::path& file)
+      : scene_(readSceneFile(file)),
+        made_(makeSceneWorld(scene_, std::nullopt)),
+        instances_(drawnInstances(made_, made_.world.states())),
+        pictures_({kWidth, kHeight, renderer::Settings{}.to_light, renderer::PixelPolicy::kPortable},
+                  made_.world.solids()) {
+    const auto main = scene_.cameras.find("main");
+    camera_ = (main != scene_.cameras.end() ? main : scene_.cameras.begin())->second;
+  }
+
+  std::vector<renderer::Instance> instances() const { return instances_; }
+  bool moves(std::size_t body) const { return !made_.world.bodies()[body].is_static; }
+  const std::string& name(std::size_t body) const { return made_.names[body]; }
+  const renderer::Camera& camera() const { return camera_; }
+
+  renderer::Raster draw(const std::vector<renderer::Instance>& instances) {
+    const renderer::Image& image = pictures_.draw(instances, camera_);
+    return {image.width, image.height, 3, 8, {image.rgb.begin(), image.rgb.end()}};
+  }
+
+ private:
+  Scene scene_;
+  SceneWorld made_;
+  std::vector<renderer::Instance> instances_;
+  renderer::FrameRenderer pictures_;
+  renderer::Camera camera_;
+};
+
+// Each body in turn a quarter of a pixel to the right of where it belongs. One that hides behind others is
+// not seen to move.
+TEST_P(GoldenFrames, FailWhenAnyBodyInSightMovesByAQuarterPixel) {
+  FirstFrame frame(GetParam());
+  const renderer::Raster golden = frame.draw(frame.instances());
+  const renderer::CameraAxes axes = renderer::cameraAxes(frame.camera());
+  const double focal_px = renderer::focalLengthPixels(frame.camera(), kHeight);
+  int in_sight = 0;
+  for (std::size_t i = 0; i < frame.instances().size(); ++i) {
+    if (!frame.moves(i)) continue;
+    std::vector<renderer::Instance> without = frame.instances(), moved = frame.instances();
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto seen = renderer::differenceOf(frame.draw(without), golden, kTolerance);
+    if (seen.pixels_beyond < 30) continue;
+    ++in_sight;
+    const double depth_m = axes.forward.dot(moved[i].X_WB.position - frame.camera().eye);
+    moved[i].X_WB.position += 0.25 * depth_m / focal_px * axes.right;
+    EXPECT_GT(renderer::differenceOf(frame.draw(moved), golden, kTolerance).largest, kTolerance)
+        << frame.name(i);
+  }
+  EXPECT_GT(in_sight, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenFrames, testing::ValuesIn(shippedScenes()),
+                         [](const auto& scene) { return testName(scene.param); });
+
+std::vector<fs::path> goldenFiles() {
+  std::vector<fs::path> files;
+  for (const fs::path& scene : shippedScenes())
+    for (const auto& entry : fs::directory_iterator(goldenFolder(scene.stem().string())))
+      if (entry.path().extension() == ".png") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// No golden frame could be taken for another: the gate tells any two apart.
+TEST(GoldenFramesOfAllScenes, FailAgainstEachOther) {
+  std::vector<renderer::Raster> frames;
+  const std::vector<fs::path> files = goldenFiles();
+  for (const fs::path& file : files) frames.push_back(renderer::readPngRaster(file).raster);
+  ASSERT_EQ(frames.size(), 3 * shippedScenes().size());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(renderer::differenceOf(frames[i], frames[j], kTolerance).largest, kTolerance)
+          << files[i] << " and " << files[j];
+}
+
+}  // namespace
+}  // namespace carom::demos
