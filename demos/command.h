@@ -23,6 +23,13 @@ struct SceneChoice {
 /// Reads the scene and puts the chosen seed and duration in.
 Scene chosenScene(const SceneChoice& choice);
 
+struct NamedCamera {
+  std::string name;
+  renderer::Camera camera;
+};
+/// The scene's camera of that name; for an empty name "main", else its first.
+NamedCamera chosenCamera(const Scene& scene, const std::string& name);
+
 /// How much is told on stderr.
 struct Telling {
   std::string progress = "auto";
@@ -97,6 +104,24 @@ struct CompareOptions {
   Telling telling;
 };
 ExitCode compare(const CompareOptions& options);
+
+struct BudgetOptions {
+  SceneChoice choice;
+  double budget_ms = 16.7;
+  double percentile = 99.0;
+  int replays = 5;
+  double fps = 60.0;
+  int width = 1280;
+  int height = 720;
+  std::string camera;
+  std::string json;  ///< A file, "-" for standard output, or empty; so is `csv`.
+  std::string csv;
+  std::filesystem::path trace;
+  std::filesystem::path baseline;
+  double tolerance_percent = 10.0;
+  Telling telling;
+};
+ExitCode budget(const BudgetOptions& options);
 
 ExitCode doctor();
 

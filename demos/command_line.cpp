@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
+constexpr double kLongestBudget_ms = 1e6;
 constexpr int kSmallestSide = 16;
 constexpr int kLargestSide = 8192;
 
@@ -28,7 +29,8 @@ std::string quotedCommandLine(int argc, char** argv) {
   return text;
 }
 
-void readSize(const std::string& text, RenderOptions& options) {
+template <typename Options>
+void readSize(const std::string& text, Options& options) {
   int width = 0, height = 0;
   char cross = 0, rest = 0;
   std::istringstream in(text);
@@ -47,6 +49,17 @@ void requireWithin(const char* option, double value, double most) {
   std::ostringstream message;
   message << option << ' ' << value << ": accepted: above 0, at most " << most;
   throw UsageError(message.str());
+}
+
+/// "10%" or "10".
+double readPercentage(const char* option, const std::string& text) {
+  std::istringstream in(text);
+  double percent = 0.0;
+  std::string rest;
+  const bool number = static_cast<bool>(in >> percent);
+  in >> rest;
+  if (number && (rest.empty() || rest == "%") && percent >= 0.0 && percent <= 1000.0) return percent;
+  throw UsageError(std::string(option) + " " + text + ": accepted: 0% to 1000%, such as 10%");
 }
 
 void requireHash(const std::string& text) {
@@ -79,13 +92,17 @@ struct CommandLine {
   CheckOptions check_options;
   DistanceOptions distance_options;
   CompareOptions compare_options;
+  BudgetOptions budget_options;
   std::string size;
+  std::string budget_size;
+  std::string budget_tolerance;
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
   CLI::App* simulate_command = nullptr;
   CLI::App* check_command = nullptr;
   CLI::App* distance_command = nullptr;
   CLI::App* compare_command = nullptr;
+  CLI::App* budget_command = nullptr;
   CLI::App* doctor_command = nullptr;
 
   CommandLine();
@@ -94,6 +111,7 @@ struct CommandLine {
   void addSimulate();
   void addDistance();
   void addCompare();
+  void addBudget();
 };
 
 CommandLine::CommandLine() {
@@ -101,7 +119,8 @@ CommandLine::CommandLine() {
   app.footer(
       "Example: carom render sliding -o out/frame_%04d.png\n"
       "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
-      "            5 simulation invalid, 6 no renderer, 128+n signal n");
+      "            5 simulation invalid, 6 no renderer, 7 budget inconclusive,\n"
+      "            128+n signal n");
   list_command = app.add_subcommand("list", "The shipped scenes, one line each");
   list_command->add_flag("--json", list_options.json, "As a JSON array");
   list_command->footer("Example: carom list --json");
@@ -116,6 +135,7 @@ CommandLine::CommandLine() {
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
   addCompare();
+  addBudget();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   doctor_command->footer("Example: carom doctor");
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
@@ -243,6 +263,42 @@ void CommandLine::addCompare() {
       "Accept what was rendered: carom compare out tests/golden/sliding --update");
 }
 
+void CommandLine::addBudget() {
+  BudgetOptions& options = budget_options;
+  budget_command = app.add_subcommand(
+      "budget",
+      "Times a scene's frames, phase by phase, against a deadline; exit 1 when over, 7 when there is too\n"
+      "much noise to tell");
+  addSceneOptions(*budget_command, options.choice);
+  budget_command->add_option("--budget", options.budget_ms, "Milliseconds a frame may take")
+      ->capture_default_str();
+  budget_command->add_option("--percentile", options.percentile, "This share of the frames must keep it")
+      ->capture_default_str();
+  budget_command
+      ->add_option("--replays", options.replays,
+                   "Runs of the same scene; a frame counts with the least of its times")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
+      ->capture_default_str();
+  budget_command->add_option("--size", budget_size, "WIDTHxHEIGHT in pixels (1280x720)");
+  budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
+  budget_command->add_option("--json", options.json,
+                             "All figures as JSON, to a file or - for standard output");
+  budget_command->add_option("--csv", options.csv, "One row a frame, to a file or - for standard output");
+  budget_command->add_option("--trace", options.trace,
+                             "The quickest replay as trace events, for ui.perfetto.dev");
+  budget_command->add_option(
+      "--baseline", options.baseline,
+      "An earlier --json of the same scene on the same machine: exit 1 when a phase got\n"
+      "slower, and which");
+  budget_command->add_option("--tolerance", budget_tolerance, "How much slower a phase may be (10%)");
+  addTellingOptions(*budget_command, options.telling);
+  budget_command->footer(
+      "Example: carom budget fifty-bodies --size 640x360 --json now.json --trace now.trace.json\n"
+      "After a change: carom budget fifty-bodies --size 640x360 --baseline now.json --tolerance 10%");
+}
+
 std::vector<std::string> optionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -279,13 +335,29 @@ void checkRender(const RenderOptions& options) {
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }
 
+void checkBudget(CommandLine& line) {
+  BudgetOptions& options = line.budget_options;
+  requireWithin("--budget", options.budget_ms, kLongestBudget_ms);
+  requireWithin("--percentile", options.percentile, 100.0);
+  requireWithin("--fps", options.fps, kHighestFps);
+  if (!line.budget_size.empty()) readSize(line.budget_size, options);
+  if (!line.budget_tolerance.empty()) {
+    options.tolerance_percent = readPercentage("--tolerance", line.budget_tolerance);
+    if (options.baseline.empty()) throw UsageError("--tolerance is of --baseline, which is missing");
+  }
+  if (options.json == "-" && options.csv == "-")
+    throw UsageError("--json - and --csv -: standard output can take one of them");
+}
+
 void checkValues(CommandLine& line) {
-  for (const SceneChoice* choice : {&line.render_options.choice, &line.simulate_options.choice})
+  for (const SceneChoice* choice :
+       {&line.render_options.choice, &line.simulate_options.choice, &line.budget_options.choice})
     if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
   if (line.render_command->parsed()) checkRender(line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
+  checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
 
@@ -321,6 +393,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.check_command->parsed()) return check(line.check_options);
   if (line.distance_command->parsed()) return distance(line.distance_options);
   if (line.compare_command->parsed()) return compare(line.compare_options);
+  if (line.budget_command->parsed()) return budget(line.budget_options);
   return doctor();
 }
 

@@ -24,7 +24,6 @@
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
-#include "demos/nearest_name.h"
 #include "demos/pipe_writer.h"
 #include "demos/progress.h"
 #include "demos/recording.h"
@@ -35,22 +34,6 @@
 
 namespace carom::demos {
 namespace {
-
-struct NamedCamera {
-  std::string name;
-  renderer::Camera camera;
-};
-
-NamedCamera chosenCamera(const Scene& scene, const std::string& name) {
-  const auto main = scene.cameras.find("main");
-  auto chosen = main != scene.cameras.end() ? main : scene.cameras.begin();
-  if (!name.empty()) chosen = scene.cameras.find(name);
-  if (chosen != scene.cameras.end()) return {chosen->first, chosen->second};
-  std::vector<std::string> names;
-  for (const auto& [known, unused] : scene.cameras) names.push_back(known);
-  throw UsageError("--camera " + name + ": no such camera in " + scene.file.string() +
-                   acceptedNames(name, names));
-}
 
 /// What is to be drawn, settled before anything is made.
 struct Plan {

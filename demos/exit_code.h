@@ -17,7 +17,8 @@ enum class ExitCode {
   kCannotWrite = 4,
   kInvalid = 5,  ///< The simulation left what it guarantees.
   kNoRenderer = 6,
-  kSignal = 128  ///< Plus the signal's number.
+  kInconclusive = 7,  ///< Too much noise to judge a time.
+  kSignal = 128       ///< Plus the signal's number.
 };
 
 /// A command line that cannot be carried out as it stands.

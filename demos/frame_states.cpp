@@ -4,15 +4,15 @@
 
 namespace carom::demos {
 
-FrameStates::FrameStates(World& world, const FrameClock& clock, AfterStep after_step)
-    : world_(world), clock_(clock), after_step_(std::move(after_step)) {
+FrameStates::FrameStates(World& world, const FrameClock& clock, AfterStep after_step, PhaseClock* phases)
+    : world_(world), clock_(clock), after_step_(std::move(after_step)), phases_(phases) {
   before_.assign(world.states().begin(), world.states().end());
 }
 
 void FrameStates::stepTo(int step) {
   while (world_.stepCount() < step) {
     before_.assign(world_.states().begin(), world_.states().end());
-    world_.step();
+    world_.step(phases_);
     after_step_(world_);
   }
 }

@@ -16,8 +16,8 @@ class FrameStates {
  public:
   using AfterStep = std::function<void(const World&)>;
 
-  /// Both must outlive this. `after_step` is called after every step.
-  FrameStates(World& world, const FrameClock& clock, AfterStep after_step);
+  /// All must outlive this. `after_step` is called after every step; `phases` is told of the steps' phases.
+  FrameStates(World& world, const FrameClock& clock, AfterStep after_step, PhaseClock* phases = nullptr);
 
   /// Steps on to `frame`, which must not be before the last one asked for; the states at its exact time,
   /// valid until the next call.
@@ -30,6 +30,7 @@ class FrameStates {
   World& world_;
   const FrameClock& clock_;
   AfterStep after_step_;
+  PhaseClock* phases_;
   std::vector<BodyState> before_;  // states one step before the world's
   std::vector<BodyState> shown_;
 };

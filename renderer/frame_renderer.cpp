@@ -92,7 +92,8 @@ struct FrameRenderer::Impl {
   void linkPrograms();
   void createTargets();
   void createOcclusionBuffer();
-  const Image& draw(std::span<const Instance> instances, const Camera& camera);
+  const Image& draw(std::span<const Instance> instances, const Camera& camera,
+                    const std::function<void()>& drawn);
   ShadowView shadowView(std::span<const Instance> instances, const Camera& camera,
                         const DrawList& list) const;
   void uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const;
@@ -182,7 +183,8 @@ void FrameRenderer::Impl::createOcclusionBuffer() {
 
 // The passes: shadow map, bodies, ground, sky, contact shadows; then the image leaves GL and its edges are
 // smoothed.
-const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera) {
+const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera,
+                                       const std::function<void()>& drawn) {
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
@@ -194,6 +196,10 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   drawShadows(list, shadow);
   drawScene(list);
   drawOcclusion(instances, camera, list);
+  if (drawn) {
+    gl.Finish();
+    drawn();
+  }
   readBack();
   return image;
 }
@@ -318,8 +324,9 @@ FrameRenderer::FrameRenderer(const Settings& settings, std::span<const Solid> so
     : impl_(std::make_unique<Impl>(settings, solids)) {}
 FrameRenderer::~FrameRenderer() = default;
 
-const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera) {
-  return impl_->draw(instances, camera);
+const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera,
+                                 const std::function<void()>& drawn) {
+  return impl_->draw(instances, camera, drawn);
 }
 ContextInfo FrameRenderer::info() const {
   return impl_->context->info();

@@ -4,6 +4,7 @@
 // air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
 // Tested in tests/renderer/frame_renderer_test.cpp.
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -57,7 +58,10 @@ class FrameRenderer {
 
   /// Draws one frame; the image is valid until the next call. From any thread, one at a time.
   /// Throws InputError when the camera is impossible (see `cameraAxes`).
-  const Image& draw(std::span<const Instance> instances, const Camera& camera);
+  /// `drawn` is called when GL has finished and the image is about to be read back, to tell the two apart;
+  /// waiting for GL there changes no pixel.
+  const Image& draw(std::span<const Instance> instances, const Camera& camera,
+                    const std::function<void()>& drawn = {});
   ContextInfo info() const;
 
  private:

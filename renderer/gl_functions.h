@@ -31,6 +31,7 @@ namespace carom::renderer {
   X(DrawElementsInstancedBaseVertexBaseInstance, PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC) \
   X(Enable, PFNGLENABLEPROC)                                                                           \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)                                         \
+  X(Finish, PFNGLFINISHPROC)                                                                           \
   X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)                                         \
   X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                                               \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                                                                   \

@@ -44,10 +44,16 @@ struct Cluster {
 class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            const WorldSettings& settings, StepCounters& counters)
-      : bodies_(bodies), shapes_(shapes), table_(table), settings_(settings), counters_(counters) {}
+            const WorldSettings& settings, StepCounters& counters, PhaseClock* clock)
+      : bodies_(bodies),
+        shapes_(shapes),
+        table_(table),
+        settings_(settings),
+        counters_(counters),
+        clock_(clock) {}
 
   void run() {
+    const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
     for (std::size_t i = 0; i < table_.pairs().size(); ++i) predict(static_cast<int>(i));
     while (!events_.empty()) {  // every event spends budget of a body that still moves, so this ends
       const Event event = events_.top();
@@ -187,6 +193,7 @@ class EventLoop {
   }
 
   void applyCollision(Cluster& cluster) {
+    const PhaseScope phase(clock_, StepPhase::kImpulses);
     std::vector<double> restitution(cluster.rows.size(), 0.0);
     bool approaches = false;
     for (std::size_t i = 0; i < cluster.rows.size(); ++i) {
@@ -225,6 +232,7 @@ class EventLoop {
   }
 
   void openGaps(const Cluster& cluster) {
+    const PhaseScope phase(clock_, StepPhase::kImpulses);
     std::vector<ImpulseBody> paths = cluster.bodies;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const Body& body = bodies_[at(cluster.members[i])];
@@ -266,10 +274,7 @@ class EventLoop {
   // The pairs of every body that has a new path.
   void searchAgain(const Cluster& cluster, double time_s) {
     std::vector<int> changed;
-    for (int body : cluster.members) {
-      if (bodies_[at(body)].is_static) continue;
-      table_.extend(body, time_s, settings_.step_s, bodies_, shapes_, settings_.gravity, counters_);
-    }
+    extendPairs(cluster, time_s);
     for (int body : cluster.members) {
       if (bodies_[at(body)].is_static) continue;
       changed.insert(changed.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
@@ -279,11 +284,20 @@ class EventLoop {
     for (int pair : changed) predict(pair);
   }
 
+  void extendPairs(const Cluster& cluster, double time_s) {
+    const PhaseScope phase(clock_, StepPhase::kBroadPhase);
+    for (int body : cluster.members) {
+      if (bodies_[at(body)].is_static) continue;
+      table_.extend(body, time_s, settings_.step_s, bodies_, shapes_, settings_.gravity, counters_, clock_);
+    }
+  }
+
   std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
   const WorldSettings& settings_;
   StepCounters& counters_;
+  PhaseClock* clock_;
   std::vector<int> versions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
 };
@@ -291,8 +305,8 @@ class EventLoop {
 }  // namespace
 
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               const WorldSettings& settings, StepCounters& counters) {
-  EventLoop(bodies, shapes, table, settings, counters).run();
+               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
+  EventLoop(bodies, shapes, table, settings, counters, clock).run();
 }
 
 }  // namespace carom

@@ -12,6 +12,6 @@ namespace carom {
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
 /// where it began, if lower) throughout.
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               const WorldSettings& settings, StepCounters& counters);
+               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
 
 }  // namespace carom

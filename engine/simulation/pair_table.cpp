@@ -92,7 +92,7 @@ void PairTable::link(std::size_t pair) {
 }
 
 void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                        const Vec3& gravity, StepCounters& counters) {
+                        const Vec3& gravity, StepCounters& counters, PhaseClock* clock) {
   std::sort(pairs_.begin(), pairs_.end(),
             [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
   std::vector<ShapePair> fresh;
@@ -104,6 +104,7 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
       continue;
     }
     ShapePair pair = makePair(shapes_of_pair, shapes, gravity);
+    const PhaseScope phase(clock, StepPhase::kClosestFeatures);
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
@@ -118,7 +119,8 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
 }
 
 std::size_t PairTable::extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
-                              const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters) {
+                              const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters,
+                              PhaseClock* clock) {
   const std::size_t first_new = pairs_.size();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].body != body) continue;
@@ -135,6 +137,7 @@ std::size_t PairTable::extend(int body, double time_s, double end_s, const std::
           }))
         continue;
       ShapePair pair = makePair({low, high}, shapes, gravity);
+      const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =
           closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
                           *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);

@@ -37,11 +37,12 @@ class PairTable {
   /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the
   /// bodies' poses of the last finished step.
   void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity,
-               StepCounters& counters);
+               StepCounters& counters, PhaseClock* clock);
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
   /// Returns the index of the first new pair.
   std::size_t extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters);
+                     const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters,
+                     PhaseClock* clock);
   /// Whether some body's path leaves the bounds it was paired by.
   bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         double end_s) const;

@@ -66,8 +66,11 @@ struct World::Impl {
   bool started = false;
 
   void makeShapes();
-  void planFlight();
-  void finishStep();
+  void planFlight(PhaseClock* clock);
+  void findPairs(PhaseClock* clock);
+  bool pathsLeaveBounds(PhaseClock* clock) const;
+  LastingContacts solveContacts(PhaseClock* clock);
+  void finishStep(PhaseClock* clock);
   void updateModes(const LastingContacts& contacts);
   void accumulateStillness();
   Islands joinPressing(const LastingContacts& contacts) const;
@@ -85,7 +88,8 @@ void World::Impl::makeShapes() {
 }
 
 // Every body starts the step as if it were in flight: the exact parabola, torque-free rotation.
-void World::Impl::planFlight() {
+void World::Impl::planFlight(PhaseClock* clock) {
+  const PhaseScope phase(clock, StepPhase::kForces);
   for (Body& body : bodies) {
     body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     body.momentum_velocity = body.velocity;
@@ -99,7 +103,24 @@ void World::Impl::planFlight() {
   }
 }
 
-void World::Impl::finishStep() {
+void World::Impl::findPairs(PhaseClock* clock) {
+  const PhaseScope phase(clock, StepPhase::kBroadPhase);
+  table.updateBounds(bodies, shapes, settings.step_s);
+  table.collect(bodies, shapes, settings.gravity, counters, clock);
+}
+
+bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {
+  const PhaseScope phase(clock, StepPhase::kBroadPhase);
+  return table.pathsLeaveBounds(bodies, shapes, settings.step_s);
+}
+
+LastingContacts World::Impl::solveContacts(PhaseClock* clock) {
+  const PhaseScope phase(clock, StepPhase::kImpulses);
+  return solveLastingContacts(bodies, shapes, table.pairs(), settings, counters);
+}
+
+// The state at the step's end, and the closest features there.
+void World::Impl::finishStep(PhaseClock* clock) {
   for (Body& body : bodies) {
     if (!body.moves()) continue;
     body.velocity = body.velocityAt(settings.step_s);
@@ -107,6 +128,8 @@ void World::Impl::finishStep() {
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
   }
+  const PhaseScope phase(clock, StepPhase::kClosestFeatures);
+  table.requery(bodies, shapes, counters);
 }
 
 void World::Impl::accumulateStillness() {
@@ -241,43 +264,36 @@ std::vector<Overlap> World::start() {
   REQUIRE(!w.started);
   w.started = true;
   w.makeShapes();
-  w.planFlight();
-  w.table.updateBounds(w.bodies, w.shapes, w.settings.step_s);
-  w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
+  w.planFlight(nullptr);
+  w.findPairs(nullptr);
   std::vector<Overlap> overlaps = separateTouching(w.bodies, w.shapes, w.table, w.settings.gravity);
   w.publish();
   return overlaps;
 }
 
-void World::step() {
+void World::step(PhaseClock* clock) {
   Impl& w = *impl_;
   REQUIRE(w.started);
   w.counters = {};
-  const double dt = w.settings.step_s;
 
   // External forces and candidate pairs, with the closest features that ended the last step.
-  w.planFlight();
-  w.table.updateBounds(w.bodies, w.shapes, dt);
-  w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
+  w.planFlight(clock);
+  w.findPairs(clock);
 
   // Impulses of lasting contact; what they press awake takes part in them.
-  LastingContacts contacts =
-      solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+  LastingContacts contacts = w.solveContacts(clock);
   while (wakePressed(w.bodies, contacts)) {  // each time an island fewer rests
-    w.planFlight();
-    contacts = solveLastingContacts(w.bodies, w.shapes, w.table.pairs(), w.settings, w.counters);
+    w.planFlight(clock);
+    contacts = w.solveContacts(clock);
   }
-  if (w.table.pathsLeaveBounds(w.bodies, w.shapes, dt)) {
-    w.table.updateBounds(w.bodies, w.shapes, dt);
-    w.table.collect(w.bodies, w.shapes, w.settings.gravity, w.counters);
-  }
+  if (w.pathsLeaveBounds(clock)) w.findPairs(clock);
 
   // Advance from one time of impact to the next.
-  runEvents(w.bodies, w.shapes, w.table, w.settings, w.counters);
-  w.finishStep();
-  w.table.requery(w.bodies, w.shapes, w.counters);
+  runEvents(w.bodies, w.shapes, w.table, w.settings, w.counters, clock);
+  w.finishStep(clock);
 
   // Modes.
+  const PhaseScope phase(clock, StepPhase::kModes);
   w.accumulateStillness();
   if (w.settings.resting_mode) w.restIslands(contacts);
   w.updateModes(contacts);

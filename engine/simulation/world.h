@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/foundation/frames.h"
+#include "engine/simulation/phase_clock.h"
 #include "engine/solid/solid.h"
 
 namespace carom {
@@ -99,8 +100,8 @@ class World {
   /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest
   /// first; when there are any the world must not be stepped.
   std::vector<Overlap> start();
-  /// Advances by exactly one step.
-  void step();
+  /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome.
+  void step(PhaseClock* clock = nullptr);
 
   double time() const;
   int stepCount() const;

@@ -38,6 +38,7 @@ TEST(Program, HelpOfEveryCommandShowsAnExample) {
                                              {"simulate", "--help"},
                                              {"check", "--help"},
                                              {"compare", "--help"},
+                                             {"budget", "--help"},
                                              {"doctor", "--help"}}) {
     const ProgramEnd end = runCarom(arguments);
     EXPECT_EQ(end.code, 0);

@@ -1,0 +1,52 @@
+#pragma once
+// An earlier result to hold this one against: which phase got slower. Phases are compared by their mean over
+// the frames, of each frame's least time over the replays, which is the steadiest figure there is; the frame
+// also at the budget's percentile. Tested in tests/demos/budget_baseline_test.cpp.
+
+#include <array>
+#include <filesystem>
+
+#include "demos/budget_result.h"
+
+namespace carom::demos {
+
+struct Baseline {
+  std::string file;
+  BudgetSubject subject;
+  std::array<double, kFramePhases> phase_mean_ms{};
+  double frame_mean_ms = 0.0;
+  double percent = 0.0;
+  double at_percentile_ms = 0.0;
+};
+/// What `carom budget --json` wrote. Throws InputError.
+Baseline readBaseline(const std::filesystem::path& path);
+
+/// Throws InputError that names what differs (scene, size, frames, machine...).
+void requireSameSubject(const Baseline& baseline, const BudgetSubject& subject);
+
+struct PhaseChange {
+  std::string name;    ///< A phase's, or "frame".
+  std::string figure;  ///< "mean", "p99"
+  double before_ms = 0.0;
+  TimeEvidence evidence;  ///< Against what was plus the tolerance.
+  BudgetVerdict verdict = BudgetVerdict::kWithin;
+};
+
+struct BaselineComparison {
+  std::string file;
+  double tolerance_percent = 0.0;
+  std::vector<PhaseChange> changes;  ///< All phases, then the frame's figures.
+  BudgetVerdict verdict = BudgetVerdict::kWithin;
+};
+
+/// A growth below this is the clock's own, not the phase's.
+inline constexpr double kLeastGrowth_ms = 0.002;
+
+BaselineComparison comparedToBaseline(const BudgetResult& result, const Baseline& baseline,
+                                      double tolerance_percent);
+
+/// "slower: draw mean 5.1 ms, was 4.2 ms (+20 %, tolerance 10 %)", a line for each that is not within; or one
+/// that nothing is slower.
+std::vector<std::string> baselineLines(const BaselineComparison& comparison);
+
+}  // namespace carom::demos

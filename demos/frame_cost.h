@@ -1,0 +1,62 @@
+#pragma once
+// What one frame cost, phase by phase, and what there was to do in it. Plain values: the statistics, the
+// verdict and the reports of `carom budget` are functions of these alone.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/simulation/phase_clock.h"
+
+namespace carom::demos {
+
+/// The step's phases, as the world names them, then those of the picture.
+enum class FramePhase : std::uint8_t {
+  kForces,
+  kBroadPhase,
+  kClosestFeatures,
+  kImpulses,
+  kTimeOfImpact,
+  kModes,
+  kDraw,
+  kReadback,  ///< Out of GL, with the smoothing of edges.
+  kEncode,    ///< PNG, in memory.
+  kOther      ///< What is left: interpolation, the audit, the list of what to draw.
+};
+inline constexpr std::size_t kFramePhases = 10;
+inline constexpr std::array<const char*, kFramePhases> kFramePhaseNames = {
+    "forces", "broad phase", "closest features", "impulses", "time of impact",
+    "modes",  "draw",        "readback",         "encode",   "other"};
+
+constexpr FramePhase framePhase(StepPhase phase) {
+  return static_cast<FramePhase>(phase);
+}
+static_assert(framePhase(StepPhase::kModes) == FramePhase::kModes && kStepPhases == 6);
+
+struct FrameCost {
+  int frame = 0;
+  double time_s = 0.0;           ///< Of the scene.
+  std::uint64_t state_hash = 0;  ///< Of the world at the frame.
+  std::array<double, kFramePhases> phase_ms{};
+  double total_ms = 0.0;  ///< On the clock, from the frame's beginning to its end.
+  int contacts = 0;       ///< Contact points; the most in a step of the frame.
+  int pairs = 0;          ///< Candidate pairs; the most in a step of the frame.
+  int queries = 0;        ///< Closest-feature queries of all its steps.
+  int events = 0;         ///< Times of impact of all its steps.
+};
+
+/// A stretch of one phase on the clock; stretches nest.
+struct PhaseSlice {
+  int frame = 0;
+  FramePhase phase = FramePhase::kOther;  ///< kOther: the whole frame.
+  double begin_us = 0.0;                  ///< Since the replay's beginning.
+  double length_us = 0.0;
+};
+
+/// One run of the scene from its beginning.
+struct Replay {
+  std::vector<FrameCost> frames;
+  std::vector<PhaseSlice> slices;  ///< Empty unless asked for.
+};
+
+}  // namespace carom::demos

@@ -1,0 +1,109 @@
+#include "demos/budget_baseline.h"
+
+#include <gtest/gtest.h>
+
+#include "budget_samples.h"
+#include "demos/budget_json.h"
+#include "engine/foundation/contract.h"
+#include "temporary_folder.h"
+#include "thrown_message.h"
+
+namespace carom::demos {
+namespace {
+
+constexpr BudgetGate kGate{1000.0, 99.0};
+
+/// A baseline of `result`, through the file as a user would have it.
+Baseline savedAndRead(const BudgetResult& result) {
+  const TemporaryFolder folder;
+  Baseline baseline = readBaseline(folder.file("old.json", budgetJson(result, nullptr).text(2)));
+  baseline.file = "old.json";
+  return baseline;
+}
+
+BudgetResult slowedBy(FramePhase phase, double factor, double outside_load = 0.0) {
+  const Replay replay = sampleReplay(120, [&](FrameCost& f) { phaseOf(f, phase) *= factor; });
+  return sampleResult(kGate, {replay, replay}, outside_load);
+}
+
+TEST(BudgetBaseline, ASlowdownOf20PercentInOnePhaseIsCaughtAndThatPhaseAloneIsNamed) {
+  const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
+  for (std::size_t p = 0; p < kFramePhases; ++p) {
+    const BaselineComparison c =
+        comparedToBaseline(slowedBy(static_cast<FramePhase>(p), 1.2), baseline, 10.0);
+    EXPECT_EQ(c.verdict, BudgetVerdict::kOver);
+    const std::vector<std::string> lines = baselineLines(c);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], std::string("slower: ") + kFramePhaseNames[p] +
+                            ", mean 1.2 ms, was 1 ms (+20 %, tolerance 10 %)");
+  }
+}
+
+TEST(BudgetBaseline, WithinTheToleranceAndFasterNothingIsNamed) {
+  const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
+  for (const double factor : {0.5, 1.0, 1.09}) {
+    const BaselineComparison c = comparedToBaseline(slowedBy(FramePhase::kDraw, factor), baseline, 10.0);
+    EXPECT_EQ(c.verdict, BudgetVerdict::kWithin) << factor;
+    EXPECT_EQ(baselineLines(c)[0], "no phase is slower than in old.json by more than 10 %");
+  }
+  EXPECT_EQ(comparedToBaseline(slowedBy(FramePhase::kDraw, 1.09), baseline, 5.0).verdict,
+            BudgetVerdict::kOver);
+}
+
+TEST(BudgetBaseline, ASlowdownThatOthersLoadExplainsIsInconclusive) {
+  const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
+  const BaselineComparison c = comparedToBaseline(slowedBy(FramePhase::kDraw, 1.2, 0.3), baseline, 10.0);
+  EXPECT_EQ(c.verdict, BudgetVerdict::kInconclusive);
+  EXPECT_EQ(
+      baselineLines(c)[0],
+      "inconclusive: draw, mean 1.2 ms, was 1 ms (+20 %, tolerance 10 %), but others used 30 % of the CPU");
+  EXPECT_EQ(comparedToBaseline(slowedBy(FramePhase::kDraw, 4.0, 0.3), baseline, 10.0).verdict,
+            BudgetVerdict::kOver);
+}
+
+TEST(BudgetBaseline, FewSlowFramesThatTheMeanHidesAreCaughtByThePercentile) {
+  const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
+  const Replay spikes =
+      sampleReplay(120, [](FrameCost& f) { phaseOf(f, FramePhase::kImpulses) += f.frame < 2 ? 3.0 : 0.0; });
+  const BaselineComparison c = comparedToBaseline(sampleResult(kGate, {spikes, spikes}), baseline, 10.0);
+  EXPECT_EQ(baselineLines(c),
+            std::vector<std::string>{"slower: frame, p99 13 ms, was 10 ms (+30 %, tolerance 10 %)"});
+}
+
+TEST(BudgetBaseline, AnotherSceneSizeLengthMachineOrBuildIsRefusedByName) {
+  const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
+  EXPECT_NO_THROW(requireSameSubject(baseline, sampleSubject(120)));
+  const std::vector<std::pair<std::string, std::function<void(BudgetSubject&)>>> changes = {
+      {"scene: sample, not other;", [](BudgetSubject& s) { s.scene = "other"; }},
+      {"content of the scene (file, meshes or seed): 1234, not 1235;",
+       [](BudgetSubject& s) { s.scene_hash = "1235"; }},
+      {"size: 640x360, not 640x361;", [](BudgetSubject& s) { s.height += 1; }},
+      {"length: 120 frames at 60 fps, not 121 frames at 60 fps;", [](BudgetSubject& s) { s.frames += 1; }},
+      {"length: 120 frames at 60 fps, not 120 frames at 30 fps;", [](BudgetSubject& s) { s.fps = 30.0; }},
+      {"camera: main, not top;", [](BudgetSubject& s) { s.camera = "top"; }},
+      {"machine: a CPU, 2 cores, not a CPU, 4 cores;",
+       [](BudgetSubject& s) { s.machine = "a CPU, 4 cores"; }},
+      {"renderer: a renderer, not softpipe;", [](BudgetSubject& s) { s.renderer = "softpipe"; }},
+      {"build: a build, not Debug;", [](BudgetSubject& s) { s.build = "Debug"; }}};
+  for (const auto& [part, change] : changes) {
+    BudgetSubject other = sampleSubject(120);
+    change(other);
+    const std::string message = thrownMessage<InputError>([&] { requireSameSubject(baseline, other); });
+    EXPECT_EQ(message.rfind("old.json: is of another " + part, 0), 0u) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+}
+
+TEST(BudgetBaseline, AFileThatIsNoBudgetIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  for (const char* text : {"", "[]", "{}", "{ \"subject\": 3 }", "{ \"subject\": { \"scene\": \"x\" } }"}) {
+    const std::filesystem::path file = folder.file("bad.json", text);
+    const std::string message = thrownMessage<InputError>([&] { readBaseline(file); });
+    EXPECT_NE(message.find("bad.json"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  EXPECT_THROW(readBaseline(folder.path() / "missing.json"), InputError);
+}
+
+}  // namespace
+}  // namespace carom::demos
