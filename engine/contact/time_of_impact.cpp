@@ -24,10 +24,14 @@ double lowerBound(double begin, double end, double k) {
   return begin - (k - rise) * (k - rise) / (4.0 * k);
 }
 
-class Search {
+class Look {
  public:
-  Search(const MovingPart& a, const MovingPart& b, const ImpactSearch& search)
+  Look(const MovingPart& a, const MovingPart& b, const ImpactSearch& search)
       : a_(a), b_(b), search_(search) {}
+
+  Pose poseOf(const MovingPart& moving, double t) const {
+    return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
+  }
 
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
     const Velocity va{a_.path->velocityAt(t), a_.path->spin};
@@ -37,8 +41,8 @@ class Search {
 
   // The gap between the parts along a fixed direction; at most their distance.
   double gapAlong(const Vec3& n, double t) {
-    const Pose X_WA = a_.path->at(t);
-    const Pose X_WB = b_.path->at(t);
+    const Pose X_WA = poseOf(a_, t);
+    const Pose X_WB = poseOf(b_, t);
     support_a_ = a_.part->core.support(X_WA.rotation.conjugate() * n, support_a_);
     support_b_ = b_.part->core.support(X_WB.rotation.conjugate() * -n, support_b_);
     return n.dot(X_WB * b_.part->core.vertex(support_b_) - X_WA * a_.part->core.vertex(support_a_)) -
@@ -50,6 +54,12 @@ class Search {
            a_.path->spin.squaredNorm() * a_.reach_m + b_.path->spin.squaredNorm() * b_.reach_m;
   }
 
+  // A speed that no two points of the parts separate slower than along n, but for the curvature.
+  double slowestSpeed(double t, const Vec3& n) const {
+    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) -
+           n.cross(a_.path->spin).norm() * a_.reach_m - n.cross(b_.path->spin).norm() * b_.reach_m;
+  }
+
   // The longest interval from `begin`, among those Newton proposes, over which the gap along n stays >=
   // floor.
   double provenInterval(double begin, double gap, double speed, const Vec3& n, double floor,
@@ -59,6 +69,8 @@ class Search {
     const double aim = std::max(floor + 0.25 * (gap - floor),
                                 std::min(search_.window.landing, floor + 0.75 * (gap - floor)));
     double interval = search_.end_s - begin;
+    // Far apart for their speeds: clear without a look at the end.
+    if (gap + (slowestSpeed(begin, n) - 0.5 * curvature * interval) * interval >= floor) return interval;
     for (int i = 0; i < kProposals; ++i) {
       const double end_gap = gapAlong(n, begin + interval);
       if (lowerBound(gap, end_gap, 0.5 * curvature * interval * interval) >= floor) return interval;
@@ -85,37 +97,49 @@ class Search {
 
 }  // namespace
 
+TimeOfImpact beginSearch(const ImpactSearch& search, const ClosestFeatures& at_begin) {
+  TimeOfImpact found;
+  found.time_s = search.begin_s;
+  found.closest = at_begin;
+  // A pair that begins below the floor (bodies that start closer) may not come closer than it is.
+  found.floor = std::min(search.window.floor, (1.0 - 1e-9) * at_begin.distance_m);
+  return found;
+}
+
+void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& search, TimeOfImpact& found,
+                 FeaturePair& tracked) {
+  if (found.looks++ > 0) {
+    found.closest =
+        closestFeatures(*a.part, a.path->at(found.time_s), *b.part, b.path->at(found.time_s), tracked);
+    ++found.queries;
+  }
+  Look look(a, b, search);
+  const double gap = found.closest.distance_m;
+  const double speed = look.separatingSpeedAt(found.time_s, found.closest);
+  if (gap <= search.window.ceiling && speed < -search.collision_speed_mps) {
+    found.outcome = TimeOfImpact::Outcome::kImpact;
+    return;
+  }
+  if (found.time_s >= search.end_s) {
+    found.outcome = TimeOfImpact::Outcome::kClear;
+    return;
+  }
+  found.outcome = TimeOfImpact::Outcome::kStopped;
+  if ((speed < 0.0 && gap < (1.0 + kFloorSlack) * found.floor) || found.looks > kAdvances) return;
+  const double interval =
+      look.provenInterval(found.time_s, gap, speed, found.closest.n_W, found.floor, found.newton_steps);
+  if (interval <= kSmallestShare * (search.end_s - search.begin_s)) return;
+  const bool last = found.time_s + interval >= search.end_s;
+  found.time_s = last ? search.end_s : found.time_s + interval;
+  found.outcome = last ? TimeOfImpact::Outcome::kClear : TimeOfImpact::Outcome::kPending;
+}
+
 TimeOfImpact timeOfImpact(const MovingPart& a, const MovingPart& b, const ImpactSearch& search,
                           const ClosestFeatures& at_begin, FeaturePair& tracked) {
-  TimeOfImpact result;
-  result.time_s = search.begin_s;
-  result.closest = at_begin;
-  if (a.path->still() && b.path->still()) return result;
-  // A pair that begins below the floor (bodies that start closer) may not come closer than it is.
-  const double floor = std::min(search.window.floor, (1.0 - 1e-9) * at_begin.distance_m);
-  const double smallest = kSmallestShare * (search.end_s - search.begin_s);
-  Search looks(a, b, search);
-  for (int i = 0; i < kAdvances; ++i) {
-    const double gap = result.closest.distance_m;
-    const double speed = looks.separatingSpeedAt(result.time_s, result.closest);
-    if (gap <= search.window.ceiling && speed < -search.collision_speed_mps) {
-      result.outcome = TimeOfImpact::Outcome::kImpact;
-      return result;
-    }
-    if (result.time_s >= search.end_s) return result;
-    if (speed < 0.0 && gap < (1.0 + kFloorSlack) * floor) break;
-    const double interval =
-        looks.provenInterval(result.time_s, gap, speed, result.closest.n_W, floor, result.newton_steps);
-    if (interval <= smallest) break;
-    const bool last = result.time_s + interval >= search.end_s;
-    result.time_s = last ? search.end_s : result.time_s + interval;
-    if (last) return result;
-    result.closest =
-        closestFeatures(*a.part, a.path->at(result.time_s), *b.part, b.path->at(result.time_s), tracked);
-    ++result.queries;
-  }
-  result.outcome = TimeOfImpact::Outcome::kStopped;
-  return result;
+  TimeOfImpact found = beginSearch(search, at_begin);
+  if (a.path->still() && b.path->still()) found.outcome = TimeOfImpact::Outcome::kClear;
+  while (found.outcome == TimeOfImpact::Outcome::kPending) lookFurther(a, b, search, found, tracked);
+  return found;
 }
 
 }  // namespace carom

@@ -19,7 +19,8 @@ namespace carom {
 struct MovingPart {
   const ConvexPart* part = nullptr;
   const Trajectory* path = nullptr;
-  double reach_m = 0.0;  ///< The largest distance of the part's core from the body's centre of mass.
+  double reach_m = 0.0;         ///< The largest distance of the part's core from the body's centre of mass.
+  const Pose* X_end = nullptr;  ///< `path` at the end of the search, where the caller has it already.
 };
 
 struct ImpactSearch {
@@ -31,18 +32,27 @@ struct ImpactSearch {
 
 struct TimeOfImpact {
   enum class Outcome : std::uint8_t {
-    kClear,   ///< No impact before the end.
-    kImpact,  ///< In the window and approaching faster than the collision speed.
-    kStopped  ///< Cannot be carried further: slow approach at the floor, or the search's bound.
+    kClear,    ///< No impact before the end.
+    kImpact,   ///< In the window and approaching faster than the collision speed.
+    kStopped,  ///< Cannot be carried further: slow approach at the floor, or the search's bound.
+    kPending   ///< Nothing up to `time_s`; what comes after has not been looked at.
   };
-  Outcome outcome = Outcome::kClear;
-  double time_s = 0.0;
-  ClosestFeatures closest;  ///< At `time_s`.
+  Outcome outcome = Outcome::kPending;
+  double time_s = 0.0;      ///< Up to here the gap is proven.
+  ClosestFeatures closest;  ///< At `time_s`, but for kClear and kPending: at the last look.
   int queries = 0;          ///< Closest-feature queries made.
   int newton_steps = 0;
+  int looks = 0;
+  double floor = 0.0;
 };
 
-/// `at_begin`: the closest features at `begin_s`, which must be separated. `tracked` follows the search.
+/// The search before its first look. `at_begin`: the closest features at `begin_s`, which must be separated.
+TimeOfImpact beginSearch(const ImpactSearch& search, const ClosestFeatures& at_begin);
+/// One look at `found.time_s` and, unless that is the outcome, one more interval proven: the caller may do
+/// other things before it looks again, or never. `tracked` follows the search.
+void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& search, TimeOfImpact& found,
+                 FeaturePair& tracked);
+/// The whole search.
 TimeOfImpact timeOfImpact(const MovingPart& a, const MovingPart& b, const ImpactSearch& search,
                           const ClosestFeatures& at_begin, FeaturePair& tracked);
 

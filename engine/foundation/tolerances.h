@@ -21,16 +21,16 @@ inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre:
 inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatter than this lies on the face
 
 // Contact solver: relative to the speed that gravity adds in a step.
-inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
-inline constexpr int kSolverSweeps = 60;           // per step and island, warm started, at least ...
-inline constexpr int kSolverRowVisits = 8000;      // ... and as many more as make this many visits of a row
-inline constexpr double kGapGain = 0.2;            // share of the missing gap reopened in a step
-inline constexpr double kGapSpeed = 0.1;           // m/s at most while reopening
+inline constexpr double kSolverResidual = 1.0e-6;        // a sweep that changes speeds less has converged
+inline constexpr int kSolverRowVisits = 8000;            // of an island and step; after them ...
+inline constexpr double kSolverCoarseResidual = 1.0e-2;  // ... this is enough, and ...
+inline constexpr int kSolverSweeps = 60;                 // ... so many sweeps are the most
+inline constexpr double kGapGain = 0.2;                  // share of the missing gap reopened in a step
+inline constexpr double kGapSpeed = 0.1;                 // m/s at most while reopening
 
 // Events of one step and body.
-inline constexpr int kPairEvents = 8;  // up to here each event is solved between its two bodies
-inline constexpr int kEventsPerBody =
-    24;  // up to here together with all contacts around; then the body is held
+inline constexpr int kPairEvents = 8;      // up to here elastic events are solved between their two bodies
+inline constexpr int kEventsPerBody = 24;  // up to here with all that these press; then the body is held
 
 // Sliding (paper §2.4).
 inline constexpr double kSlipSpeed = 1e-5;     // m/s: below it the static coefficient of friction counts
@@ -40,6 +40,7 @@ inline constexpr double kSlidingSpeed = 1e-3;  // m/s along the contact; slower 
 inline constexpr double kRestSpeed = 0.02;         // m/s of any point: slower counts as lying still
 inline constexpr double kRestTime = 0.25;          // s of lying still before the test
 inline constexpr double kRestAcceleration = 1e-4;  // of gravity: forces balanced better than this hold a body
-inline constexpr int kRestSweeps = 400;            // of the solver in that test
+inline constexpr int kRestSweeps = 400;            // of the solver in that test, at most, and ...
+inline constexpr int kRestRowVisits = 1000000;     // ... more while these last
 
 }  // namespace carom::tolerance

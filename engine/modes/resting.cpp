@@ -1,5 +1,6 @@
 #include "engine/modes/resting.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/environment/gravity.h"
@@ -16,6 +17,9 @@ constexpr double kSupportSlack = 0.05;
 // The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold
 // a body whose centre is not above its contacts, and (2) alone decides.
 constexpr double kLevelSine = 0.05;
+constexpr int kSweepsARound = 100;  // between two looks whether forces balance
+constexpr double kConvergedShare =
+    0.01;  // of the allowed speed: sweeps that change less will not balance them
 
 bool standsOnLevelContacts(std::span<const BodyContact> contacts, const Vec3& weight) {
   const Vec3 down = weight.normalized();
@@ -43,21 +47,37 @@ bool forcesPassThroughSupports(const RestQuestion& q) {
   return true;
 }
 
+// What the forces leave over, as the speed of the fastest point after one step from standstill.
+double fastest(std::span<const ImpulseBody> bodies, std::span<const double> radii) {
+  double speed = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    speed = std::max(speed, bodies[i].velocity.linear.norm() + bodies[i].velocity.angular.norm() * radii[i]);
+  return speed;
+}
+
+// Whether impulses within the friction cones take all that gravity gives in a step. Contacts that press now
+// hold at the gap they have.
 bool conesBalanceGravity(const RestQuestion& q) {
   std::vector<ContactRow> rows(q.rows.begin(), q.rows.end());
   std::vector<ImpulseBody> bodies(q.bodies.begin(), q.bodies.end());
-  const double gravity_speed = q.gravity.norm() * q.step_s;
   for (ImpulseBody& body : bodies) {
     body.velocity = {};
     if (body.inverse_mass > 0.0) body.velocity.linear = gravityImpulsePerMass(q.gravity, q.step_s);
   }
-  for (const ContactRow& row : rows) applyToRow(row, row.impulse, bodies);
-  const double allowed = tolerance::kRestAcceleration * gravity_speed;
-  solveContacts(rows, bodies, {tolerance::kRestSweeps, 0.01 * allowed, true});
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].velocity.linear.norm() + bodies[i].velocity.angular.norm() * q.radii[i] > allowed)
-      return false;
-  return true;
+  for (ContactRow& row : rows) {
+    if (row.impulse.x() > 0.0) row.lowest_speed = 0.0;
+    applyToRow(row, row.impulse, bodies);
+  }
+  const double allowed = tolerance::kRestAcceleration * q.gravity.norm() * q.step_s;
+  const double converged = kConvergedShare * allowed;
+  const auto most =
+      std::max(tolerance::kRestSweeps, tolerance::kRestRowVisits / static_cast<int>(rows.size() + 1));
+  for (int sweeps = 0; sweeps < most; sweeps += kSweepsARound) {
+    const SolverReport report = solveContactsFinely(rows, bodies, {kSweepsARound, converged, true});
+    if (fastest(bodies, q.radii) <= allowed) return true;
+    if (report.residual_mps <= converged) return false;
+  }
+  return false;
 }
 
 }  // namespace

@@ -3,64 +3,143 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/foundation/tolerances.h"
 
 namespace carom {
 namespace {
 
-// The normal impulse that keeps the separating speed at or above its bound.
-double solveNormal(ContactRow& row, std::span<ImpulseBody> bodies) {
-  const double speed = rowVelocity(row, bodies).x();
-  const double before = row.impulse.x();
-  row.impulse.x() = std::max(0.0, before - (speed - row.lowest_speed) / row.response(0, 0));
-  const double change = row.impulse.x() - before;
-  if (change != 0.0) applyToRow(row, Vec3(change, 0.0, 0.0), bodies);
-  return std::abs(change) * row.response(0, 0);
-}
+constexpr double kStirShare = 0.1;  // of the residual: a row whose bodies were stirred less is not visited
 
-// One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that
-// velocity whatever the shape of K, then shortened to the cone.
-Vec2 frictionStep(const ContactRow& row, const Vec2& impulse, const Vec2& slip) {
-  const double k11 = row.response(1, 1), k12 = row.response(1, 2), k22 = row.response(2, 2);
-  const double half_difference = 0.5 * (k11 - k22);
-  const double largest = 0.5 * (k11 + k22) + std::sqrt(half_difference * half_difference + k12 * k12);
-  const Vec2 step = impulse - slip / largest;
-  const double limit = row.coefficient * row.impulse.x();
-  const double length = step.norm();
-  return length > limit ? Vec2(step * (limit / length)) : step;
-}
-
-double solveFriction(ContactRow& row, std::span<ImpulseBody> bodies) {
-  const Vec2 before = row.impulse.tail<2>();
-  if (row.impulse.x() == 0.0 && before.isZero(0.0)) return 0.0;
-  const Vec2 slip = rowVelocity(row, bodies).tail<2>();
-  const Vec2 after = frictionStep(row, before, slip);
-  const Vec2 change = after - before;
-  row.impulse.tail<2>() = after;
-  if (!change.isZero(0.0)) applyToRow(row, Vec3(0.0, change.x(), change.y()), bodies);
-  return change.norm() * std::max(row.response(1, 1), row.response(2, 2));
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
 }
 
 // The impulse that holds the point: no sliding, the normal speed at its bound. Solved for all three parts at
 // once, because on rough ground normal and friction impulses, taken in turn, undo each other. False when the
-// cone forbids it.
-bool holdPoint(ContactRow& row, std::span<ImpulseBody> bodies, double& change) {
-  const Vec3 miss = rowVelocity(row, bodies) - Vec3(row.lowest_speed, 0.0, 0.0);
-  const Vec3 step = -(row.inverse_response * miss);
-  const Vec3 held = row.impulse + step;
-  if (!(held.x() >= 0.0) || held.tail<2>().norm() > row.coefficient * held.x()) return false;
-  row.impulse = held;
-  applyToRow(row, step, bodies);
-  change = miss.norm();
-  return true;
+// cone forbids it. `miss`: the row's velocity less its bound.
+bool holds(const ContactRow& row, const Vec3& miss, Vec3& impulse) {
+  impulse = row.impulse - row.inverse_response * miss;
+  const double limit = row.coefficient * impulse.x();
+  return impulse.x() >= 0.0 && impulse.tail<2>().squaredNorm() <= limit * limit;
 }
 
-double solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
+// The normal impulse that keeps the separating speed at or above its bound.
+double normalImpulse(const ContactRow& row, const Vec3& miss) {
+  return std::max(0.0, row.impulse.x() - miss.x() / row.normal_response.x());
+}
+
+// One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that
+// velocity whatever the shape of K, then shortened to the cone.
+Vec2 frictionImpulse(const ContactRow& row, double normal_impulse, const Vec2& slip) {
+  const Vec2 step = row.impulse.tail<2>() - slip / row.largest_slip_response;
+  const double limit = row.coefficient * normal_impulse;
+  const double squared = step.squaredNorm();
+  return squared > limit * limit ? Vec2(step * (limit / std::sqrt(squared))) : step;
+}
+
+double largest(const Vec3& v) {
+  return v.cwiseAbs().maxCoeff();
+}
+
+struct RowChange {
+  double speed_mps = 0.0;
+  bool settled = true;  ///< The row's conditions hold now; else only a step towards them was taken.
+};
+
+// Brings one row to its conditions, or nearer to them, with the others as they are.
+RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
+  Vec3 miss = rowVelocity(row, bodies);
+  miss.x() -= row.lowest_speed;
+  Vec3 impulse = row.impulse;
   double change = 0.0;
-  if (friction && holdPoint(row, bodies, change)) return change;
-  change = solveNormal(row, bodies);
-  return friction ? std::max(change, solveFriction(row, bodies)) : change;
+  bool settled = true;
+  if (friction && holds(row, miss, impulse)) {
+    change = largest(miss);
+  } else {
+    impulse.x() = normalImpulse(row, miss);
+    impulse.tail<2>() = row.impulse.tail<2>();
+    const double normal_change = impulse.x() - row.impulse.x();
+    change = std::abs(normal_change) * row.normal_response.x();
+    if (friction && (impulse.x() > 0.0 || !row.impulse.tail<2>().isZero(0.0))) {
+      const Vec2 slip = miss.tail<2>() + normal_change * row.normal_response.tail<2>();
+      impulse.tail<2>() = frictionImpulse(row, impulse.x(), slip);
+      const double slip_change = (impulse - row.impulse).tail<2>().cwiseAbs().maxCoeff();
+      change = std::max(change, slip_change * row.largest_slip_response);
+      settled = false;
+    }
+  }
+  if (change == 0.0) return {};
+  applyToRow(row, impulse - row.impulse, bodies);
+  row.impulse = impulse;
+  return {change, settled};
+}
+
+double& stirOf(std::span<ImpulseBody> bodies, int i) {
+  return bodies[at(i)].stir;
+}
+
+// The largest change of a row's speed in one sweep. Rows are visited whose bodies have been stirred since.
+double sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
+             double unnoticed_stir) {
+  double residual = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
+    double& stir_a = stirOf(bodies, row.a);
+    double& stir_b = stirOf(bodies, row.b);
+    if (row.seen_stir >= 0.0 && stir_a + stir_b - row.seen_stir <= unnoticed_stir) continue;
+    const double before = stir_a + stir_b;
+    const RowChange change = solveRow(row, bodies, friction);
+    if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
+    if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
+    row.seen_stir = change.settled ? stir_a + stir_b : before;
+    residual = std::max(residual, change.speed_mps);
+  }
+  return residual;
+}
+
+// Impulses and the velocities they give: a point, or a direction, of the search.
+struct Iterate {
+  std::vector<Vec3> impulses;
+  std::vector<Velocity> velocities;
+};
+
+Iterate iterateOf(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
+  Iterate iterate;
+  for (const ContactRow& row : rows) iterate.impulses.push_back(row.impulse);
+  for (const ImpulseBody& body : bodies) iterate.velocities.push_back(body.velocity);
+  return iterate;
+}
+
+// The squared length of the step that sweeps took, in the measure of energy.
+double squaredStep(std::span<const ContactRow> rows, const Iterate& before) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vec3 d = rows[i].impulse - before.impulses[i];
+    squared += d.x() * d.x() * rows[i].normal_response.x() +
+               d.tail<2>().squaredNorm() * rows[i].largest_slip_response;
+  }
+  return squared;
+}
+
+// direction = step + share * direction; the part of the old direction is taken as well.
+void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Iterate& before,
+                   double share, Iterate& direction) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vec3 kept = share * direction.impulses[i];
+    direction.impulses[i] = rows[i].impulse - before.impulses[i] + kept;
+    rows[i].impulse += kept;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Velocity& d = direction.velocities[i];
+    Velocity& v = bodies[i].velocity;
+    const Velocity kept{share * d.linear, share * d.angular};
+    d.linear = v.linear - before.velocities[i].linear + kept.linear;
+    d.angular = v.angular - before.velocities[i].angular + kept.angular;
+    v.linear += kept.linear;
+    v.angular += kept.angular;
+  }
 }
 
 }  // namespace
@@ -71,40 +150,53 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   row.t2 = tangents.t2;
   Mat3 frame;
   frame << row.n, row.t1, row.t2;
-  row.response = frame.transpose() *
-                 collisionMatrix(bodies[static_cast<std::size_t>(row.a)],
-                                 bodies[static_cast<std::size_t>(row.b)], row.r_a, row.r_b) *
-                 frame;
-  row.inverse_response = row.response.inverse();
+  const Mat3 response =
+      frame.transpose() * collisionMatrix(bodies[at(row.a)], bodies[at(row.b)], row.r_a, row.r_b) * frame;
+  row.normal_response = response.col(0);
+  row.inverse_response = response.inverse();
+  const double half_difference = 0.5 * (response(1, 1) - response(2, 2));
+  row.largest_slip_response = 0.5 * (response(1, 1) + response(2, 2)) +
+                              std::sqrt(half_difference * half_difference + response(1, 2) * response(1, 2));
   const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
   row.coefficient = slides ? row.friction.dynamic_coefficient : row.friction.static_coefficient;
 }
 
-void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies) {
-  const Vec3 on_b = rowImpulse(row, impulse);
-  bodies[static_cast<std::size_t>(row.a)].apply(-on_b, row.r_a);
-  bodies[static_cast<std::size_t>(row.b)].apply(on_b, row.r_b);
-}
-
-Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  const Vec3 v = bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
-                 bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a);
-  return {row.n.dot(v), row.t1.dot(v), row.t2.dot(v)};
-}
-
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings) {
+  for (ContactRow& row : rows) {
+    row.seen_stir = -1.0;
+    stirOf(bodies, row.a) = stirOf(bodies, row.b) = 0.0;
+  }
   SolverReport report;
-  const std::size_t n = rows.size();
   while (report.sweeps < settings.sweeps) {
-    report.residual_mps = 0.0;
+    const bool careful = report.sweeps < settings.careful_sweeps;
+    const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      ContactRow& row = rows[forward ? i : n - 1 - i];
-      report.residual_mps = std::max(report.residual_mps, solveRow(row, bodies, settings.friction));
-    }
+    report.residual_mps = sweep(rows, bodies, settings.friction, forward, kStirShare * enough);
     ++report.sweeps;
-    if (report.residual_mps <= settings.residual_mps) break;
+    if (report.residual_mps <= enough) break;
+  }
+  return report;
+}
+
+SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                 const SolverSettings& settings) {
+  constexpr double kVisitAll = -1.0;
+  SolverReport report;
+  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()), std::vector<Velocity>(bodies.size())};
+  double last_squared = 0.0;
+  while (report.sweeps < settings.sweeps) {
+    const Iterate before = iterateOf(rows, bodies);
+    report.residual_mps = sweep(rows, bodies, settings.friction, true, kVisitAll);
+    report.residual_mps =
+        std::max(report.residual_mps, sweep(rows, bodies, settings.friction, false, kVisitAll));
+    report.sweeps += 2;
+    // The last sweep always ends within the cones: no step along the direction follows it.
+    if (report.residual_mps <= settings.residual_mps || report.sweeps >= settings.sweeps) break;
+    const double squared = squaredStep(rows, before);
+    const bool shrinks = squared < last_squared;  // else the direction has lost its worth
+    continueAlong(rows, bodies, before, shrinks ? squared / last_squared : 0.0, direction);
+    last_squared = squared;
   }
   return report;
 }

@@ -6,6 +6,7 @@
 // one's. Order matters to the path, not to the converged answer; rows are swept forwards and backwards in
 // turn. Tested in tests/engine/response/contact_solver_test.cpp.
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,9 +33,12 @@ struct ContactRow {
   // Filled by `prepareRow`.
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
-  Mat3 response = Mat3::Zero();  ///< K in the frame (n, t1, t2).
+  Vec3 normal_response = Vec3::Zero();  ///< First column of K in the frame (n, t1, t2).
   Mat3 inverse_response = Mat3::Zero();
-  double coefficient = 0.0;  ///< Of friction, for this solve.
+  double largest_slip_response = 0.0;  ///< Largest eigenvalue of K's tangential part.
+  double coefficient = 0.0;            ///< Of friction, for this solve.
+
+  double seen_stir = -1.0;  ///< The solver's: how much its bodies had been stirred at its last visit.
 };
 
 /// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.
@@ -43,14 +47,24 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
 inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {
   return impulse.x() * row.n + impulse.y() * row.t1 + impulse.z() * row.t2;
 }
-void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies);
+inline void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies) {
+  const Vec3 on_b = rowImpulse(row, impulse);
+  bodies[static_cast<std::size_t>(row.a)].apply(-on_b, row.r_a);
+  bodies[static_cast<std::size_t>(row.b)].apply(on_b, row.r_b);
+}
 /// (separating, t1, t2) velocity of B relative to A, m/s.
-Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies);
+inline Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  const Vec3 v = bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
+                 bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a);
+  return {row.n.dot(v), row.t1.dot(v), row.t2.dot(v)};
+}
 
 struct SolverSettings {
   int sweeps = 0;             ///< At most.
   double residual_mps = 0.0;  ///< A sweep that changes no row's speed by more has converged.
   bool friction = true;
+  int careful_sweeps = std::numeric_limits<int>::max();  ///< After so many the coarse residual is enough.
+  double coarse_residual_mps = 0.0;
 };
 
 struct SolverReport {
@@ -60,5 +74,11 @@ struct SolverReport {
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings);
+
+/// The same by nonsmooth nonlinear conjugate gradients on those sweeps, there and back at a time (Silcowitz,
+/// Niebe, Erleben 2010): several times fewer sweeps to a fine residual in large piles, none saved to a coarse
+/// one. `settings` without the coarse residual.
+SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                 const SolverSettings& settings);
 
 }  // namespace carom

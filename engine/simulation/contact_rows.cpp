@@ -35,10 +35,11 @@ double combinedRestitution(const Material& a, const Material& b) {
   return std::max(a.restitution, b.restitution);
 }
 
-GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s) {
+GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses) {
   const double band = tolerance::kRestBand * window.rest;
   if (gap_m > window.rest + band) {
-    const double closing = (window.rest - gap_m) / dt_s;
+    const double share = presses ? tolerance::kGapGain : 1.0;
+    const double closing = share * (window.rest + band - gap_m) / dt_s;
     return {closing, closing};
   }
   const double missing = window.rest - band - gap_m;

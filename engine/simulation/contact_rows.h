@@ -37,12 +37,13 @@ Friction combinedFriction(const Material& a, const Material& b);
 double combinedRestitution(const Material& a, const Material& b);
 
 /// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
-/// contacts than it needs can lie still on all of them; above the band it may close to the rest gap.
+/// contacts than it needs can lie still on all of them; above the band it may close to it, gently where the
+/// contact `presses` already: bodies wedged between others never find all their gaps within the band.
 struct GapSpeeds {
   double momentum = 0.0;  ///< The separating speed must not be below this.
   double path =
       0.0;  ///< The same for the path, which also reopens gaps below the band; that gives no energy.
 };
-GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s);
+GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses = false);
 
 }  // namespace carom

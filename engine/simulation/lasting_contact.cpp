@@ -1,6 +1,7 @@
 #include "engine/simulation/lasting_contact.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/environment/gravity.h"
 #include "engine/modes/islands.h"
@@ -8,8 +9,10 @@
 namespace carom {
 namespace {
 
-constexpr int kPathSweeps = 20;
+constexpr int kPathSweeps = 60;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
+constexpr double kPathShare =
+    0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -43,8 +46,8 @@ void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::ve
     ContactRow& row = sourced.row;
     // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution.
     if (rowVelocity(row, assembly.contacts.bodies).x() < -pair.collision_speed_mps) continue;
-    row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s).momentum;
     warmStart(row, pair, sourced.id);
+    row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s, row.impulse.x() > 0.0).momentum;
     assembly.sources.push_back(sourced);
   }
 }
@@ -66,13 +69,15 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-// `least_sweeps` for every island, and for small ones as many as their share of row visits allows.
+// To the fine residual while an island's share of row visits lasts; large ones go on, for `settings.sweeps`
+// at most, to the coarse one.
 void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                   SolverSettings settings) {
-  const int least_sweeps = settings.sweeps;
+  const int most_for_large = settings.sweeps;
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
-    settings.sweeps = std::max(least_sweeps, tolerance::kSolverRowVisits / static_cast<int>(count));
+    settings.careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
+    settings.sweeps = std::max(most_for_large, settings.careful_sweeps);
     solveContacts(rows.subspan(assembly.island_begin[i], count), bodies, settings);
   }
 }
@@ -117,12 +122,19 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
     paths[i].velocity.angular = 0.5 * (bodies[i].velocity.angular + paths[i].velocity.angular);
   }
   std::vector<ContactRow> rows = assembly.contacts.rows;
+  double smallest_rest_gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].impulse.setZero();
+    const CollisionWindow& window = pairs[at(assembly.sources[i].pair)].window;
     rows[i].lowest_speed =
-        gapSpeeds(assembly.sources[i].gap_m, pairs[at(assembly.sources[i].pair)].window, step_s).path;
+        gapSpeeds(assembly.sources[i].gap_m, window, step_s, rows[i].impulse.x() > 0.0).path;
+    rows[i].impulse.setZero();
+    smallest_rest_gap = std::min(smallest_rest_gap, window.rest);
   }
-  solveIslands(assembly, rows, paths, {kPathSweeps, kPathResidual, false});
+  solveIslands(assembly, rows, paths,
+               {.sweeps = kPathSweeps,
+                .residual_mps = kPathResidual,
+                .friction = false,
+                .coarse_residual_mps = kPathShare * smallest_rest_gap / step_s});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
     bodies[i].travel = Travel::kCarried;
@@ -178,8 +190,12 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   LastingContacts& contacts = assembly.contacts;
   giveGravity(contacts, bodies, settings);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
-  const double residual = tolerance::kSolverResidual * settings.gravity.norm() * settings.step_s;
-  solveIslands(assembly, contacts.rows, contacts.bodies, {tolerance::kSolverSweeps, residual, true});
+  const double gravity_speed = settings.gravity.norm() * settings.step_s;
+  solveIslands(assembly, contacts.rows, contacts.bodies,
+               {.sweeps = tolerance::kSolverSweeps,
+                .residual_mps = tolerance::kSolverResidual * gravity_speed,
+                .friction = true,
+                .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;
     contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;

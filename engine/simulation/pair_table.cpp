@@ -8,7 +8,8 @@
 namespace carom {
 namespace {
 
-constexpr double kLeastGravity = 0.01;  // m/s^2: 6 mm/s for parts a metre wide
+constexpr double kLeastGravity = 0.01;   // m/s^2: 6 mm/s for parts a metre wide
+constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -71,7 +72,7 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
 }
 
 ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes,
-                              const Vec3& gravity) const {
+                              const WorldSettings& settings) const {
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   const Shape& a = shapes[at(shapes_of_pair.a)];
@@ -79,10 +80,12 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Shape>
   pair.body_a = a.body;
   pair.body_b = b.body;
   pair.window = collisionWindow(*a.part, *b.part);
-  // What gravity gives a body that falls through the window: slower approaches are lasting contact.
-  // Without gravity a trace of it remains, or the rounding of a finished collision would be taken for
-  // another.
-  pair.collision_speed_mps = std::sqrt(2.0 * std::max(gravity.norm(), kLeastGravity) * pair.window.ceiling);
+  // What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
+  // contact. Without gravity a trace of it remains, or the rounding of a finished collision would be taken
+  // for another.
+  const double gravity = std::max(settings.gravity.norm(), kLeastGravity);
+  pair.collision_speed_mps =
+      std::max(std::sqrt(2.0 * gravity * pair.window.ceiling), kStepsOfGravity * gravity * settings.step_s);
   return pair;
 }
 
@@ -92,7 +95,7 @@ void PairTable::link(std::size_t pair) {
 }
 
 void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                        const Vec3& gravity, StepCounters& counters, PhaseClock* clock) {
+                        const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
   std::sort(pairs_.begin(), pairs_.end(),
             [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
   std::vector<ShapePair> fresh;
@@ -103,7 +106,7 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
       fresh.push_back(*old);
       continue;
     }
-    ShapePair pair = makePair(shapes_of_pair, shapes, gravity);
+    ShapePair pair = makePair(shapes_of_pair, shapes, settings);
     const PhaseScope phase(clock, StepPhase::kClosestFeatures);
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
@@ -118,13 +121,13 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
   counters.candidate_pairs = static_cast<int>(pairs_.size());
 }
 
-std::size_t PairTable::extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
-                              const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters,
-                              PhaseClock* clock) {
+std::size_t PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
+                              const std::vector<Shape>& shapes, const WorldSettings& settings,
+                              StepCounters& counters, PhaseClock* clock) {
   const std::size_t first_new = pairs_.size();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].body != body) continue;
-    const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, end_s);
+    const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
     proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
     for (std::size_t j = 0; j < shapes.size(); ++j) {
@@ -136,7 +139,7 @@ std::size_t PairTable::extend(int body, double time_s, double end_s, const std::
             return pairs_[at(p)].shapes == IndexPair{low, high};
           }))
         continue;
-      ShapePair pair = makePair({low, high}, shapes, gravity);
+      ShapePair pair = makePair({low, high}, shapes, settings);
       const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =
           closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),

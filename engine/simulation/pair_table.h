@@ -36,12 +36,12 @@ class PairTable {
   void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s);
   /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the
   /// bodies' poses of the last finished step.
-  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, const Vec3& gravity,
-               StepCounters& counters, PhaseClock* clock);
+  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
   /// Returns the index of the first new pair.
-  std::size_t extend(int body, double time_s, double end_s, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const Vec3& gravity, StepCounters& counters,
+  std::size_t extend(int body, double time_s, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const WorldSettings& settings, StepCounters& counters,
                      PhaseClock* clock);
   /// Whether some body's path leaves the bounds it was paired by.
   bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
@@ -55,7 +55,8 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes, const Vec3& gravity) const;
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes,
+                     const WorldSettings& settings) const;
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;

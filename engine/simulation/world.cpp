@@ -106,7 +106,7 @@ void World::Impl::planFlight(PhaseClock* clock) {
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
   table.updateBounds(bodies, shapes, settings.step_s);
-  table.collect(bodies, shapes, settings.gravity, counters, clock);
+  table.collect(bodies, shapes, settings, counters, clock);
 }
 
 bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {

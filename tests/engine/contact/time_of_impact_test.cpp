@@ -173,6 +173,8 @@ void expectClaimsHold(const Mover& a, const Mover& b, double end_s, int looks, i
       ASSERT_LE(found.closest.distance_m, search.window.ceiling)
           << "stopped for want of iterations, far from anything";
       break;
+    case Outcome::kPending:
+      FAIL() << "the whole search leaves nothing pending";
   }
 }
 

@@ -24,7 +24,9 @@ TEST(PrepareRow, MakesARightHandedFrameAndItsResponse) {
     EXPECT_LT((row.n.cross(row.t1) - row.t2).norm(), 1e-14);
     const Vec3 before = rowVelocity(row, m.bodies), impulse = random.direction();
     applyToRow(row, impulse, m.bodies);
-    EXPECT_LT((rowVelocity(row, m.bodies) - before - row.response * impulse).norm(), 1e-12);
+    const Vec3 change = rowVelocity(row, m.bodies) - before;
+    EXPECT_LT((row.inverse_response * change - impulse).norm(), 1e-9 * impulse.norm());
+    EXPECT_NEAR(change.x(), row.normal_response.dot(impulse), 1e-12);
   }
 }
 
@@ -36,11 +38,11 @@ void expectContactConditions(const Meeting& m, double accuracy) {
     const double speed = 1.0, j = row.impulse.x();
     EXPECT_GE(u.x(), row.lowest_speed - accuracy * speed);
     EXPECT_GE(j, 0.0);
-    EXPECT_LT(std::min(j * row.response(0, 0), u.x() - row.lowest_speed), accuracy * speed)
+    EXPECT_LT(std::min(j * row.normal_response.x(), u.x() - row.lowest_speed), accuracy * speed)
         << "presses or parts, not both";
     const Vec2 friction = row.impulse.tail<2>(), slip = u.tail<2>();
     EXPECT_LE(friction.norm(), row.friction.static_coefficient * j * (1 + 1e-9) + 1e-15);
-    if (slip.norm() < 1e-6 * speed || j * row.response(0, 0) < 1e-6) continue;
+    if (slip.norm() < 1e-6 * speed || j * row.normal_response.x() < 1e-6) continue;
     const double limit = row.friction.dynamic_coefficient * j;
     EXPECT_LT((friction + limit * slip.normalized()).norm(), 1e-5 * limit) << "slip " << slip.transpose();
   }

@@ -1,0 +1,83 @@
+#pragma once
+// What an impulse reaches at one instant: the two bodies of an event and, through contacts, those that they
+// press. Contacts join the solve when a body of theirs moves, so that the cost of an event is that of its
+// consequences, not of the pile it happens in. The cluster changes no body; the event loop takes its answers.
+// Internal to the simulation floor. Tested in tests/physics/pile_test.cpp.
+
+#include <vector>
+
+#include "engine/simulation/contact_rows.h"
+
+namespace carom {
+
+class ContactCluster {
+ public:
+  struct Member {
+    int body = -1;
+    bool collided = false;  ///< Met another fast enough for restitution.
+    bool expanded = false;  ///< All contacts of the body have joined.
+    Velocity momentum_before;
+    Velocity path_before;
+  };
+
+  ContactCluster(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
+                 const WorldSettings& settings, StepCounters& counters)
+      : bodies_(bodies), shapes_(shapes), table_(table), settings_(settings), counters_(counters) {}
+
+  /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
+  void begin(int pair, const ClosestFeatures& closest, double time_s);
+  /// The collision at the contacts, between the bodies of the event alone or with all that they press.
+  void collide(bool spreads);
+  /// Bounds the paths by the contacts: for the rest of the step no gap of theirs closes, and those below the
+  /// rest gap reopen. Paths begin as what `path` was set to, those of bodies that join as they are.
+  void boundPaths();
+
+  std::size_t size() const { return members_.size(); }
+  const Member& member(std::size_t i) const { return members_[i]; }
+  /// What impulses have made of member i; what its path is to be.
+  const Velocity& momentum(std::size_t i) const { return momentum_[i].velocity; }
+  Velocity& path(std::size_t i) { return paths_[i].velocity; }
+  bool momentumChanged(std::size_t i) const { return differ(momentum(i), members_[i].momentum_before); }
+  bool pathChanged(std::size_t i) const { return differ(paths_[i].velocity, members_[i].path_before); }
+
+ private:
+  enum class Stage : std::uint8_t { kMomentum, kPath };
+
+  static bool differ(const Velocity& x, const Velocity& y) {
+    return x.linear != y.linear || x.angular != y.angular;
+  }
+  std::vector<ImpulseBody>& stageBodies() { return stage_ == Stage::kMomentum ? momentum_ : paths_; }
+  bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
+  int join(int body);
+  void addPair(int pair, const ClosestFeatures& closest);
+  bool expandMoved(double noticeable_mps);
+  void expand(int body);
+  double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
+  void startAgain();
+  void solveSpreading(double careful_mps);
+  double lowestSpeed(const SourcedRow& sourced) const;
+  std::vector<double> findRestitution();
+
+  const std::vector<Body>& bodies_;
+  const std::vector<Shape>& shapes_;
+  PairTable& table_;
+  const WorldSettings& settings_;
+  StepCounters& counters_;
+
+  double time_s_ = 0.0;
+  int event_pair_ = -1;
+  Stage stage_ = Stage::kMomentum;
+  std::vector<Member> members_;
+  std::vector<ImpulseBody> momentum_;
+  std::vector<ImpulseBody> paths_;
+  std::vector<Velocity> solve_before_;  ///< Velocities when the stage's solve began.
+  std::vector<SourcedRow> sources_;
+  std::vector<ContactRow> rows_;
+  // Which cluster a body or pair joined last, by number, so that nothing has to be cleared between events.
+  int number_ = 0;
+  std::vector<int> body_joined_;
+  std::vector<int> body_member_;
+  std::vector<int> pair_joined_;
+};
+
+}  // namespace carom

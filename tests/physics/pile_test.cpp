@@ -1,0 +1,96 @@
+// Impulses that pass through many bodies: chains against their closed form, and crowds that must come to rest
+// without ever overlapping.
+
+#include "tests/oracle/overlap_oracle.h"
+#include "tests/physics/small_world.h"
+
+namespace carom::physics {
+namespace {
+
+class Chain : public testing::TestWithParam<double> {};
+
+// n boxes stand in a row without friction or gravity, a window apart; one comes at speed v along the row with
+// e = 0. Afterwards all n + 1 move together: m v = (n + 1) m v'.
+TEST_P(Chain, StruckInelastically_MovesOnAsOneBody) {
+  for (double speed : {0.5, 5.0, 50.0}) {
+    SCOPED_TRACE(testing::Message() << "rate " << GetParam() << " speed " << speed);
+    SmallWorld w(GetParam(), Vec3::Zero());
+    constexpr int kStanding = 7;
+    std::vector<int> boxes;
+    const double pitch = 1.0 + restGap(1.0);
+    for (int i = 0; i <= kStanding; ++i) {
+      const double x = i == 0 ? -pitch - 0.05 : (i - 1) * pitch;
+      const Vec3 velocity(i == 0 ? speed : 0.0, 0.0, 0.0);
+      boxes.push_back(w.add({Solid::box(Vec3::Ones()),
+                             {Quat::Identity(), Vec3(x, 0, 0)},
+                             velocity,
+                             Vec3::Zero(),
+                             rubbing(0.0)}));
+    }
+    w.start();
+    w.run(1.5 * 0.05 / speed + 3.0 / GetParam());
+    double momentum = 0.0;
+    for (int b : boxes) {
+      momentum += w.velocity(b).x();
+      EXPECT_NEAR(w.velocity(b).x(), speed / (kStanding + 1), 0.02 * speed) << "box " << b;
+      EXPECT_LT(w.spin(b).norm(), 1e-3 * speed);
+    }
+    EXPECT_NEAR(momentum, speed, 1e-11 * speed);
+    EXPECT_GT(oracle::smallestGap(w.world()).gap_m, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, Chain, testing::Values(60.0, 240.0));
+
+// Sixty boxes and dodecahedra poured into a box, landing at up to 9 m/s.
+class Crowd : public testing::TestWithParam<std::tuple<double, double>> {
+ protected:
+  static constexpr int kBodies = 60;
+
+  void pour(SmallWorld& w, const Material& material) {
+    const auto wall = [&](const Vec3& size, const Vec3& position) {
+      w.add({Solid::box(size), {Quat::Identity(), position}, Vec3::Zero(), Vec3::Zero(), material, true});
+    };
+    w.addPlane(material, Quat::Identity(), 5.0);
+    for (double side : {-1.0, 1.0}) {
+      wall({1.0, 6.0, 6.0}, {side * 1.75, 0, 3.0});
+      wall({6.0, 1.0, 6.0}, {0, side * 1.75, 3.0});
+    }
+    std::vector<Vec3> points = oracle::dodecahedronPoints();
+    const double radius = points.front().norm();
+    for (Vec3& p : points) p *= 0.3 / radius;
+    const Solid hull = Solid::polyhedron(convexHull(points).polyhedron);
+    oracle::Random random(7);
+    for (int i = 0; i < kBodies; ++i) {
+      const Vec3 position(0.75 * (i % 3 - 1), 0.75 * (i / 3 % 3 - 1), 0.6 + 0.75 * (i / 9));
+      const Solid solid = i % 2 == 0 ? Solid::box(Vec3::Constant(0.4)) : hull;
+      bodies_.push_back(w.add({solid, {random.rotation(), position}, Vec3::Zero(), Vec3::Zero(), material}));
+    }
+    w.start();
+  }
+
+  std::vector<int> bodies_;
+};
+
+TEST_P(Crowd, ComesToRestAndNeverOverlaps) {
+  const auto [rate, friction] = GetParam();
+  SmallWorld w(rate);
+  pour(w, rubbing(friction));
+  int stopped = 0;
+  int frames = 0;
+  for (; frames < static_cast<int>(12.0 * rate) && w.world().audit().resting_bodies < kBodies; ++frames) {
+    w.step();
+    stopped += w.world().audit().last_step.stopped_bodies;
+    if (frames % 40 != 0) continue;
+    ASSERT_GT(oracle::smallestGap(w.world()).gap_m, 0.0) << "step " << frames;
+  }
+  EXPECT_EQ(w.world().audit().resting_bodies, kBodies) << "after " << frames / rate << " s";
+  EXPECT_LT(stopped, 1e-3 * kBodies * frames);
+}
+
+INSTANTIATE_TEST_SUITE_P(RatesAndFriction, Crowd,
+                         testing::Values(std::tuple(60.0, 0.5), std::tuple(240.0, 0.5),
+                                         std::tuple(240.0, 0.2)));
+
+}  // namespace
+}  // namespace carom::physics
