@@ -10,6 +10,7 @@
 
 #include "demos/exit_code.h"
 #include "demos/scene.h"
+#include "demos/trajectory_files.h"
 
 namespace carom::demos {
 
@@ -54,7 +55,7 @@ struct RenderOptions {
   double fps = 30.0;
   int width = 1280;
   int height = 720;
-  std::string camera;  ///< Empty: "main", else the first.
+  std::string camera;     ///< Empty: "main", else the first.
   bool portable = false;  ///< The same pixels on every CPU.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
@@ -63,14 +64,24 @@ ExitCode render(const RenderOptions& options);
 
 struct SimulateOptions {
   SceneChoice choice;
-  double fps = 30.0;             ///< Of the rows of `csv` and of the recording.
+  double fps = 30.0;             ///< Of the trajectory and of the recording.
   std::filesystem::path output;  ///< The recording.
-  std::filesystem::path csv;
+  TrajectoryPaths trajectory;
   std::filesystem::path audit;
   std::string expected_hash;
   Telling telling;
 };
 ExitCode simulate(const SimulateOptions& options);
+
+struct ExportOptions {
+  SceneChoice choice;            ///< `scene` may be a recording.
+  std::filesystem::path moved;   ///< Where the recording's scene is now.
+  std::filesystem::path output;  ///< A .glb file; empty: none.
+  TrajectoryPaths trajectory;
+  std::optional<double> fps;  ///< None: 30, or the recording's.
+  Telling telling;
+};
+ExitCode exportMotion(const ExportOptions& options);
 
 struct CheckOptions {
   SceneChoice choice;  ///< `scene` may be a mesh file.

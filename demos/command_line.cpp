@@ -83,12 +83,18 @@ void addTellingOptions(CLI::App& command, Telling& telling) {
   command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
 }
 
+void addTrajectoryOptions(CLI::App& command, TrajectoryPaths& paths) {
+  command.add_option("--csv", paths.csv, "One row a body and frame: poses, velocities, modes");
+  command.add_option("--npy", paths.npy, "A folder of NumPy arrays: times, poses, velocities, modes, names");
+}
+
 /// Everything that can be asked for, with the places its values go.
 struct CommandLine {
   CLI::App app{"Carom: impulse-based rigid bodies on V-Clip, drawn off screen to PNG frames.", "carom"};
   ListOptions list_options;
   RenderOptions render_options;
   SimulateOptions simulate_options;
+  ExportOptions export_options;
   CheckOptions check_options;
   DistanceOptions distance_options;
   CompareOptions compare_options;
@@ -99,6 +105,7 @@ struct CommandLine {
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
   CLI::App* simulate_command = nullptr;
+  CLI::App* export_command = nullptr;
   CLI::App* check_command = nullptr;
   CLI::App* distance_command = nullptr;
   CLI::App* compare_command = nullptr;
@@ -109,6 +116,7 @@ struct CommandLine {
   void addRender();
   void addLongJobOptions();
   void addSimulate();
+  void addExport();
   void addDistance();
   void addCompare();
   void addBudget();
@@ -126,6 +134,7 @@ CommandLine::CommandLine() {
   list_command->footer("Example: carom list --json");
   addRender();
   addSimulate();
+  addExport();
   check_command = app.add_subcommand("check", "Validates a scene or a mesh file without rendering");
   check_command
       ->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")
@@ -186,11 +195,10 @@ void CommandLine::addSimulate() {
   simulate_command =
       app.add_subcommand("simulate", "Simulates a scene; prints the final state hash and a line of facts");
   addSceneOptions(*simulate_command, simulate_options.choice);
-  simulate_command->add_option("--csv", simulate_options.csv,
-                               "One row a body and frame: poses, velocities, modes");
+  addTrajectoryOptions(*simulate_command, simulate_options.trajectory);
   simulate_command->add_option("-o,--output", simulate_options.output,
                                "Recording of poses and velocities, for render --from");
-  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv and -o")
+  simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv, --npy and -o")
       ->capture_default_str();
   simulate_command->add_option("--audit", simulate_options.audit,
                                "One row a step: energy, momentum, gap, counters");
@@ -198,6 +206,21 @@ void CommandLine::addSimulate() {
                                "Exit 1 when the final state hash differs");
   addTellingOptions(*simulate_command, simulate_options.telling);
   simulate_command->footer("Example: carom simulate resting --csv run.csv --audit steps.csv");
+}
+
+void CommandLine::addExport() {
+  ExportOptions& options = export_options;
+  export_command =
+      app.add_subcommand("export", "Writes a scene's motion as animated glTF, CSV or NumPy arrays");
+  addSceneOptions(*export_command, options.choice);
+  CLI::Option* scene = export_command->get_option("SCENE");
+  scene->description("A shipped scene's name, a path to a .json file, or a recording of simulate -o");
+  export_command->add_option("OUT", options.output, "A .glb file: glTF 2.0 with one node a body and camera");
+  addTrajectoryOptions(*export_command, options.trajectory);
+  export_command->add_option("--fps", options.fps, "Frames a second (30; a recording has its own)");
+  export_command->add_option("--scene", options.moved, "Where the scene of the recording is now");
+  addTellingOptions(*export_command, options.telling);
+  export_command->footer("Example: carom export sliding sliding.glb");
 }
 
 void CommandLine::addDistance() {
@@ -335,6 +358,14 @@ void checkRender(const RenderOptions& options) {
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }
 
+void checkExport(const ExportOptions& options) {
+  if (options.output.empty() && options.trajectory.csv.empty() && options.trajectory.npy.empty())
+    throw UsageError("export: nothing to write; accepted: a .glb file, --csv FILE or --npy FOLDER");
+  if (!options.output.empty() && options.output.extension() != ".glb")
+    throw UsageError("export: " + options.output.string() + ": accepted: a name that ends in .glb");
+  if (options.fps) requireWithin("--fps", *options.fps, kHighestFps);
+}
+
 void checkBudget(CommandLine& line) {
   BudgetOptions& options = line.budget_options;
   requireWithin("--budget", options.budget_ms, kLongestBudget_ms);
@@ -350,13 +381,14 @@ void checkBudget(CommandLine& line) {
 }
 
 void checkValues(CommandLine& line) {
-  for (const SceneChoice* choice :
-       {&line.render_options.choice, &line.simulate_options.choice, &line.budget_options.choice})
+  for (const SceneChoice* choice : {&line.render_options.choice, &line.simulate_options.choice,
+                                    &line.export_options.choice, &line.budget_options.choice})
     if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
   if (line.render_command->parsed()) checkRender(line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
+  if (line.export_command->parsed()) checkExport(line.export_options);
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
@@ -390,6 +422,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.list_command->parsed()) return list(line.list_options);
   if (line.render_command->parsed()) return render(line.render_options);
   if (line.simulate_command->parsed()) return simulate(line.simulate_options);
+  if (line.export_command->parsed()) return exportMotion(line.export_options);
   if (line.check_command->parsed()) return check(line.check_options);
   if (line.distance_command->parsed()) return distance(line.distance_options);
   if (line.compare_command->parsed()) return compare(line.compare_options);

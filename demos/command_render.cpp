@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -19,16 +18,16 @@
 #include "demos/frame_identity.h"
 #include "demos/frame_names.h"
 #include "demos/frame_selection.h"
-#include "demos/frame_states.h"
+#include "demos/frame_source.h"
 #include "demos/frame_stream.h"
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
 #include "demos/pipe_writer.h"
 #include "demos/progress.h"
+#include "demos/recorded_scene.h"
 #include "demos/recording.h"
 #include "demos/scene_world.h"
-#include "demos/simulation_check.h"
 #include "engine/foundation/contract.h"
 #include "renderer/frame_renderer.h"
 
@@ -45,40 +44,16 @@ struct Plan {
   std::vector<int> frames;  ///< Those chosen.
 };
 
-/// The recording's scene and what was chosen of it; a scene on the command line says where that is now.
-SceneChoice recordedChoice(const RenderOptions& options, const RecordingHeader& header) {
-  SceneChoice choice = options.choice;
-  if (choice.scene.empty()) {
-    choice.scene = header.scene;
-    std::error_code ignored;
-    const std::filesystem::path file(header.scene);
-    if (file.is_absolute() && !std::filesystem::exists(file, ignored))
-      throw InputError(options.from.string() + ": its scene " + header.scene +
-                       " is not there; accepted: render SCENE --from with where it is now");
-  }
-  if (!choice.mesh && !header.mesh.empty()) choice.mesh = header.mesh;
-  choice.seed = header.seed;
-  choice.duration_s = header.duration_s;
-  return choice;
-}
-
-void requireSameScene(const RenderOptions& options, const RecordingHeader& header, const Plan& plan) {
-  const std::uint64_t hash = sceneHash(plan.scene, plan.choice.mesh);
-  if (hash == header.scene_hash) return;
-  throw InputError(options.from.string() + ": recorded from scene hash " + hexText(header.scene_hash) +
-                   ", but " + plan.scene.file.string() + " has " + hexText(hash) +
-                   "; accepted: the scene as it was, or a new recording");
-}
-
 Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
-  const SceneChoice choice = recording ? recordedChoice(options, recording->header()) : options.choice;
+  SceneChoice choice = options.choice;
+  if (recording) choice = recordedChoice({options.from, recording->header()}, choice, "render SCENE --from");
   const Scene scene = chosenScene(choice);
   const double fps = recording ? recording->header().fps : options.fps;
   const FrameClock clock({fps, scene.rate_hz});
   Plan plan{choice, scene, chosenCamera(scene, options.camera), clock, clock.frameCount(scene.duration_s),
             {}};
   if (recording) {
-    requireSameScene(options, recording->header(), plan);
+    requireSameScene({options.from, recording->header()}, plan.scene, plan.choice);
     plan.frame_count = recording->header().frames;
   }
   if (plan.frame_count < 1)
@@ -117,16 +92,13 @@ class Stopwatch {
   double last_s_ = steadySeconds();
 };
 
-/// The state at a frame, which is not before the last one asked for.
-using FrameSource = std::function<FrameState(int frame)>;
-
 /// What the frames of one run share.
 struct Run {
   const Plan& plan;
   const FrameNames* names;  ///< None: the frames get no files.
   bool resume = false;
   const SceneWorld& scene;
-  FrameSource source;
+  FrameSource& source;
   Manifest& manifest;
   std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
@@ -148,7 +120,7 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
     throwIfInterrupted();
     Stopwatch watch;
     FrameToWrite next;
-    const FrameState state = run.source(frame);
+    const FrameState state = run.source.at(frame);
     next.record.timings.physics_ms = watch.lap_ms();
     if (run.names != nullptr) next.path = run.names->file(frame);
     next.record.frame = frame;
@@ -296,22 +268,12 @@ ExitCode render(const RenderOptions& options) {
   renderer::FrameRenderer pictures(settings, made.world.solids());
   manifest.gl = pictures.info();
   RunFacts facts;
-  FrameStates states(made.world, plan.clock, [&](const World& world) {
-    throwIfInterrupted();
-    checkStep(world, world.audit(), made.names, facts);
-  });
-  const auto simulated = [&](int frame) {
-    const std::span<const BodyState> bodies = states.advanceTo(frame);
-    return FrameState{bodies, made.world.stepCount(), made.world.stateHash()};
-  };
-  const auto recorded = [&](int frame) { return recording->advanceTo(frame); };
-  Run run{plan,
-          names ? &*names : nullptr,
-          options.resume,
-          made,
-          recording ? FrameSource(recorded) : simulated,
-          manifest,
-          {}};
+  std::optional<FrameSource> source;
+  if (recording)
+    source.emplace(*recording);
+  else
+    source.emplace(made, plan.clock, facts);
+  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, manifest, {}};
   if (options.telling.verbose) tellStart(run);
 
   catchInterrupts();

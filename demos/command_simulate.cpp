@@ -1,12 +1,12 @@
-// `carom simulate`: physics without pictures; trajectory and audit as CSV, the final state hash on stdout.
+// `carom simulate`: physics without pictures; trajectory and audit as files, the final state hash on stdout.
 #include "demos/command.h"
 
 #include <iostream>
 #include <optional>
 #include <sstream>
 
-#include "demos/atomic_file.h"
 #include "demos/content_hash.h"
+#include "demos/csv_file.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_states.h"
 #include "demos/interrupt.h"
@@ -14,50 +14,10 @@
 #include "demos/recording.h"
 #include "demos/scene_world.h"
 #include "demos/simulation_check.h"
+#include "demos/trajectory_files.h"
 
 namespace carom::demos {
 namespace {
-
-/// A CSV file that is written while the simulation runs, or nothing when no path is given.
-class CsvFile {
- public:
-  CsvFile(const std::filesystem::path& path, const char* header) {
-    if (path.empty()) return;
-    file_.emplace(path);
-    file_->write(std::string(header) + "\n");
-  }
-  explicit operator bool() const { return file_.has_value(); }
-  void row(const std::ostringstream& row) { file_->write(row.str() + "\n"); }
-  void commit() {
-    if (file_) file_->commit();
-  }
-
- private:
-  std::optional<AtomicFile> file_;
-};
-
-/// Seventeen digits give the same bits when read back.
-std::ostringstream exactRow() {
-  std::ostringstream row;
-  row.precision(17);
-  return row;
-}
-
-void writeTrajectory(CsvFile& csv, int frame, double time_s, std::span<const std::string> names,
-                     std::span<const BodyState> states) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const BodyState& s = states[i];
-    const Vec3& p = s.X_WB.position;
-    const Quat& q = s.X_WB.rotation;
-    const Vec3& v = s.linear_velocity;
-    const Vec3& w = s.angular_velocity;
-    std::ostringstream row = exactRow();
-    row << frame << ',' << time_s << ",\"" << names[i] << "\"," << p.x() << ',' << p.y() << ',' << p.z()
-        << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ',' << v.y() << ','
-        << v.z() << ',' << w.x() << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
-    csv.row(row);
-  }
-}
 
 void writeAudit(CsvFile& csv, int step, const Audit& audit) {
   const Vec3& p = audit.linear_momentum;
@@ -90,7 +50,7 @@ RecordingHeader recordingHeader(const SimulateOptions& options, const Scene& sce
 
 /// What there is to write of each frame.
 struct FrameOutputs {
-  CsvFile& trajectory;
+  TrajectoryFiles& trajectory;
   std::optional<RecordingWriter>& recording;
 };
 
@@ -99,7 +59,7 @@ void writeFrames(FrameOutputs outputs, const SceneWorld& made, const FrameClock&
   if (!outputs.trajectory && !outputs.recording) return;
   for (int frame = 0; frame < frames; ++frame) {
     const std::span<const BodyState> bodies = states.advanceTo(frame);
-    if (outputs.trajectory) writeTrajectory(outputs.trajectory, frame, clock.time(frame), made.names, bodies);
+    if (outputs.trajectory) outputs.trajectory.add(clock.time(frame), bodies);
     if (outputs.recording) outputs.recording->add({bodies, made.world.stepCount(), made.world.stateHash()});
   }
 }
@@ -127,7 +87,8 @@ ExitCode simulate(const SimulateOptions& options) {
   if (steps < 1) throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no step");
 
   catchInterrupts();
-  CsvFile trajectory(options.csv, "frame,time_s,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode");
+  const int frames = clock.frameCount(scene.duration_s);
+  TrajectoryFiles trajectory(options.trajectory, made.names, frames);
   CsvFile audits(
       options.audit,
       "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
@@ -146,7 +107,7 @@ ExitCode simulate(const SimulateOptions& options) {
       if (audits) writeAudit(audits, world.stepCount(), audit);
       progress.done(world.stepCount());
     });
-    writeFrames({trajectory, recording}, made, clock, clock.frameCount(scene.duration_s), states);
+    writeFrames({trajectory, recording}, made, clock, frames, states);
     states.stepTo(steps);
   }
   trajectory.commit();

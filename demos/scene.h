@@ -55,6 +55,7 @@ struct CompoundPart {
 struct SurfaceLook {
   renderer::Color color;
   bool checker = false;
+  std::string material;  ///< Its name in the scene's file, or empty.
 };
 
 /// Copies of a body on a lattice, each moved and turned a little by the scene's random numbers.

@@ -161,7 +161,10 @@ NamedMaterial readMaterial(const Json& json) {
 
 Materials readMaterials(const Json& json) {
   Materials materials;
-  for (const auto& [name, value] : json.members()) materials[name] = readMaterial(value);
+  for (const auto& [name, value] : json.members()) {
+    materials[name] = readMaterial(value);
+    materials[name].look.material = name;
+  }
   return materials;
 }
 

@@ -43,10 +43,6 @@ bool inView(const Placed& placed, const CameraAxes& axes, double half_width, dou
          up - half_height * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_height);
 }
 
-float linearLight(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
 InstanceRecord record(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
   const Mat3 rotation = instance.X_WB.rotation.toRotationMatrix();
   const Vec3 position = instance.X_WB.position - camera.eye;

@@ -4,6 +4,7 @@
 // air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
 // Tested in tests/renderer/frame_renderer_test.cpp.
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -22,6 +23,11 @@ struct Color {
   float g = 0.8f;
   float b = 0.8f;
 };
+
+/// The light of an sRGB channel (IEC 61966-2-1), 0 to 1.
+inline float linearLight(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
 
 /// One body to draw.
 struct Instance {

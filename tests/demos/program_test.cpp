@@ -36,6 +36,7 @@ TEST(Program, HelpOfEveryCommandShowsAnExample) {
                                              {"list", "--help"},
                                              {"render", "--help"},
                                              {"simulate", "--help"},
+                                             {"export", "--help"},
                                              {"check", "--help"},
                                              {"compare", "--help"},
                                              {"budget", "--help"},

@@ -1,0 +1,21 @@
+#include "demos/frame_source.h"
+
+#include "demos/interrupt.h"
+
+namespace carom::demos {
+
+FrameSource::FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts) : scene_(&scene) {
+  states_.emplace(scene.world, clock, [&scene, &facts](const World& world) {
+    throwIfInterrupted();
+    checkStep(world, world.audit(), scene.names, facts);
+  });
+}
+
+FrameState FrameSource::at(int frame) {
+  throwIfInterrupted();
+  if (recording_ != nullptr) return recording_->advanceTo(frame);
+  const std::span<const BodyState> bodies = states_->advanceTo(frame);
+  return {bodies, scene_->world.stepCount(), scene_->world.stateHash()};
+}
+
+}  // namespace carom::demos
