@@ -24,27 +24,25 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
 
 }  // namespace
 
-bool canPair(const Proxy& p, const Proxy& q) {
-  return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
-}
-
 std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies) {
   const Eigen::Index axis = sweepAxis(proxies);
-  const auto low = [&](int i) { return proxies[static_cast<std::size_t>(i)].bounds.low[axis]; };
-  const auto high = [&](int i) { return proxies[static_cast<std::size_t>(i)].bounds.high[axis]; };
   std::vector<int> order(proxies.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return low(i) < low(j) || (low(i) == low(j) && i < j); });
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const double low_i = proxies[static_cast<std::size_t>(i)].bounds.low[axis];
+    const double low_j = proxies[static_cast<std::size_t>(j)].bounds.low[axis];
+    return low_i < low_j || (low_i == low_j && i < j);
+  });
+  std::vector<Proxy> sorted;  // side by side, as the sweep meets them
+  sorted.reserve(order.size());
+  for (int i : order) sorted.push_back(proxies[static_cast<std::size_t>(i)]);
 
   std::vector<IndexPair> pairs;
-  std::vector<int> open;  // those whose interval on the axis has begun and not ended
-  for (int i : order) {
-    std::erase_if(open, [&](int j) { return high(j) < low(i); });
-    for (int j : open)
-      if (canPair(proxies[static_cast<std::size_t>(i)], proxies[static_cast<std::size_t>(j)]))
-        pairs.push_back({std::min(i, j), std::max(i, j)});
-    open.push_back(i);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const double end = sorted[i].bounds.high[axis];
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].bounds.low[axis] <= end; ++j)
+      if (canPair(sorted[i], sorted[j]))
+        pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

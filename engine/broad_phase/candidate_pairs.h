@@ -14,7 +14,8 @@ struct Bounds {
   Vec3 high = Vec3::Zero();
 
   bool overlaps(const Bounds& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+    return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
+           other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();
   }
   bool contains(const Bounds& other) const {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
@@ -36,6 +37,8 @@ struct IndexPair {
 
 /// All overlapping pairs in ascending order. Cost O(n log n + overlaps along the sweep axis).
 std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies);
-bool canPair(const Proxy& p, const Proxy& q);
+inline bool canPair(const Proxy& p, const Proxy& q) {
+  return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
+}
 
 }  // namespace carom

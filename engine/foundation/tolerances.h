@@ -21,16 +21,19 @@ inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre:
 inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatter than this lies on the face
 
 // Contact solver: relative to the speed that gravity adds in a step.
-inline constexpr double kSolverResidual = 1.0e-6;        // a sweep that changes speeds less has converged
-inline constexpr int kSolverRowVisits = 8000;            // of an island and step; after them ...
-inline constexpr double kSolverCoarseResidual = 1.0e-2;  // ... this is enough, and ...
-inline constexpr int kSolverSweeps = 60;                 // ... so many sweeps are the most
+inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
+inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...
+inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps; where that is more, ...
+inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough
 inline constexpr double kGapGain = 0.2;                  // share of the missing gap reopened in a step
 inline constexpr double kGapSpeed = 0.1;                 // m/s at most while reopening
 
 // Events of one step and body.
 inline constexpr int kPairEvents = 8;      // up to here elastic events are solved between their two bodies
 inline constexpr int kEventsPerBody = 24;  // up to here with all that these press; then the body is held
+// Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
+inline constexpr long kVisitsPerBody = 8000;
+inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events
 
 // Sliding (paper §2.4).
 inline constexpr double kSlipSpeed = 1e-5;     // m/s: below it the static coefficient of friction counts

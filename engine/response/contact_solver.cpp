@@ -80,10 +80,11 @@ double& stirOf(std::span<ImpulseBody> bodies, int i) {
   return bodies[at(i)].stir;
 }
 
-// The largest change of a row's speed in one sweep. Rows are visited whose bodies have been stirred since.
-double sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
-             double unnoticed_stir) {
-  double residual = 0.0;
+// One sweep. Rows are visited whose bodies have been stirred since their last visit.
+void sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
+           double unnoticed_stir, SolverReport& report) {
+  report.residual_mps = 0.0;
+  ++report.sweeps;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
     double& stir_a = stirOf(bodies, row.a);
@@ -94,9 +95,9 @@ double sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool fri
     if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
     if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
     row.seen_stir = change.settled ? stir_a + stir_b : before;
-    residual = std::max(residual, change.speed_mps);
+    report.residual_mps = std::max(report.residual_mps, change.speed_mps);
+    ++report.visits;
   }
-  return residual;
 }
 
 // Impulses and the velocities they give: a point, or a direction, of the search.
@@ -164,6 +165,7 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings) {
   for (ContactRow& row : rows) {
+    if (settings.resumes) break;
     row.seen_stir = -1.0;
     stirOf(bodies, row.a) = stirOf(bodies, row.b) = 0.0;
   }
@@ -172,8 +174,7 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    report.residual_mps = sweep(rows, bodies, settings.friction, forward, kStirShare * enough);
-    ++report.sweeps;
+    sweep(rows, bodies, settings.friction, forward, kStirShare * enough, report);
     if (report.residual_mps <= enough) break;
   }
   return report;
@@ -187,10 +188,8 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
     const Iterate before = iterateOf(rows, bodies);
-    report.residual_mps = sweep(rows, bodies, settings.friction, true, kVisitAll);
-    report.residual_mps =
-        std::max(report.residual_mps, sweep(rows, bodies, settings.friction, false, kVisitAll));
-    report.sweeps += 2;
+    sweep(rows, bodies, settings.friction, true, kVisitAll, report);
+    sweep(rows, bodies, settings.friction, false, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
     if (report.residual_mps <= settings.residual_mps || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep(rows, before);

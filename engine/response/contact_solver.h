@@ -65,19 +65,21 @@ struct SolverSettings {
   bool friction = true;
   int careful_sweeps = std::numeric_limits<int>::max();  ///< After so many the coarse residual is enough.
   double coarse_residual_mps = 0.0;
+  bool resumes = false;  ///< Goes on where the last call stopped: rows that it left settled are not visited.
 };
 
 struct SolverReport {
   int sweeps = 0;
   double residual_mps = 0.0;  ///< The largest change of speed in the last sweep.
+  long visits = 0;            ///< Rows looked at, over all sweeps.
 };
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings);
 
 /// The same by nonsmooth nonlinear conjugate gradients on those sweeps, there and back at a time (Silcowitz,
-/// Niebe, Erleben 2010): several times fewer sweeps to a fine residual in large piles, none saved to a coarse
-/// one. `settings` without the coarse residual.
+/// Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other. `settings` without the
+/// coarse residual.
 SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                  const SolverSettings& settings);
 

@@ -12,8 +12,9 @@ constexpr int kMostSweeps = 80;   // of one solve
 // Small clusters are solved to this share of the approach; when so many rows have been visited, and for
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
-constexpr std::size_t kCarefulVisits = 1000;
-constexpr double kGapShare = 0.4;   // of the rest gap
+constexpr long kCarefulVisits = 1000;
+constexpr double kGapShare = 0.4;  // of the rest gap
+constexpr int kTurningRounds = 2;
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
 std::size_t at(int i) {
@@ -127,13 +128,17 @@ double ContactCluster::safeResidual() const {
 void ContactCluster::solveSpreading(double careful_mps) {
   const bool friction = stage_ == Stage::kMomentum;
   const double safe = safeResidual();
-  std::size_t visits = 0;
+  long visits = 0;
   for (int sweeps = 0; visits < kCarefulVisits || sweeps < kMostSweeps;) {
     const double enough = visits < kCarefulVisits ? std::min(careful_mps, safe) : safe;
-    const SolverReport report = solveContacts(rows_, stageBodies(), {kSweepsARound, enough, friction});
+    const SolverReport report = solveContacts(
+        rows_, stageBodies(),
+        {.sweeps = kSweepsARound, .residual_mps = enough, .friction = friction, .resumes = sweeps > 0});
     sweeps += report.sweeps;
-    visits += static_cast<std::size_t>(report.sweeps) * rows_.size();
-    if (!expandMoved(safe) && report.residual_mps <= enough) return;
+    visits += report.visits;
+    visits_ += report.visits;
+    const bool grew = !isExhausted() && expandMoved(safe);
+    if (!grew && report.residual_mps <= enough) return;
   }
 }
 
@@ -186,6 +191,29 @@ void ContactCluster::boundPaths() {
     prepareRow(rows_.back(), paths_);
   }
   solveSpreading(safeResidual());
+  for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solveSpreading(safeResidual());
+}
+
+bool ContactCluster::raiseForTurning() {
+  bool raised = false;
+  int last_pair = -1;
+  double speed = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (sources_[i].pair != last_pair) {
+      last_pair = sources_[i].pair;
+      const ShapePair& pair = table_.pairs()[at(last_pair)];
+      const auto a = at(rows_[i].a);
+      const auto b = at(rows_[i].b);
+      speed = turningSpeed(
+          pair, shapes_,
+          {bodies_[at(pair.body_a)].path.at(time_s_), paths_[a].velocity,
+           bodies_[at(pair.body_b)].path.at(time_s_), paths_[b].velocity, settings_.step_s - time_s_},
+          counters_);
+    }
+    rows_[i].lowest_speed += speed;
+    raised = raised || speed > 0.0;
+  }
+  return raised;
 }
 
 }  // namespace carom

@@ -22,7 +22,12 @@ class ContactCluster {
 
   ContactCluster(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                  const WorldSettings& settings, StepCounters& counters)
-      : bodies_(bodies), shapes_(shapes), table_(table), settings_(settings), counters_(counters) {}
+      : bodies_(bodies),
+        shapes_(shapes),
+        table_(table),
+        settings_(settings),
+        counters_(counters),
+        most_visits_(tolerance::kVisitsPerBody * static_cast<long>(bodies.size())) {}
 
   /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
   void begin(int pair, const ClosestFeatures& closest, double time_s);
@@ -31,6 +36,9 @@ class ContactCluster {
   /// Bounds the paths by the contacts: for the rest of the step no gap of theirs closes, and those below the
   /// rest gap reopen. Paths begin as what `path` was set to, those of bodies that join as they are.
   void boundPaths();
+
+  /// So much has been solved in this step that impulses spread no further.
+  bool isExhausted() const { return visits_ > most_visits_; }
 
   std::size_t size() const { return members_.size(); }
   const Member& member(std::size_t i) const { return members_[i]; }
@@ -54,6 +62,7 @@ class ContactCluster {
   void expand(int body);
   double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
   void startAgain();
+  bool raiseForTurning();
   void solveSpreading(double careful_mps);
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();
@@ -65,6 +74,8 @@ class ContactCluster {
   StepCounters& counters_;
 
   double time_s_ = 0.0;
+  long visits_ = 0;  ///< Of rows, in all solves.
+  long most_visits_ = 0;
   int event_pair_ = -1;
   Stage stage_ = Stage::kMomentum;
   std::vector<Member> members_;

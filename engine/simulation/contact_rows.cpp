@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace carom {
+namespace {
+
+constexpr double kTurningShare = 0.2;  // of the rest gap: an approach by turning that nobody notices
+constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks for more
+
+}  // namespace
 
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
                 const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
@@ -45,6 +51,26 @@ GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bo
   const double missing = window.rest - band - gap_m;
   if (missing <= 0.0) return {};
   return {0.0, std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed)};
+}
+
+double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, const PairTravel& travel,
+                    StepCounters& counters) {
+  const Shape& a = shapes[static_cast<std::size_t>(pair.shapes.a)];
+  const Shape& b = shapes[static_cast<std::size_t>(pair.shapes.b)];
+  const double spin_a = travel.a.angular.norm();
+  const double spin_b = travel.b.angular.norm();
+  const double slide = (travel.b.linear - travel.a.linear).norm();
+  const double acceleration =
+      spin_a * (spin_a * a.reach_m + 2.0 * slide) + spin_b * (spin_b * b.reach_m + 2.0 * slide);
+  const double dt = travel.dt_s;
+  if (0.5 * acceleration * dt * dt <= kTurningShare * pair.window.rest) return 0.0;
+  const Trajectory path_a{0.0, travel.X_WA, travel.a.linear, Vec3::Zero(), travel.a.angular};
+  const Trajectory path_b{0.0, travel.X_WB, travel.b.linear, Vec3::Zero(), travel.b.angular};
+  FeaturePair tracked = pair.tracked;
+  const double gap = closestFeatures(*a.part, path_a.at(dt), *b.part, path_b.at(dt), tracked).distance_m;
+  ++counters.distance_queries;
+  const double wanted = pair.window.rest * (1.0 - tolerance::kRestBand);
+  return gap < kTurningGap * pair.window.rest ? (wanted - gap) / dt : 0.0;
 }
 
 }  // namespace carom

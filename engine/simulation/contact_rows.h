@@ -46,4 +46,19 @@ struct GapSpeeds {
 };
 GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses = false);
 
+/// Two parts that travel `dt_s` with these velocities from these poses.
+struct PairTravel {
+  Pose X_WA;
+  Velocity a;
+  Pose X_WB;
+  Velocity b;
+  double dt_s = 0.0;
+};
+
+/// Rows are linear in time, but what turns while it slides along another approaches it with the square of the
+/// time. By how much, m/s, a pair's rows must part faster for the pair to end the travel in the window; 0
+/// when it does, or when nothing turns noticeably.
+double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, const PairTravel& travel,
+                    StepCounters& counters);
+
 }  // namespace carom

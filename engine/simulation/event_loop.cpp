@@ -133,8 +133,9 @@ class EventLoop {
     const bool bounds = stopped || spent > tolerance::kPairEvents || cluster_.size() > 2;
     takeMomentum(time_s, bounds);
     if (bounds) takePaths(time_s);
+    const int most = cluster_.isExhausted() ? tolerance::kLateEventsPerBody : tolerance::kEventsPerBody;
     for (int i : both)
-      if (bodies_[at(i)].events > tolerance::kEventsPerBody) hold(bodies_[at(i)]);
+      if (bodies_[at(i)].events > most) hold(bodies_[at(i)]);
     searchAgain(time_s);
   }
 

@@ -10,6 +10,7 @@ namespace carom {
 namespace {
 
 constexpr int kPathSweeps = 60;
+constexpr int kTurningRounds = 2;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -69,16 +70,32 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-// To the fine residual while an island's share of row visits lasts; large ones go on, for `settings.sweeps`
-// at most, to the coarse one.
-void solveIslands(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                  SolverSettings settings) {
-  const int most_for_large = settings.sweeps;
+// With friction: small islands to the fine residual, as far as their share of row visits goes; large ones to
+// the coarse one.
+void solveImpulses(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                   double gravity_speed) {
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
-    settings.careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
-    settings.sweeps = std::max(most_for_large, settings.careful_sweeps);
-    solveContacts(rows.subspan(assembly.island_begin[i], count), bodies, settings);
+    const int share = tolerance::kSolverRowVisits / static_cast<int>(count);
+    const bool small = share >= tolerance::kSolverSweeps;
+    const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverCoarseResidual;
+    solveContactsFinely(rows.subspan(assembly.island_begin[i], count), bodies,
+                        {std::max(share, tolerance::kSolverSweeps), residual * gravity_speed, true});
+  }
+}
+
+// Without friction: the bounds on the paths.
+void solvePaths(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                double coarse_residual_mps) {
+  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
+    const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
+    const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
+    solveContacts(rows.subspan(assembly.island_begin[i], count), bodies,
+                  {.sweeps = std::max(kPathSweeps, careful_sweeps),
+                   .residual_mps = kPathResidual,
+                   .friction = false,
+                   .careful_sweeps = careful_sweeps,
+                   .coarse_residual_mps = coarse_residual_mps});
   }
 }
 
@@ -110,11 +127,33 @@ void giveGravity(LastingContacts& contacts, const std::vector<Body>& bodies, con
       contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
 }
 
+// Whether rows had to be raised so that what turns stays in the window.
+bool raiseForTurning(const Assembly& assembly, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const std::vector<ShapePair>& pairs,
+                     std::span<const ImpulseBody> paths, double step_s, std::span<ContactRow> rows,
+                     StepCounters& counters) {
+  bool raised = false;
+  int last_pair = -1;
+  double speed = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (assembly.sources[i].pair != last_pair) {
+      last_pair = assembly.sources[i].pair;
+      const ShapePair& pair = pairs[at(last_pair)];
+      const PairTravel travel{bodies[at(pair.body_a)].X_WB, paths[at(pair.body_a)].velocity,
+                              bodies[at(pair.body_b)].X_WB, paths[at(pair.body_b)].velocity, step_s};
+      speed = turningSpeed(pair, shapes, travel, counters);
+    }
+    rows[i].lowest_speed += speed;
+    raised = raised || speed > 0.0;
+  }
+  return raised;
+}
+
 // The path of a pressed body: the mean of the velocities before and after, which is exact for constant
 // friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that reopening
 // a gap gives no energy.
-void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<ShapePair>& pairs,
-              double step_s) {
+void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+              const std::vector<ShapePair>& pairs, double step_s, StepCounters& counters) {
   std::vector<ImpulseBody> paths = assembly.contacts.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
@@ -130,11 +169,12 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
     rows[i].impulse.setZero();
     smallest_rest_gap = std::min(smallest_rest_gap, window.rest);
   }
-  solveIslands(assembly, rows, paths,
-               {.sweeps = kPathSweeps,
-                .residual_mps = kPathResidual,
-                .friction = false,
-                .coarse_residual_mps = kPathShare * smallest_rest_gap / step_s});
+  const double coarse_residual = kPathShare * smallest_rest_gap / step_s;
+  solvePaths(assembly, rows, paths, coarse_residual);
+  for (int round = 0; round < kTurningRounds; ++round) {
+    if (!raiseForTurning(assembly, bodies, shapes, pairs, paths, step_s, rows, counters)) break;
+    solvePaths(assembly, rows, paths, coarse_residual);
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
     bodies[i].travel = Travel::kCarried;
@@ -190,19 +230,14 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   LastingContacts& contacts = assembly.contacts;
   giveGravity(contacts, bodies, settings);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
-  const double gravity_speed = settings.gravity.norm() * settings.step_s;
-  solveIslands(assembly, contacts.rows, contacts.bodies,
-               {.sweeps = tolerance::kSolverSweeps,
-                .residual_mps = tolerance::kSolverResidual * gravity_speed,
-                .friction = true,
-                .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
+  solveImpulses(assembly, contacts.rows, contacts.bodies, settings.gravity.norm() * settings.step_s);
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;
     contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (!bodies[i].moves()) contacts.touched[i] = 0;
-  setPaths(assembly, bodies, pairs, settings.step_s);
+  setPaths(assembly, bodies, shapes, pairs, settings.step_s, counters);
   remember(assembly, pairs);
   counters.contact_points = static_cast<int>(contacts.rows.size());
   return std::move(assembly.contacts);
