@@ -34,7 +34,7 @@ double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& v
 
 /// The constant spin that carries a free body from `R_WB` to where `dt_s` seconds of torque-free rotation
 /// leave it, by splitting the kinetic energy into a part that turns the body about its angular momentum and
-/// two that turn it about principal axes, each solved exactly: time-reversible, second order, exact for a
+/// two that turn it about principal axes, each solved exactly: time-reversible, fourth order, exact for a
 /// body with an axis of symmetry. With omega recomputed from the conserved angular momentum at the end, that
 /// momentum is exact and the energy bounded. Beyond two radians a step the spin of the first two is kept.
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);

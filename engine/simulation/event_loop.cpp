@@ -173,7 +173,8 @@ class EventLoop {
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) continue;
       body.path.velocity = body.momentum_velocity.linear;
-      body.path.spin = body.momentum_velocity.angular;
+      body.path.spin = torqueFreeSpin(body.inertia, body.path.X_WB.rotation, body.momentum_velocity.angular,
+                                      settings_.step_s - time_s);
       if (bounds) carry(body, settings_.step_s - time_s);
       cluster_.path(i) = {body.path.velocity, body.path.spin};
     }

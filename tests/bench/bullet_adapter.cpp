@@ -1,5 +1,5 @@
 // Bullet: convex hull shapes without margin, GJK with EPA for the depth. Built in double precision where the
-// package has it. The only file that names Bullet.
+// package has it. Only this file and bullet_pile.cpp name Bullet.
 
 #include <cmath>
 

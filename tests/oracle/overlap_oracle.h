@@ -1,8 +1,10 @@
 #pragma once
 // Oracle: the smallest gap over every pair of bodies, by brute force and separating axes; for checking a
-// world frame by frame. Pairs whose bounding balls are farther apart than the smallest gap so far are passed
-// over. Tested in tests/oracle/oracle_test.cpp.
+// world frame by frame. Pairs whose bounding boxes, or shadows on the line between their centres, are farther
+// apart than the smallest gap so far are passed over: nearly all of thousands. Tested in
+// tests/oracle/oracle_test.cpp.
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,22 +27,65 @@ struct SmallestGap {
   int body_b = -1;
 };
 
+/// A body at its pose with its bounding box in the world's axes.
+struct BoundedBody {
+  std::vector<PlacedConvex> parts;
+  Vec3R low, high, center;
+  int index = -1;
+  bool is_static = false;
+
+  BoundedBody(const PlacedSolid& body, int number)
+      : low(Vec3R::Constant(std::numeric_limits<Real>::infinity())),
+        high(-low),
+        center(body.X_WB.position.cast<Real>()),
+        index(number),
+        is_static(body.is_static) {
+    for (const ConvexPart& part : body.solid->parts()) {
+      parts.push_back(place(part, body.X_WB));
+      for (const Vec3R& v : parts.back().vertices) {
+        low = low.cwiseMin(v - Vec3R::Constant(parts.back().radius_m));
+        high = high.cwiseMax(v + Vec3R::Constant(parts.back().radius_m));
+      }
+    }
+  }
+  /// At most the distance of the bodies; 0 when the boxes meet.
+  Real boxDistance(const BoundedBody& other) const {
+    return (low - other.high).cwiseMax(other.low - high).cwiseMax(Vec3R::Zero()).norm();
+  }
+};
+
+inline void lowerToPair(const BoundedBody& a, const BoundedBody& b, SmallestGap& smallest) {
+  const Vec3R between = b.center - a.center;
+  const bool has_line = between.squaredNorm() > 0;
+  for (const PlacedConvex& pa : a.parts)
+    for (const PlacedConvex& pb : b.parts) {
+      if (has_line) {
+        const Real shadows = gapAlong(pa, pb, between.normalized()) - pa.radius_m - pb.radius_m;
+        if (shadows > Real{smallest.gap_m}) continue;
+      }
+      if (const auto gap = static_cast<double>(signedGap(pa, pb)); gap < smallest.gap_m)
+        smallest = {gap, std::min(a.index, b.index), std::max(a.index, b.index)};
+    }
+}
+
 /// Over all pairs of bodies of which at least one can move.
 inline SmallestGap smallestGap(std::span<const PlacedSolid> bodies) {
-  std::vector<std::vector<PlacedConvex>> parts(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const ConvexPart& part : bodies[i].solid->parts()) parts[i].push_back(place(part, bodies[i].X_WB));
+  std::vector<BoundedBody> sorted;
+  sorted.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) sorted.emplace_back(bodies[i], static_cast<int>(i));
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const BoundedBody& a, const BoundedBody& b) { return a.low.x() < b.low.x(); });
   SmallestGap smallest;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      if (bodies[i].is_static && bodies[j].is_static) continue;
-      const double apart = (bodies[i].X_WB.position - bodies[j].X_WB.position).norm();
-      if (apart - bodies[i].solid->radius() - bodies[j].solid->radius() > smallest.gap_m) continue;
-      for (const PlacedConvex& a : parts[i])
-        for (const PlacedConvex& b : parts[j])
-          if (const auto gap = static_cast<double>(signedGap(a, b)); gap < smallest.gap_m)
-            smallest = {gap, static_cast<int>(i), static_cast<int>(j)};
-    }
+  // Boxes that meet first: where there are any, few of the others can be nearer.
+  for (const bool meeting : {true, false})
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+      for (std::size_t j = i + 1; j < sorted.size(); ++j) {
+        const Real reach = meeting ? Real{0} : Real{std::max(0.0, smallest.gap_m)};
+        if (sorted[j].low.x() - sorted[i].high.x() > reach) break;
+        if (sorted[i].is_static && sorted[j].is_static) continue;
+        const Real apart = sorted[i].boxDistance(sorted[j]);
+        if ((apart == Real{0}) == meeting && apart <= reach) lowerToPair(sorted[i], sorted[j], smallest);
+      }
   return smallest;
 }
 

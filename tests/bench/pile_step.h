@@ -1,0 +1,47 @@
+#pragma once
+// A settled heap in plain numbers, and how long each library takes to step it: all bodies begin at rest where
+// ours left them, nothing is allowed to sleep. Each library is one file, as with the queries (library.h).
+
+#include <array>
+#include <vector>
+
+#include "tests/bench/library.h"
+
+namespace carom {
+class World;
+}
+
+namespace carom::bench {
+
+struct PlainBody {
+  int solid = 0;
+  PlainPose X_WB;
+  bool is_static = false;
+};
+
+struct PlainSolid {
+  Hull hull;
+  std::array<double, 3> box_size{0, 0, 0};  ///< Of a box; zero for other hulls.
+  double mass = 0.0;                        ///< kg.
+  std::array<double, 6> inertia{};          ///< kg m^2 about the origin: xx, yy, zz, xy, xz, yz.
+};
+
+struct PlainPile {
+  std::vector<PlainSolid> solids;
+  std::vector<PlainBody> bodies;
+  double friction = 0.0;
+  double step_s = 1.0 / 60.0;
+  double gravity = 9.81;  ///< Along -z.
+};
+
+/// The bodies of a world as they stand; all of one material.
+PlainPile plainPile(const World& world);
+
+struct PileStepper {
+  const char* name;
+  std::vector<double> (*stepTimes_ms)(const PlainPile& pile, int steps);
+};
+/// Ours first, then the peers that were there when this was built.
+std::vector<PileStepper> pileSteppers();
+
+}  // namespace carom::bench
