@@ -13,6 +13,25 @@
 namespace carom::demos {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether writing there and renaming would put a file in the place of something that is none.
+bool isDeviceOrPipe(const fs::path& path) {
+  std::error_code unknown;
+  const fs::file_type type = fs::status(path, unknown).type();
+  return type == fs::file_type::character || type == fs::file_type::block || type == fs::file_type::fifo;
+}
+
+/// The file that a link names; any other path as it is.
+fs::path linkedFile(const fs::path& path) {
+  std::error_code unknown;
+  if (!fs::is_symlink(path, unknown)) return path;
+  const fs::path file = fs::canonical(path, unknown);
+  return unknown ? path : file;
+}
+
+}  // namespace
+
 void removeAbandoned(const fs::path& folder, const std::set<std::string>& names) {
   static const std::regex temporary("\\.(.+)\\.([0-9]{1,9})\\.partial");
   std::error_code none;
@@ -27,14 +46,20 @@ void removeAbandoned(const fs::path& folder, const std::set<std::string>& names)
   }
 }
 
-AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
-  std::error_code failed;
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
-  if (failed) fail(failed.message());
-  std::string name = ".";  // hidden, and of this process alone
-  name.append(path.filename().string()).append(".").append(std::to_string(::getpid())).append(".partial");
-  temporary_ = path.parent_path() / name;
-  file_.reset(std::fopen(temporary_.c_str(), "wb"));
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
+  if (!isDeviceOrPipe(path)) {
+    std::error_code failed;
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
+    if (failed) fail(failed.message());
+    target_ = linkedFile(path);
+    std::string name = ".";  // hidden, and of this process alone
+    name.append(target_.filename().string())
+        .append(".")
+        .append(std::to_string(::getpid()))
+        .append(".partial");
+    temporary_ = target_.parent_path() / name;
+  }
+  file_.reset(std::fopen((temporary_.empty() ? target_ : temporary_).c_str(), "wb"));
   if (!file_) fail(std::strerror(errno));
 }
 
@@ -56,12 +81,13 @@ void AtomicFile::write(std::span<const std::uint8_t> bytes) {
 
 void AtomicFile::commit() {
   if (std::fclose(file_.release()) != 0) fail(std::strerror(errno));
+  if (temporary_.empty()) return;
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(temporary_, failed);
   if (failed) fail(failed.message());
   if (size != written_)
     fail("only " + std::to_string(size) + " of " + std::to_string(written_) + " bytes arrived");
-  fs::rename(temporary_, path_, failed);
+  fs::rename(temporary_, target_, failed);
   if (failed) fail(failed.message());
   temporary_.clear();
 }

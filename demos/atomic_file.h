@@ -1,6 +1,7 @@
 #pragma once
 // A file that appears whole or not at all: written under a temporary name in the same folder, checked, then
-// renamed. A file that is given up (an exception, an interrupt) leaves nothing behind. Tested in
+// renamed. A file that is given up (an exception, an interrupt) leaves nothing behind. A link stays a link to
+// the file it names; a device or pipe (/dev/stdout, /dev/null) is never replaced but written to. Tested in
 // tests/demos/atomic_file_test.cpp.
 
 #include <cstdint>
@@ -38,8 +39,9 @@ class AtomicFile {
   };
   [[noreturn]] void fail(const std::string& reason) const;
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  std::filesystem::path path_;       ///< As it was given, for messages.
+  std::filesystem::path target_;     ///< What gets the bytes: `path_`, or the file that it links to.
+  std::filesystem::path temporary_;  ///< Empty for a device or pipe, and after commit.
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::uintmax_t written_ = 0;
 };

@@ -111,7 +111,8 @@ BaselineComparison comparedToBaseline(const BudgetResult& result, const Baseline
   BaselineComparison comparison{baseline.file, tolerance_percent, {}, BudgetVerdict::kWithin};
   const auto add = [&](const std::string& name, const std::string& figure, double before_ms, double now_ms,
                        const std::vector<double>& replays_ms) {
-    const double limit = before_ms + std::max(0.01 * tolerance_percent * before_ms, kLeastGrowth_ms);
+    const double limit = before_ms + std::max({0.01 * tolerance_percent * before_ms, kLeastGrowth_ms,
+                                               kLeastShareOfFrame * baseline.frame_mean_ms});
     comparison.changes.push_back(
         change(name, figure, before_ms, {limit, now_ms, replays_ms, result.evidence.outside_load}));
   };

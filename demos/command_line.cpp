@@ -8,7 +8,9 @@
 
 #include "demos/build_info.h"
 #include "demos/command.h"
+#include "demos/manual_page.h"
 #include "demos/nearest_name.h"
+#include "demos/shell_completion.h"
 
 namespace carom::demos {
 namespace {
@@ -99,6 +101,8 @@ struct CommandLine {
   DistanceOptions distance_options;
   CompareOptions compare_options;
   BudgetOptions budget_options;
+  bool wants_manual = false;
+  bool wants_completion = false;
   std::string size;
   std::string budget_size;
   std::string budget_tolerance;
@@ -129,6 +133,8 @@ CommandLine::CommandLine() {
       "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
       "            5 simulation invalid, 6 no renderer, 7 budget inconclusive,\n"
       "            128+n signal n");
+  app.add_flag("--manual-page", wants_manual, "Prints carom(1), as it is installed");
+  app.add_flag("--bash-completion", wants_completion, "Prints the completion for bash, as it is installed");
   list_command = app.add_subcommand("list", "The shipped scenes, one line each");
   list_command->add_flag("--json", list_options.json, "As a JSON array");
   list_command->footer("Example: carom list --json");
@@ -329,6 +335,42 @@ std::vector<std::string> optionNames(const CLI::App& command) {
   return names;
 }
 
+/// The words of "TEXT:{json,none,auto}", CLI11's name for a value that is one of a few.
+std::vector<std::string> choicesIn(const std::string& type) {
+  std::vector<std::string> words;
+  const std::size_t open = type.find('{'), close = type.find('}');
+  if (open == std::string::npos || close == std::string::npos) return words;
+  std::istringstream in(type.substr(open + 1, close - open - 1));
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+OptionDescription described(const CLI::Option& option) {
+  OptionDescription description;
+  for (const std::string& name : option.get_snames()) description.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) description.names.push_back("--" + name);
+  if (description.names.empty()) description.names.push_back(option.get_name(true));
+  description.takes_value = !option.get_positional() && option.get_expected_max() > 0;
+  description.choices = choicesIn(option.get_type_name());
+  description.text = option.get_description();
+  return description;
+}
+
+CommandDescription described(const CLI::App& command) {
+  CommandDescription description{command.get_name(), command.get_description(), {}, {}, command.get_footer()};
+  for (const CLI::Option* option : command.get_options())
+    (option->get_positional() ? description.arguments : description.options).push_back(described(*option));
+  return description;
+}
+
+ProgramDescription describedProgram(const CLI::App& app) {
+  ProgramDescription program{app.get_name(), programVersion(), app.get_description(), {}, {}};
+  for (const CLI::Option* option : app.get_options()) program.options.push_back(described(*option));
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    program.commands.push_back(described(*command));
+  return program;
+}
+
 /// Words that nothing wanted: a misspelt command or option, or one argument too many.
 void refuseExtras(const CommandLine& line) {
   const std::vector<CLI::App*> chosen = line.app.get_subcommands();
@@ -415,6 +457,11 @@ ExitCode runCommandLine(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     refuseExtras(line);  // a misspelt word is the better reason when there is one
     throw UsageError(oneLine(error.what()));
+  }
+  if (line.wants_manual || line.wants_completion) {
+    const ProgramDescription program = describedProgram(line.app);
+    std::cout << (line.wants_manual ? manualPage(program) : bashCompletion(program));
+    return ExitCode::kOk;
   }
   refuseExtras(line);
   checkValues(line);

@@ -41,19 +41,20 @@ bool sameBytes(const std::filesystem::path& a, const std::filesystem::path& b) {
   return in_a.eof() && in_b.eof();
 }
 
-/// `carom render` writes the scene's hash and the state's into every frame.
+/// `carom render` writes into every frame what it shows; the first of these that differs is the cause.
 std::string causeOf(const renderer::PngText& actual, const renderer::PngText& golden) {
   const std::map<std::string, std::string> a(actual.begin(), actual.end());
   const std::map<std::string, std::string> g(golden.begin(), golden.end());
-  const auto differs = [&](const char* key) -> std::optional<bool> {
-    if (!a.contains(key) || !g.contains(key)) return std::nullopt;
-    return a.at(key) != g.at(key);
-  };
-  if (differs("Scene").value_or(false)) return "the scene was edited";
-  const std::optional<bool> state = differs("State");
-  if (!state) return "";
-  if (*state) return "physics moved: state " + g.at("State") + " became " + a.at("State");
-  return "the renderer changed: same state " + g.at("State");
+  const auto both = [&](const char* key) { return a.contains(key) && g.contains(key); };
+  const auto differs = [&](const char* key) { return both(key) && a.at(key) != g.at(key); };
+  const auto change = [&](const char* key) { return g.at(key) + " became " + a.at(key); };
+  if (differs("Scene")) return "the scene was edited";
+  if (differs("Camera")) return "another camera: " + change("Camera");
+  if (differs("Time")) return "another time: " + change("Time") + " s";
+  if (differs("State")) return "physics moved: state " + change("State");
+  if (!both("State")) return "";
+  return "the renderer changed: same state " + g.at("State") +
+         (differs("Renderer") ? ", " + change("Renderer") : "");
 }
 
 void judge(const DecodedRaster& actual, const DecodedRaster& golden, const Gate& gate, Comparison& result) {

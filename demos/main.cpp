@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "demos/command_line.h"
@@ -12,6 +13,16 @@
 namespace {
 
 using namespace carom::demos;
+
+/// Descriptors 0 to 2 that were closed (`carom ... >&-`) are opened on /dev/null, or the first file that is
+/// written would take their number, and get what is meant for them. Data has nowhere to go, so that writing
+/// it fails; what is told is dropped.
+void occupyStandardDescriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1) continue;
+    if (::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY) != descriptor) std::abort();
+  }
+}
 
 int run(int argc, char** argv) {
   const ExitCode code = runCommandLine(argc, argv);
@@ -29,6 +40,7 @@ void tell(const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupyStandardDescriptors();
   try {
     return run(argc, argv);
   } catch (...) {

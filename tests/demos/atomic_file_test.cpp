@@ -1,6 +1,11 @@
 #include "demos/atomic_file.h"
 
+#include <array>
+
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "demos/asset_path.h"
 #include "demos/exit_code.h"
@@ -36,6 +41,39 @@ TEST(AtomicFile, GivenUpLeavesTheOlderFileAndNothingElse) {
     EXPECT_EQ(filesIn(folder.path()), 2u);
   }
   EXPECT_EQ(readTextFile(path), "old");
+  EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, ALinkGoesOnNamingTheFileThatIsReplaced) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "data");
+  const fs::path file = folder.file("data/run.csv", "old");
+  const fs::path link = folder.path() / "latest.csv";
+  fs::create_symlink("data/run.csv", link);
+  AtomicFile written(link);
+  written.write("new");
+  EXPECT_EQ(readTextFile(file), "old");
+  written.commit();
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(readTextFile(file), "new");
+  EXPECT_EQ(filesIn(folder.path() / "data"), 1u);
+}
+
+// As root, a rename would take /dev/null from the whole machine.
+TEST(AtomicFile, APipeOrDeviceIsWrittenToAndStays) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  AtomicFile written(pipe);
+  written.write("streamed");
+  written.commit();
+  std::array<char, 16> read_back{};
+  EXPECT_EQ(read(reader, read_back.data(), read_back.size()), 8);
+  EXPECT_STREQ(read_back.data(), "streamed");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_EQ(filesIn(folder.path()), 1u);
 }
 

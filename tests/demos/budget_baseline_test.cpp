@@ -50,6 +50,19 @@ TEST(BudgetBaseline, WithinTheToleranceAndFasterNothingIsNamed) {
             BudgetVerdict::kOver);
 }
 
+// 15 and 55 microseconds of a frame of about 9 ms: half a percent of it lies between.
+TEST(BudgetBaseline, APhaseThatIsNextToNothingIsNamedOnlyWhenTheFrameFeelsIt) {
+  const auto measured = [](double other_ms) {
+    const Replay replay = sampleReplay(120, [&](FrameCost& f) { phaseOf(f, FramePhase::kOther) = other_ms; });
+    return sampleResult(kGate, {replay, replay});
+  };
+  const Baseline baseline = savedAndRead(measured(0.015));
+  EXPECT_EQ(comparedToBaseline(measured(0.030), baseline, 10.0).verdict, BudgetVerdict::kWithin);
+  const BaselineComparison c = comparedToBaseline(measured(0.070), baseline, 10.0);
+  EXPECT_EQ(c.verdict, BudgetVerdict::kOver);
+  EXPECT_EQ(baselineLines(c)[0].rfind("slower: other, mean 0.07 ms, was 0.015 ms", 0), 0u);
+}
+
 TEST(BudgetBaseline, ASlowdownThatOthersLoadExplainsIsInconclusive) {
   const Baseline baseline = savedAndRead(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}));
   const BaselineComparison c = comparedToBaseline(slowedBy(FramePhase::kDraw, 1.2, 0.3), baseline, 10.0);

@@ -1,6 +1,7 @@
 // `carom budget` from outside: the verdicts with their exit codes, what is refused and how, the files.
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -71,15 +72,20 @@ TEST(Budget, ABudgetThatNothingCouldKeepEndsWith1) {
   EXPECT_NE(end.out.find("over 0.0001 ms: 20 of 20 frames"), std::string::npos) << end.out;
 }
 
-// The budget lies below what the burdened machine reaches, and well above what it would if the burden were
-// taken off with the margin: a no would be false, a yes is not proven.
-TEST(Budget, LoadFromOutsideEndsWith7) {
+// Budgets below what the burdened machine reaches: a no would be false, a yes is luck, and there is not luck
+// enough for all of them.
+TEST(Budget, LoadFromOutsideEndsWith7AndNeverWithAFalseNo) {
   const Burners burners;
   const ProgramEnd first = runCarom(quick({"--budget", "100000", "--json", "-"}));
   ASSERT_EQ(first.code, 0) << first.err;
-  const ProgramEnd end = runCarom(quick({"--budget", std::to_string(measured_ms(first) / 1.5)}));
-  EXPECT_EQ(end.code, 7) << end.out;
-  EXPECT_NE(end.out.find("\ninconclusive: p50 "), std::string::npos) << end.out;
+  for (const double part : {1.5, 3.0, 8.0, 15.0}) {
+    const ProgramEnd end = runCarom(quick({"--budget", std::to_string(measured_ms(first) / part)}));
+    if (end.code == 0) continue;
+    EXPECT_EQ(end.code, 7) << end.out;
+    EXPECT_NE(end.out.find("\ninconclusive: p50 "), std::string::npos) << end.out;
+    return;
+  }
+  FAIL() << "never inconclusive";
 }
 
 TEST(Budget, APercentileThatTheFramesCannotSupportIsRefusedWithTheNumberNeeded) {
@@ -128,6 +134,59 @@ TEST(Budget, JsonCsvAndTraceAreWholeAndSayTheSame) {
   for (const Json& event : trace.at("traceEvents").items())
     frames += event.at("ph").asString() == "X" && event.at("cat").asString() == "frame";
   EXPECT_EQ(frames, 20);
+}
+
+/// Complete events of one thread lie within one another or apart: what Perfetto draws as slices.
+void expectNested(std::vector<Json> spans) {
+  const auto begin = [](const Json& e) { return e.at("ts").asNumber(); };
+  const auto end = [&](const Json& e) { return begin(e) + e.at("dur").asNumber(); };
+  std::stable_sort(spans.begin(), spans.end(), [&](const Json& a, const Json& b) {
+    return begin(a) != begin(b) ? begin(a) < begin(b) : end(a) > end(b);
+  });
+  constexpr double kRounding_us = 1e-3;  // of doubles that hold hours in microseconds, with room
+  std::vector<const Json*> open;
+  for (const Json& span : spans) {
+    while (!open.empty() && end(*open.back()) <= begin(span) + kRounding_us) open.pop_back();
+    const bool is_frame = span.at("cat").asString() == "frame";
+    ASSERT_EQ(open.empty(), is_frame) << span.text();
+    if (!open.empty()) {
+      ASSERT_LE(end(span), end(*open.back()) + kRounding_us) << span.text();
+    }
+    open.push_back(&span);
+  }
+}
+
+// The Trace Event Format's JSON object form: every event with ph, name, pid, tid and a number ts; complete
+// events (X) with dur, counters (C) with numbers in args, metadata (M) with a name in args.
+TEST(Budget, TheTraceOfARunIsWhatTheTraceEventFormatAsksFor) {
+  const Program program({"budget", "fifty-bodies", "-q", "--size", "64x48", "--percentile", "50",
+                         "--duration", "0.5", "--replays", "2", "--budget", "100000", "--trace", "t.json"});
+  ASSERT_EQ(program.wait().code, 0);
+  const Json trace = Json::parse(readTextFile(program.folder() / "t.json"), "t.json");
+  EXPECT_EQ(trace.at("displayTimeUnit").asString(), "ms");
+  std::vector<Json> spans;
+  std::map<std::string, int> counts;
+  for (const Json& event : trace.at("traceEvents").items()) {
+    const std::string kind = event.at("ph").asString();
+    ++counts[kind];
+    EXPECT_FALSE(event.at("name").asString().empty());
+    EXPECT_EQ(event.at("pid").asNumber(), 1.0);
+    EXPECT_EQ(event.at("tid").asNumber(), 1.0);
+    EXPECT_GE(event.at("ts").asNumber(), 0.0);
+    if (kind == "X") {
+      EXPECT_GE(event.at("dur").asNumber(), 0.0);
+      spans.push_back(event);
+    } else if (kind == "C") {
+      for (const auto& [name, value] : event.at("args").members()) EXPECT_GE(value.asNumber(), 0.0) << name;
+    } else {
+      ASSERT_EQ(kind, "M");
+      EXPECT_FALSE(event.at("args").at("name").asString().empty());
+    }
+  }
+  EXPECT_EQ(counts["M"], 2);
+  EXPECT_EQ(counts["C"], 3 * 30);
+  EXPECT_GT(counts["X"], 30 * 5);
+  expectNested(std::move(spans));
 }
 
 TEST(Budget, ThePhasesOfEveryFrameAddUpToNoMoreThanTheFrame) {

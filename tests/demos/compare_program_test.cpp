@@ -200,6 +200,24 @@ TEST_F(Compare, DepthAndIdsAreGatedWithAllTheirBits) {
   EXPECT_EQ(run({"--tolerance16", "1"}).code, 0);
 }
 
+TEST_F(Compare, SixteenBitColoursAndGreysAreComparedToTheLastBitAndNeverWithEightBits) {
+  const Raster grey = flatRaster(40, 30, 40000, 1, 16), colour = flatRaster(40, 30, 40000, 3, 16);
+  add("colour.png", changed(colour, 5, 6, -7), colour);
+  add("grey.png", grey, grey);
+  add("same.png", grey, colour);
+  add("bits.png", flatRaster(40, 30, 156, 1, 8), grey);
+  const ProgramEnd end = run({"--tolerance", "255", "--differences", at("d").string()});
+  EXPECT_EQ(end.code, 1);
+  EXPECT_NE(end.out.find("colour.png  differs  largest 7/65535 at (5, 6) in red  1 pixel beyond 0/65535"),
+            std::string::npos)
+      << end.out;
+  EXPECT_NE(end.out.find("bits.png  size differs  40x30 8-bit grey, golden 40x30 16-bit grey"),
+            std::string::npos)
+      << end.out;
+  EXPECT_NE(end.out.find("3 of 5 pass"), std::string::npos) << end.out;
+  EXPECT_EQ(run({"--tolerance16", "7"}).out.find("colour.png"), std::string::npos);
+}
+
 TEST_F(Compare, AnInterruptLeavesNoHalfWrittenReport) {
   add("0.png", flatRaster(1600, 1200, 9), flatRaster(1600, 1200, 99));
   for (const char* folder : {"actual/", "golden/"})

@@ -98,6 +98,22 @@ TEST_F(Judged, PhysicsIsToldFromRendererByTheStateInTheFrames) {
   EXPECT_EQ(compared(pair(golden, golden, {{"State", "bb"}}, then), {}).cause, "");  // nothing to explain
 }
 
+// Frames of another moment or camera have other states or pixels without anything having moved or changed.
+TEST_F(Judged, AnotherCameraOrTimeIsNeitherPhysicsNorRenderer) {
+  const Raster golden = flatRaster(8, 6, 9), actual = flatRaster(8, 6, 99);
+  const PngText then{{"Renderer", "old"}, {"Camera", "main"}, {"Time", "0.5"}, {"State", "aa"}};
+  const auto cause = [&](const std::string& key, const std::string& value) {
+    PngText now = then;
+    for (auto& [name, text] : now)
+      if (name == key) text = value;
+    return compared(pair(actual, golden, now, then), {}).cause;
+  };
+  EXPECT_EQ(cause("Camera", "side"), "another camera: main became side");
+  EXPECT_EQ(cause("Time", "0.4"), "another time: 0.5 became 0.4 s");
+  EXPECT_EQ(cause("State", "bb"), "physics moved: state aa became bb");
+  EXPECT_EQ(cause("Renderer", "new"), "the renderer changed: same state aa, old became new");
+}
+
 TEST_F(Judged, SeveritySortsByVerdictThenPixelsThenDifferenceThenName) {
   const auto made = [](const std::string& name, Verdict verdict, std::int64_t beyond, int largest) {
     Comparison c;

@@ -4,6 +4,7 @@
 // tested beside it.
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "demos/asset_path.h"
 #include "demos/scene_file.h"
 #include "demos/scene_world.h"
+#include "png_files.h"
 #include "program_run.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/image_difference.h"
@@ -136,6 +138,48 @@ std::vector<fs::path> goldenFiles() {
       if (entry.path().extension() == ".png") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// A copy of a golden frame in a folder of its own, with the fifth row of pixels white, and another `State`
+/// where one is given; what `carom compare` says of it.
+ProgramEnd comparedWithChanged(const TemporaryFolder& folder, const fs::path& golden,
+                               const std::string& state) {
+  renderer::DecodedRaster frame = renderer::readPngRaster(golden);
+  const std::size_t row = static_cast<std::size_t>(frame.raster.width * frame.raster.channels);
+  std::fill_n(frame.raster.samples.begin() + static_cast<std::ptrdiff_t>(5 * row), row, std::uint16_t{255});
+  for (auto& [key, value] : frame.text)
+    if (key == "State" && !state.empty()) value = state;
+  writePng(folder.path() / "actual/frame_0001.png", frame.raster, frame.text);
+  fs::create_directory(folder.path() / "golden");
+  fs::copy_file(golden, folder.path() / "golden/frame_0001.png", fs::copy_options::overwrite_existing);
+  return runCarom({"compare", (folder.path() / "actual").string(), (folder.path() / "golden").string(), "-q",
+                   "--report", (folder.path() / "report.html").string()});
+}
+
+TEST(GoldenFramesOfAllScenes, HoldTheirStateAndAFailureTellsPhysicsFromRendererAndHowToAcceptIt) {
+  const TemporaryFolder folder;
+  const std::string paths = (folder.path() / "actual").string() + " " + (folder.path() / "golden").string();
+  const std::string advice = "report: " + (folder.path() / "report.html").string() +
+                             "; accept with: carom compare " + paths + " --update";
+  for (const fs::path& file : goldenFiles()) {
+    std::map<std::string, std::string> text;
+    for (const auto& [key, value] : renderer::readPngRaster(file).text) text[key] = value;
+    ASSERT_EQ(text["State"].size(), 16u) << file;
+    if (file.filename() != "frame_0001.png") continue;
+    const ProgramEnd renderer_changed = comparedWithChanged(folder, file, "");
+    EXPECT_EQ(renderer_changed.code, 1);
+    EXPECT_NE(renderer_changed.out.find("(the renderer changed: same state " + text["State"] + ")"),
+              std::string::npos)
+        << renderer_changed.out;
+    const ProgramEnd physics_moved = comparedWithChanged(folder, file, "0123456789abcdef");
+    EXPECT_EQ(physics_moved.code, 1);
+    EXPECT_NE(physics_moved.out.find("(physics moved: state " + text["State"] + " became 0123456789abcdef)"),
+              std::string::npos)
+        << physics_moved.out;
+    for (const ProgramEnd& end : {renderer_changed, physics_moved})
+      EXPECT_NE(end.err.find(advice), std::string::npos) << end.err;
+    EXPECT_TRUE(fs::exists(folder.path() / "report.html"));
+  }
 }
 
 // No golden frame could be taken for another: the gate tells any two apart.

@@ -24,11 +24,18 @@ struct ProgramEnd {
   std::string err;
 };
 
+/// Where standard output goes instead of to `ProgramEnd::out`: a descriptor of this process, or nowhere.
+struct Outlet {
+  static constexpr int kHeld = -1, kClosed = -2;
+  int descriptor = kHeld;
+};
+
 class Program {
  public:
   /// Starts it in a folder of its own with `environment` ("NAME=value") added.
   explicit Program(const std::vector<std::string>& arguments,
-                   const std::vector<std::string>& environment = {}) {
+                   const std::vector<std::string>& environment = {}, Outlet outlet = {})
+      : outlet_(outlet) {
     child_ = fork();
     if (child_ < 0) throw std::runtime_error("cannot fork");
     if (child_ == 0) exec(arguments, environment);
@@ -36,12 +43,13 @@ class Program {
 
   const std::filesystem::path& folder() const { return folder_.path(); }
   void signal(int number) const { kill(child_, number); }
+  pid_t id() const { return child_; }
 
   ProgramEnd wait() const {
     int status = 0;
     if (waitpid(child_, &status, 0) != child_) throw std::runtime_error("cannot wait");
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {code, readTextFile(out()), readTextFile(err())};
+    return {code, outlet_.descriptor == Outlet::kHeld ? readTextFile(out()) : "", readTextFile(err())};
   }
 
  private:
@@ -59,14 +67,17 @@ class Program {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const int out_file = open(out().c_str(), O_CREAT | O_WRONLY, 0600);
-    const int err_file = open(err().c_str(), O_CREAT | O_WRONLY, 0600);
+    const int held = open(out().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    const int err_file = open(err().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    const int out_file = outlet_.descriptor >= 0 ? outlet_.descriptor : held;
     const bool ready = chdir(folder_.path().c_str()) == 0 && dup2(out_file, 1) == 1 && dup2(err_file, 2) == 2;
+    if (outlet_.descriptor == Outlet::kClosed) close(1);
     if (ready) execv(argv[0], argv.data());
     _exit(127);
   }
 
   TemporaryFolder folder_, streams_;
+  Outlet outlet_;
   pid_t child_ = -1;
 };
 
