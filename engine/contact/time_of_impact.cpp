@@ -36,7 +36,7 @@ class Look {
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
     const Velocity va{a_.path->velocityAt(t), a_.path->spin};
     const Velocity vb{b_.path->velocityAt(t), b_.path->spin};
-    return c.n_W.dot(vb.at(c.p_B_W - b_.path->at(t).position) - va.at(c.p_A_W - a_.path->at(t).position));
+    return c.n_W.dot(vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
   }
 
   // The gap between the parts along a fixed direction; at most their distance.

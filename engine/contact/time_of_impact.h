@@ -42,8 +42,9 @@ struct TimeOfImpact {
   ClosestFeatures closest;  ///< At `time_s`, but for kClear and kPending: at the last look.
   int queries = 0;          ///< Closest-feature queries made.
   int newton_steps = 0;
-  int looks = 0;
-  double floor = 0.0;
+  int looks = 0;  ///< At the pair, the first without a query.
+  double floor =
+      0.0;  ///< The gap that the search keeps, m: the window's, or less where the pair began below.
 };
 
 /// The search before its first look. `at_begin`: the closest features at `begin_s`, which must be separated.

@@ -15,10 +15,15 @@ struct Trajectory {
   Vec3 acceleration = Vec3::Zero();
   Vec3 spin = Vec3::Zero();  ///< rad/s, world frame, constant.
 
+  Vec3 positionAt(double t_s) const {
+    const double t = t_s - start_s;
+    if (t == 0.0) return X_WB.position;
+    return X_WB.position + t * velocity + (0.5 * t * t) * acceleration;
+  }
   Pose at(double t_s) const {
     const double t = t_s - start_s;
-    if (t == 0.0) return X_WB;
-    Pose X{X_WB.rotation, X_WB.position + t * velocity + (0.5 * t * t) * acceleration};
+    Pose X{X_WB.rotation, positionAt(t_s)};
+    if (t == 0.0) return X;
     if (!spin.isZero(0.0)) X.rotation = (rotationBy(t * spin) * X_WB.rotation).normalized();
     return X;
   }

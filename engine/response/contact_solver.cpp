@@ -100,17 +100,28 @@ void sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool frict
   }
 }
 
+// The bodies that the rows refer to, ascending: of a world, those of one island.
+std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows) {
+  std::vector<std::size_t> bodies;
+  for (const ContactRow& row : rows) {
+    bodies.push_back(at(row.a));
+    bodies.push_back(at(row.b));
+  }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
 // Impulses and the velocities they give: a point, or a direction, of the search.
 struct Iterate {
   std::vector<Vec3> impulses;
   std::vector<Velocity> velocities;
 };
 
-Iterate iterateOf(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
-  Iterate iterate;
-  for (const ContactRow& row : rows) iterate.impulses.push_back(row.impulse);
-  for (const ImpulseBody& body : bodies) iterate.velocities.push_back(body.velocity);
-  return iterate;
+void store(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
+           std::span<const std::size_t> involved, Iterate& iterate) {
+  for (std::size_t i = 0; i < rows.size(); ++i) iterate.impulses[i] = rows[i].impulse;
+  for (std::size_t k = 0; k < involved.size(); ++k) iterate.velocities[k] = bodies[involved[k]].velocity;
 }
 
 // The squared length of the step that sweeps took, in the measure of energy.
@@ -125,19 +136,20 @@ double squaredStep(std::span<const ContactRow> rows, const Iterate& before) {
 }
 
 // direction = step + share * direction; the part of the old direction is taken as well.
-void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Iterate& before,
-                   double share, Iterate& direction) {
+void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                   std::span<const std::size_t> involved, const Iterate& before, double share,
+                   Iterate& direction) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vec3 kept = share * direction.impulses[i];
     direction.impulses[i] = rows[i].impulse - before.impulses[i] + kept;
     rows[i].impulse += kept;
   }
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Velocity& d = direction.velocities[i];
-    Velocity& v = bodies[i].velocity;
+  for (std::size_t k = 0; k < involved.size(); ++k) {
+    Velocity& d = direction.velocities[k];
+    Velocity& v = bodies[involved[k]].velocity;
     const Velocity kept{share * d.linear, share * d.angular};
-    d.linear = v.linear - before.velocities[i].linear + kept.linear;
-    d.angular = v.angular - before.velocities[i].angular + kept.angular;
+    d.linear = v.linear - before.velocities[k].linear + kept.linear;
+    d.angular = v.angular - before.velocities[k].angular + kept.angular;
     v.linear += kept.linear;
     v.angular += kept.angular;
   }
@@ -184,17 +196,19 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
                                  const SolverSettings& settings) {
   constexpr double kVisitAll = -1.0;
   SolverReport report;
-  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()), std::vector<Velocity>(bodies.size())};
+  const std::vector<std::size_t> involved = bodiesOf(rows);
+  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()), std::vector<Velocity>(involved.size())};
+  Iterate before = direction;
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
-    const Iterate before = iterateOf(rows, bodies);
+    store(rows, bodies, involved, before);
     sweep(rows, bodies, settings.friction, true, kVisitAll, report);
     sweep(rows, bodies, settings.friction, false, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
     if (report.residual_mps <= settings.residual_mps || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep(rows, before);
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth
-    continueAlong(rows, bodies, before, shrinks ? squared / last_squared : 0.0, direction);
+    continueAlong(rows, bodies, involved, before, shrinks ? squared / last_squared : 0.0, direction);
     last_squared = squared;
   }
   return report;

@@ -13,8 +13,7 @@ constexpr int kMostSweeps = 80;   // of one solve
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
-constexpr double kGapShare = 0.4;  // of the rest gap
-constexpr int kTurningRounds = 2;
+constexpr double kGapShare = 0.4;   // of the rest gap
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
 std::size_t at(int i) {
@@ -191,29 +190,11 @@ void ContactCluster::boundPaths() {
     prepareRow(rows_.back(), paths_);
   }
   solveSpreading(safeResidual());
-  for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solveSpreading(safeResidual());
-}
-
-bool ContactCluster::raiseForTurning() {
-  bool raised = false;
-  int last_pair = -1;
-  double speed = 0.0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (sources_[i].pair != last_pair) {
-      last_pair = sources_[i].pair;
-      const ShapePair& pair = table_.pairs()[at(last_pair)];
-      const auto a = at(rows_[i].a);
-      const auto b = at(rows_[i].b);
-      speed = turningSpeed(
-          pair, shapes_,
-          {bodies_[at(pair.body_a)].path.at(time_s_), paths_[a].velocity,
-           bodies_[at(pair.body_b)].path.at(time_s_), paths_[b].velocity, settings_.step_s - time_s_},
-          counters_);
-    }
-    rows_[i].lowest_speed += speed;
-    raised = raised || speed > 0.0;
+  const PathBounds bounds{bodies_, shapes_, table_.pairs(), time_s_, settings_.step_s - time_s_};
+  for (int round = 0; round < kTurningRounds; ++round) {
+    if (!raiseForTurning(bounds, sources_, paths_, rows_, counters_)) break;
+    solveSpreading(safeResidual());
   }
-  return raised;
 }
 
 }  // namespace carom

@@ -33,8 +33,9 @@ class ContactCluster {
   void begin(int pair, const ClosestFeatures& closest, double time_s);
   /// The collision at the contacts, between the bodies of the event alone or with all that they press.
   void collide(bool spreads);
-  /// Bounds the paths by the contacts: for the rest of the step no gap of theirs closes, and those below the
-  /// rest gap reopen. Paths begin as what `path` was set to, those of bodies that join as they are.
+  /// Bounds the paths by the contacts: by the end of the step no gap is to close below the rest gap, and
+  /// those that are lower reopen. Paths begin as what `path` was set to, those of bodies that join as they
+  /// are.
   void boundPaths();
 
   /// So much has been solved in this step that impulses spread no further.
@@ -62,7 +63,6 @@ class ContactCluster {
   void expand(int body);
   double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
   void startAgain();
-  bool raiseForTurning();
   void solveSpreading(double careful_mps);
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();

@@ -9,15 +9,49 @@ namespace {
 constexpr double kTurningShare = 0.2;  // of the rest gap: an approach by turning that nobody notices
 constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks for more
 
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Two parts that travel `dt_s` with these velocities from these poses.
+struct PairTravel {
+  Pose X_WA;
+  Velocity a;
+  Pose X_WB;
+  Velocity b;
+  double dt_s = 0.0;
+};
+
+// By how much, m/s, a pair's rows must part faster; 0 when it stays in the window, or nothing turns
+// noticeably.
+double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, const PairTravel& travel,
+                    StepCounters& counters) {
+  const Shape& a = shapes[at(pair.shapes.a)];
+  const Shape& b = shapes[at(pair.shapes.b)];
+  const double spin_a = travel.a.angular.norm();
+  const double spin_b = travel.b.angular.norm();
+  const double slide = (travel.b.linear - travel.a.linear).norm();
+  const double acceleration =
+      spin_a * (spin_a * a.reach_m + 2.0 * slide) + spin_b * (spin_b * b.reach_m + 2.0 * slide);
+  const double dt = travel.dt_s;
+  if (0.5 * acceleration * dt * dt <= kTurningShare * pair.window.rest) return 0.0;
+  const Trajectory path_a{0.0, travel.X_WA, travel.a.linear, Vec3::Zero(), travel.a.angular};
+  const Trajectory path_b{0.0, travel.X_WB, travel.b.linear, Vec3::Zero(), travel.b.angular};
+  FeaturePair tracked = pair.tracked;
+  const double gap = closestFeatures(*a.part, path_a.at(dt), *b.part, path_b.at(dt), tracked).distance_m;
+  ++counters.distance_queries;
+  const double wanted = pair.window.rest * (1.0 - tolerance::kRestBand);
+  return gap < kTurningGap * pair.window.rest ? (wanted - gap) / dt : 0.0;
+}
+
 }  // namespace
 
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
                 const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
                 std::vector<SourcedRow>& rows) {
-  const auto index = [](int i) { return static_cast<std::size_t>(i); };
   const ContactManifold manifold =
-      contactManifold(*request.closest, *shapes[index(pair.shapes.a)].part, request.X_WA,
-                      *shapes[index(pair.shapes.b)].part, request.X_WB, pair.window);
+      contactManifold(*request.closest, *shapes[at(pair.shapes.a)].part, request.X_WA,
+                      *shapes[at(pair.shapes.b)].part, request.X_WB, pair.window);
   for (const ManifoldPoint& point : manifold.view()) {
     SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m};
     ContactRow& row = sourced.row;
@@ -26,7 +60,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     row.n = point.n_W;
     row.r_a = point.p_W - request.X_WA.position;
     row.r_b = point.p_W - request.X_WB.position;
-    row.friction = combinedFriction(bodies[index(pair.body_a)].material, bodies[index(pair.body_b)].material);
+    row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
     prepareRow(row, solver_bodies);
     rows.push_back(sourced);
   }
@@ -53,24 +87,25 @@ GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bo
   return {0.0, std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed)};
 }
 
-double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, const PairTravel& travel,
-                    StepCounters& counters) {
-  const Shape& a = shapes[static_cast<std::size_t>(pair.shapes.a)];
-  const Shape& b = shapes[static_cast<std::size_t>(pair.shapes.b)];
-  const double spin_a = travel.a.angular.norm();
-  const double spin_b = travel.b.angular.norm();
-  const double slide = (travel.b.linear - travel.a.linear).norm();
-  const double acceleration =
-      spin_a * (spin_a * a.reach_m + 2.0 * slide) + spin_b * (spin_b * b.reach_m + 2.0 * slide);
-  const double dt = travel.dt_s;
-  if (0.5 * acceleration * dt * dt <= kTurningShare * pair.window.rest) return 0.0;
-  const Trajectory path_a{0.0, travel.X_WA, travel.a.linear, Vec3::Zero(), travel.a.angular};
-  const Trajectory path_b{0.0, travel.X_WB, travel.b.linear, Vec3::Zero(), travel.b.angular};
-  FeaturePair tracked = pair.tracked;
-  const double gap = closestFeatures(*a.part, path_a.at(dt), *b.part, path_b.at(dt), tracked).distance_m;
-  ++counters.distance_queries;
-  const double wanted = pair.window.rest * (1.0 - tolerance::kRestBand);
-  return gap < kTurningGap * pair.window.rest ? (wanted - gap) / dt : 0.0;
+bool raiseForTurning(const PathBounds& bounds, std::span<const SourcedRow> sources,
+                     std::span<const ImpulseBody> paths, std::span<ContactRow> rows, StepCounters& counters) {
+  bool raised = false;
+  int last_pair = -1;
+  double speed = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (sources[i].pair != last_pair) {
+      last_pair = sources[i].pair;
+      const ShapePair& pair = bounds.pairs[at(last_pair)];
+      const PairTravel travel{bounds.bodies[at(pair.body_a)].path.at(bounds.time_s),
+                              paths[at(rows[i].a)].velocity,
+                              bounds.bodies[at(pair.body_b)].path.at(bounds.time_s),
+                              paths[at(rows[i].b)].velocity, bounds.rest_of_step_s};
+      speed = turningSpeed(pair, bounds.shapes, travel, counters);
+    }
+    rows[i].lowest_speed += speed;
+    raised = raised || speed > 0.0;
+  }
+  return raised;
 }
 
 }  // namespace carom

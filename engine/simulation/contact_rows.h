@@ -46,19 +46,20 @@ struct GapSpeeds {
 };
 GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses = false);
 
-/// Two parts that travel `dt_s` with these velocities from these poses.
-struct PairTravel {
-  Pose X_WA;
-  Velocity a;
-  Pose X_WB;
-  Velocity b;
-  double dt_s = 0.0;
+/// Where rows are that bound paths: the bodies' poses at `time_s`, and from there the rest of the step.
+struct PathBounds {
+  const std::vector<Body>& bodies;
+  const std::vector<Shape>& shapes;
+  const std::vector<ShapePair>& pairs;
+  double time_s = 0.0;
+  double rest_of_step_s = 0.0;
 };
 
 /// Rows are linear in time, but what turns while it slides along another approaches it with the square of the
-/// time. By how much, m/s, a pair's rows must part faster for the pair to end the travel in the window; 0
-/// when it does, or when nothing turns noticeably.
-double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, const PairTravel& travel,
-                    StepCounters& counters);
+/// time. Raises the lowest speeds of pairs that would not end the step in the window on these `paths`
+/// (indexed by the rows, which stand in the order of `sources`); whether there were any.
+bool raiseForTurning(const PathBounds& bounds, std::span<const SourcedRow> sources,
+                     std::span<const ImpulseBody> paths, std::span<ContactRow> rows, StepCounters& counters);
+inline constexpr int kTurningRounds = 2;  ///< Of raising and solving again.
 
 }  // namespace carom

@@ -1,9 +1,9 @@
 #pragma once
-// Advancing to the next time of impact (paper §1 and §2.3), pair by pair: an event brings only the bodies that
-// its impulses reach to its time and gives them new paths from there; only their pairs are searched anew, and
-// every search only as far as events come. The others wait on their own paths. A body that has had its budget
-// of events is held at its last safe time: accuracy is lost and counted, the gap is not. Internal to the
-// simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
+// Advancing to the next time of impact (paper §1 and §2.3), pair by pair: an event brings only the bodies
+// that its impulses reach to its time and gives them new paths from there; only their pairs are searched
+// anew, and every search only as far as events come. The others wait on their own paths. A body that has had
+// its budget of events is held at its last safe time: accuracy is lost and counted, the gap is not. Internal
+// to the simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
 
 #include "engine/simulation/lasting_contact.h"
 

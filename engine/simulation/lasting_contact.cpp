@@ -10,7 +10,6 @@ namespace carom {
 namespace {
 
 constexpr int kPathSweeps = 60;
-constexpr int kTurningRounds = 2;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -127,28 +126,6 @@ void giveGravity(LastingContacts& contacts, const std::vector<Body>& bodies, con
       contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
 }
 
-// Whether rows had to be raised so that what turns stays in the window.
-bool raiseForTurning(const Assembly& assembly, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const std::vector<ShapePair>& pairs,
-                     std::span<const ImpulseBody> paths, double step_s, std::span<ContactRow> rows,
-                     StepCounters& counters) {
-  bool raised = false;
-  int last_pair = -1;
-  double speed = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (assembly.sources[i].pair != last_pair) {
-      last_pair = assembly.sources[i].pair;
-      const ShapePair& pair = pairs[at(last_pair)];
-      const PairTravel travel{bodies[at(pair.body_a)].X_WB, paths[at(pair.body_a)].velocity,
-                              bodies[at(pair.body_b)].X_WB, paths[at(pair.body_b)].velocity, step_s};
-      speed = turningSpeed(pair, shapes, travel, counters);
-    }
-    rows[i].lowest_speed += speed;
-    raised = raised || speed > 0.0;
-  }
-  return raised;
-}
-
 // The path of a pressed body: the mean of the velocities before and after, which is exact for constant
 // friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that reopening
 // a gap gives no energy.
@@ -172,7 +149,8 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
   const double coarse_residual = kPathShare * smallest_rest_gap / step_s;
   solvePaths(assembly, rows, paths, coarse_residual);
   for (int round = 0; round < kTurningRounds; ++round) {
-    if (!raiseForTurning(assembly, bodies, shapes, pairs, paths, step_s, rows, counters)) break;
+    if (!raiseForTurning({bodies, shapes, pairs, 0.0, step_s}, assembly.sources, paths, rows, counters))
+      break;
     solvePaths(assembly, rows, paths, coarse_residual);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {

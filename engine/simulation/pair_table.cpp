@@ -121,10 +121,9 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
   counters.candidate_pairs = static_cast<int>(pairs_.size());
 }
 
-std::size_t PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
-                              const std::vector<Shape>& shapes, const WorldSettings& settings,
-                              StepCounters& counters, PhaseClock* clock) {
-  const std::size_t first_new = pairs_.size();
+void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
+                       const std::vector<Shape>& shapes, const WorldSettings& settings,
+                       StepCounters& counters, PhaseClock* clock) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].body != body) continue;
     const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, settings.step_s);
@@ -149,7 +148,6 @@ std::size_t PairTable::extend(int body, double time_s, const std::vector<Body>& 
       link(pairs_.size() - 1);
     }
   }
-  return first_new;
 }
 
 bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,

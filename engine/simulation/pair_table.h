@@ -39,10 +39,8 @@ class PairTable {
   void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
-  /// Returns the index of the first new pair.
-  std::size_t extend(int body, double time_s, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const WorldSettings& settings, StepCounters& counters,
-                     PhaseClock* clock);
+  void extend(int body, double time_s, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+              const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
   /// Whether some body's path leaves the bounds it was paired by.
   bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         double end_s) const;
