@@ -34,8 +34,8 @@ class Look {
   }
 
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
-    const Velocity va{a_.path->velocityAt(t), a_.path->spin};
-    const Velocity vb{b_.path->velocityAt(t), b_.path->spin};
+    const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};
+    const Velocity vb{b_.path->velocityAt(t), b_.path->angularVelocityAt(t)};
     return c.n_W.dot(vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
   }
 
@@ -51,13 +51,17 @@ class Look {
 
   double curvatureBound(const Vec3& n) const {
     return std::abs(n.dot(b_.path->acceleration - a_.path->acceleration)) +
-           a_.path->spin.squaredNorm() * a_.reach_m + b_.path->spin.squaredNorm() * b_.reach_m;
+           a_.path->turningAcceleration() * a_.reach_m + b_.path->turningAcceleration() * b_.reach_m;
+  }
+
+  static double turningSpeed(const Trajectory& path, const Vec3& n) {
+    return path.tumbling.inertia == nullptr ? n.cross(path.spin).norm() : path.fastestSpin();
   }
 
   // A speed that no two points of the parts separate slower than along n, but for the curvature.
   double slowestSpeed(double t, const Vec3& n) const {
-    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) -
-           n.cross(a_.path->spin).norm() * a_.reach_m - n.cross(b_.path->spin).norm() * b_.reach_m;
+    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) - turningSpeed(*a_.path, n) * a_.reach_m -
+           turningSpeed(*b_.path, n) * b_.reach_m;
   }
 
   // The longest interval from `begin`, among those Newton proposes, over which the gap along n stays >=

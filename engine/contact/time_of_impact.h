@@ -4,7 +4,8 @@
 //
 // The search never trusts d(t) between two looks at it. With the direction n of the closest features held
 // fixed, the gap along n between the parts bounds d(t) from below, and every vertex moves along n with a
-// second derivative of at most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B. A function with that bound
+// second derivative of at most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B (twice the latter for bodies
+// that tumble). A function with that bound
 // stays above its chord less M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower
 // bound for all of it. Newton's step towards the landing gap (with the paper's linear correction as its
 // guard) only proposes the interval. Invariant: up to the returned time the distance is >= the floor. Valid

@@ -26,7 +26,30 @@ void turnAboutAxis(int axis, double rate_per_momentum, double dt_s, Quat& R, Vec
 // A second-order step forwards, back and forwards makes a fourth-order one (Yoshida 1990): 1 / (2 - 2^(1/3)).
 constexpr double kOuterShare = 1.3512071919596578;
 constexpr double kFourthOrder[] = {kOuterShare, 1.0 - 2.0 * kOuterShare, kOuterShare};
-constexpr double kPartTurn = 0.1;  // rad in one such step
+constexpr double kPartTurn = 0.1;     // rad in one such step
+constexpr double kTumbleTurn = 0.01;  // the same where the energy of single impacts hangs on it
+constexpr double kMostParts = 256.0;  // beyond some ten radians a step the energy becomes less exact
+
+// Torque-free rotation in equal steps. 1/I = 1/I_middle + (the rest): the first turns the body about the
+// momentum, whatever the others do.
+Quat rotatedFreely(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, double dt_s, int parts) {
+  const Vec3& moments = inertia.principal_moments;
+  const double low_rate = 1.0 / moments[0] - 1.0 / moments[1];
+  const double high_rate = 1.0 / moments[2] - 1.0 / moments[1];
+  Quat R = R_WB * Quat(inertia.principal_axes_B);
+  Vec3 momentum_P = R.conjugate() * momentum;
+  if (low_rate != 0.0 || high_rate != 0.0) {
+    for (int i = 0; i < parts; ++i) {
+      for (double share : kFourthOrder) {
+        const double h = share * dt_s / parts;
+        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
+        turnAboutAxis(0, low_rate, h, R, momentum_P);
+        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
+      }
+    }
+  }
+  return rotationBy((dt_s / moments[1]) * momentum) * R * Quat(inertia.principal_axes_B).conjugate();
+}
 
 }  // namespace
 
@@ -63,30 +86,34 @@ double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& v
          0.5 * velocity.angular.dot(angularMomentum(inertia, R_WB, velocity.angular));
 }
 
+Tumbling tumbling(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double longest_s) {
+  const Vec3 momentum = angularMomentum(inertia, R_WB, angular_velocity);
+  // I_smallest omega^2 <= omega . I omega, at all times.
+  const double fastest = std::sqrt(angular_velocity.dot(momentum) / inertia.principal_moments[0]);
+  // The two rotations of the splitting; with one of them alone, about an axis of symmetry, it is exact.
+  const Vec3& moments = inertia.principal_moments;
+  const double low_turn = (1.0 / moments[0] - 1.0 / moments[1]) * momentum.norm() * longest_s;
+  const double high_turn = (1.0 / moments[1] - 1.0 / moments[2]) * momentum.norm() * longest_s;
+  const double parts = std::sqrt(std::max(0.0, low_turn * high_turn)) / kTumbleTurn;
+  return {&inertia, momentum, fastest, 1 + static_cast<int>(std::min(parts, kMostParts))};
+}
+
+Quat rotationAfter(const Tumbling& tumbling, const Quat& R_WB, double dt_s) {
+  return rotatedFreely(*tumbling.inertia, R_WB, tumbling.momentum, dt_s, tumbling.parts);
+}
+
+double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
+  const Vec3 torque = angularMomentum(inertia, R_WB, angular_velocity).cross(angular_velocity);
+  return angularVelocity(inertia, R_WB, torque).norm() * dt_s * dt_s / 8.0;
+}
+
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
   const double speed = angular_velocity.norm();
   if (speed == 0.0) return angular_velocity;
   const double dt = std::min(dt_s, kLargestTurn / speed);
   const Vec3 momentum = angularMomentum(inertia, R_WB, angular_velocity);
-  const Vec3& moments = inertia.principal_moments;
-  // 1/I = 1/I_middle + (the rest): the first turns the body about the momentum, whatever the others do.
-  const double low_rate = 1.0 / moments[0] - 1.0 / moments[1];
-  const double high_rate = 1.0 / moments[2] - 1.0 / moments[1];
-  Quat R = R_WB * Quat(inertia.principal_axes_B);
-  Vec3 momentum_P = R.conjugate() * momentum;
-  if (low_rate != 0.0 || high_rate != 0.0) {
-    const int parts = static_cast<int>(std::ceil(speed * std::abs(dt) / kPartTurn));
-    for (int i = 0; i < parts; ++i) {
-      for (double share : kFourthOrder) {
-        const double h = share * dt / parts;
-        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
-        turnAboutAxis(0, low_rate, h, R, momentum_P);
-        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
-      }
-    }
-  }
-  R = rotationBy((dt / moments[1]) * momentum) * R * Quat(inertia.principal_axes_B).conjugate();
-  return rotationOf(R * R_WB.conjugate()) / dt;
+  const int parts = static_cast<int>(std::ceil(speed * std::abs(dt) / kPartTurn));
+  return rotationOf(rotatedFreely(inertia, R_WB, momentum, dt, parts) * R_WB.conjugate()) / dt;
 }
 
 }  // namespace carom

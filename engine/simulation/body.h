@@ -23,7 +23,8 @@ struct Body {
   bool is_static = false;
   bool resting = false;
   int rest_island = -1;
-  double still_s = 0.0;  ///< For how long it has lain still.
+  bool supported = false;  ///< Static, resting, or pressed by lasting contact in the last step.
+  double still_s = 0.0;    ///< For how long it has lain still.
   Mode mode = Mode::kFree;
 
   Pose X_WB;          ///< At the time of the last finished step.
@@ -54,6 +55,22 @@ struct Body {
             is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
   }
 };
+
+/// Where constant spin misses the orientation of a free body by more radians than this, impacts with
+/// restitution would not find the energy that the body has.
+inline constexpr double kTumblingMiss = 1e-9;
+inline constexpr double kLargestSpinTurn = 2.0;  ///< rad in a step: beyond it no constant spin is near.
+
+/// Lets the body's path, which starts with its momentum velocity, turn torque-free for `dt_s` seconds.
+inline void turnFreely(Body& body, double dt_s) {
+  const Quat& R = body.path.X_WB.rotation;
+  const Vec3& omega = body.momentum_velocity.angular;
+  body.path.turnAt(torqueFreeSpin(body.inertia, R, omega, dt_s));
+  const double miss = tumblingMiss(body.inertia, R, omega, dt_s);
+  const bool fast = omega.norm() * dt_s > kLargestSpinTurn;
+  if (miss > kTumblingMiss && (body.material.restitution > 0.0 || fast))
+    body.path.tumbling = tumbling(body.inertia, R, omega, dt_s);
+}
 
 /// One convex part of one body: what the broad phase pairs.
 struct Shape {

@@ -49,7 +49,7 @@ int ContactCluster::join(int index) {
   member.expanded = body.is_static;
   if (!body.is_static) {
     member.momentum_before = body.velocityAt(time_s_);
-    member.path_before = {body.path.velocityAt(time_s_), body.path.spin};
+    member.path_before = {body.path.velocityAt(time_s_), body.path.angularVelocityAt(time_s_)};
   }
   members_.push_back(member);
   momentum_.push_back(body.impulseBody(body.path.at(time_s_), member.momentum_before));

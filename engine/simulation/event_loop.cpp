@@ -173,8 +173,7 @@ class EventLoop {
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) continue;
       body.path.velocity = body.momentum_velocity.linear;
-      body.path.spin = torqueFreeSpin(body.inertia, body.path.X_WB.rotation, body.momentum_velocity.angular,
-                                      settings_.step_s - time_s);
+      turnFreely(body, settings_.step_s - time_s);
       if (bounds) carry(body, settings_.step_s - time_s);
       cluster_.path(i) = {body.path.velocity, body.path.spin};
     }
@@ -207,7 +206,7 @@ class EventLoop {
         changed_.push_back(index);
       }
       body.path.velocity = cluster_.path(i).linear;
-      body.path.spin = cluster_.path(i).angular;
+      body.path.turnAt(cluster_.path(i).angular);
     }
   }
 
@@ -218,7 +217,7 @@ class EventLoop {
     body.travel = Travel::kHeld;
     body.path.velocity.setZero();
     body.path.acceleration.setZero();
-    body.path.spin.setZero();
+    body.path.turnAt(Vec3::Zero());
     ++counters_.stopped_bodies;
   }
 

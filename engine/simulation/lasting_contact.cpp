@@ -45,7 +45,9 @@ void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::ve
   for (SourcedRow& sourced : rows) {
     ContactRow& row = sourced.row;
     // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution.
-    if (rowVelocity(row, assembly.contacts.bodies).x() < -pair.collision_speed_mps) continue;
+    const double speed = rowVelocity(row, assembly.contacts.bodies).x();
+    if (speed < -pair.collision_speed_mps) continue;
+    if (pair.restitution > 0.0 && speed > pair.collision_speed_mps) continue;  // so will one that bounces up
     warmStart(row, pair, sourced.id);
     row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s, row.impulse.x() > 0.0).momentum;
     assembly.sources.push_back(sourced);
@@ -158,7 +160,7 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
     bodies[i].travel = Travel::kCarried;
     bodies[i].momentum_velocity = assembly.contacts.bodies[i].velocity;
     bodies[i].path.velocity = paths[i].velocity.linear;
-    bodies[i].path.spin = paths[i].velocity.angular;
+    bodies[i].path.turnAt(paths[i].velocity.angular);
     bodies[i].path.acceleration.setZero();
   }
 }

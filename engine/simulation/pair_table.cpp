@@ -4,11 +4,15 @@
 #include <cmath>
 
 #include "engine/foundation/contract.h"
+#include "engine/simulation/contact_rows.h"
 
 namespace carom {
 namespace {
 
-constexpr double kLeastGravity = 0.01;   // m/s^2: 6 mm/s for parts a metre wide
+constexpr double kLeastGravity = 0.01;          // m/s^2: 6 mm/s for parts a metre wide
+constexpr double kShortestBounce = 1.0 / 32.0;  // half a bounce, in steps
+constexpr double kLivelyShare = 4.0;            // from e = 0.75 on slow bounces last long enough to be seen
+constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
 std::size_t at(int i) {
@@ -37,7 +41,7 @@ Bounds sweptBounds(const Shape& shape, const Trajectory& path, double end_s) {
   const double dt = end_s - path.start_s;
   const Vec3 travel = path.at(end_s).position - path.X_WB.position;
   const double sag = 0.125 * path.acceleration.norm() * dt * dt;
-  const double turn = std::min(path.spin.norm() * dt, 2.0) * shape.reach_m;
+  const double turn = std::min(path.fastestSpin() * dt, 2.0) * shape.reach_m;
   const double margin = turn + sag;
   bounds.low = bounds.low + travel.cwiseMin(0.0) - Vec3::Constant(margin);
   bounds.high = bounds.high + travel.cwiseMax(0.0) + Vec3::Constant(margin);
@@ -49,6 +53,25 @@ Bounds widened(Bounds bounds, double margin) {
   bounds.low.array() -= margin;
   bounds.high.array() += margin;
   return bounds;
+}
+
+// What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
+// contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
+// only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
+// gravity never brings them together again. A trace of it always remains, or the rounding of a finished
+// collision would be taken for another.
+double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, const WorldSettings& settings) {
+  const auto given = [&](double gravity) {
+    return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling),
+                    kStepsOfGravity * gravity * settings.step_s);
+  };
+  const double gravity = std::max(settings.gravity.norm(), kLeastGravity);
+  const double e = pair.restitution;
+  if (e == 0.0) return given(gravity);
+  const bool both_fall = !bodies[at(pair.body_a)].supported && !bodies[at(pair.body_b)].supported;
+  const double share = both_fall ? kFallingShare * (1.0 - e) : kLivelyShare * (1.0 - e);
+  const double shortest = both_fall ? 0.0 : kShortestBounce * gravity * settings.step_s;
+  return std::max({std::min(share, 1.0) * given(gravity), shortest, given(kLeastGravity)});
 }
 
 double pairingMargin(const Shape& shape) {
@@ -71,8 +94,8 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   }
 }
 
-ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes,
-                              const WorldSettings& settings) const {
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
+                              const std::vector<Shape>& shapes, const WorldSettings& settings) const {
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   const Shape& a = shapes[at(shapes_of_pair.a)];
@@ -80,12 +103,8 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Shape>
   pair.body_a = a.body;
   pair.body_b = b.body;
   pair.window = collisionWindow(*a.part, *b.part);
-  // What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
-  // contact. Without gravity a trace of it remains, or the rounding of a finished collision would be taken
-  // for another.
-  const double gravity = std::max(settings.gravity.norm(), kLeastGravity);
-  pair.collision_speed_mps =
-      std::max(std::sqrt(2.0 * gravity * pair.window.ceiling), kStepsOfGravity * gravity * settings.step_s);
+  pair.restitution = combinedRestitution(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
+  pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
   return pair;
 }
 
@@ -104,9 +123,10 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
     while (old != pairs_.end() && old->shapes < shapes_of_pair) ++old;
     if (old != pairs_.end() && old->shapes == shapes_of_pair) {
       fresh.push_back(*old);
+      fresh.back().collision_speed_mps = collisionSpeed(*old, bodies, settings);
       continue;
     }
-    ShapePair pair = makePair(shapes_of_pair, shapes, settings);
+    ShapePair pair = makePair(shapes_of_pair, bodies, shapes, settings);
     const PhaseScope phase(clock, StepPhase::kClosestFeatures);
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
@@ -138,7 +158,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
             return pairs_[at(p)].shapes == IndexPair{low, high};
           }))
         continue;
-      ShapePair pair = makePair({low, high}, shapes, settings);
+      ShapePair pair = makePair({low, high}, bodies, shapes, settings);
       const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =
           closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),

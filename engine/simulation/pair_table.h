@@ -23,7 +23,8 @@ struct ShapePair {
   int body_a = -1;
   int body_b = -1;
   CollisionWindow window;
-  double collision_speed_mps = 0.0;
+  double restitution = 0.0;
+  double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
   FeaturePair tracked;
   ClosestFeatures closest;  ///< At the end of the last step.
   int remembered_count = 0;
@@ -53,8 +54,8 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Shape>& shapes,
-                     const WorldSettings& settings) const;
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const WorldSettings& settings) const;
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;

@@ -99,7 +99,7 @@ void World::Impl::planFlight(PhaseClock* clock) {
     if (!body.moves()) continue;
     body.path.velocity = body.velocity.linear;
     body.path.acceleration = settings.gravity;
-    body.path.spin = torqueFreeSpin(body.inertia, body.X_WB.rotation, body.velocity.angular, settings.step_s);
+    turnFreely(body, settings.step_s);
   }
 }
 
@@ -203,6 +203,7 @@ void World::Impl::restIslands(const LastingContacts& contacts) {
 void World::Impl::updateModes(const LastingContacts& contacts) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
+    body.supported = !body.moves() || contacts.touched[i];
     if (body.is_static)
       body.mode = Mode::kStatic;
     else if (body.resting)
@@ -246,6 +247,7 @@ int World::addBody(const BodyDescription& description) {
   const Solid& solid = impl_->solids[at(description.solid)];
   Body body;
   body.is_static = description.is_static;
+  body.supported = body.is_static;
   body.material = description.material;
   body.radius_m = solid.radius();
   if (!body.is_static)

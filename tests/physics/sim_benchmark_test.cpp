@@ -17,5 +17,19 @@ TEST(SimBenchmark, BouncingBalls_KeepTheirEnergyForTwentySeconds) {
   EXPECT_GT(scene.smallest_gap_m(), 0.0);
 }
 
+class ElasticCube : public testing::TestWithParam<std::tuple<double, double>> {};  // step, length; s
+
+TEST_P(ElasticCube, KeepsItsEnergy) {
+  const auto [step_s, length_s] = GetParam();
+  ElasticBalls scene = ElasticBalls::cube(step_s, 1);
+  scene.run(length_s);
+  EXPECT_LE(scene.meanSquare(), 1e-3) << "worst " << scene.worst_J() << " J of " << scene.begin_J();
+  EXPECT_EQ(scene.held(), 0);
+  EXPECT_GT(scene.smallest_gap_m(), 0.0);
+}
+
+// The first blows fall 0.45 s after the start; within the second all 216 have met.
+INSTANTIATE_TEST_SUITE_P(Steps, ElasticCube, testing::Values(std::tuple(0.01, 1.5), std::tuple(0.001, 1.0)));
+
 }  // namespace
 }  // namespace carom::physics

@@ -183,5 +183,76 @@ TEST(TorqueFreeRotation, RunsBackwardsToWhereItCameFrom) {
   EXPECT_LT(body.R.angularDistance(R0), 1e-7);
 }
 
+// Euler's equations by small steps of the classical fourth-order Runge-Kutta method: dR/dt = omega R with
+// omega = I^-1 L, the quaternion as four numbers.
+Quat turnedByEuler(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, double dt_s) {
+  using Vec4 = Eigen::Vector4d;
+  const auto slope = [&](const Vec4& q) -> Vec4 {
+    const Quat R = Quat(q).normalized();
+    const Vec3 w = angularVelocity(inertia, R, momentum);
+    return 0.5 * (Quat(0.0, w.x(), w.y(), w.z()) * Quat(q)).coeffs();
+  };
+  const int steps = 2000;
+  const double h = dt_s / steps;
+  Vec4 q = R_WB.coeffs();
+  for (int i = 0; i < steps; ++i) {
+    const Vec4 k1 = slope(q), k2 = slope(q + 0.5 * h * k1), k3 = slope(q + 0.5 * h * k2),
+               k4 = slope(q + h * k3);
+    q += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  return Quat(q).normalized();
+}
+
+TEST(Tumbling, IsTheSolutionOfEulersEquationsAtEveryInstant) {
+  Random random(34);
+  const double longest = 1.0 / 30;
+  for (int i = 0; i < 60; ++i) {
+    const Box box({random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1)});
+    const Quat R = random.rotation();
+    const Vec3 w = random.uniform(1, 40) * random.direction();
+    const Tumbling free = tumbling(box.inertia, R, w, longest);
+    for (double share : {0.25, 0.7, 1.0}) {
+      const Quat expected = turnedByEuler(box.inertia, R, free.momentum, share * longest);
+      ASSERT_LT((rotationAfter(free, R, share * longest).toRotationMatrix() - expected.toRotationMatrix())
+                    .lpNorm<Eigen::Infinity>(),
+                2e-9)
+          << box.size.transpose() << " spin " << w.norm();
+    }
+  }
+}
+
+TEST(Tumbling, OfASymmetricBodyPrecessesExactly_HoweverFast) {
+  const Box box({0.4, 0.4, 1.2});
+  const Quat R = oracle::turned({2, -1, 1}, 0.9);
+  for (double speed : {1.0, 30.0, 500.0}) {
+    const Tumbling free = tumbling(box.inertia, R, speed * (R * Vec3(0.2, 0.0, 0.9)), 1.0 / 30);
+    const Vec3& L = free.momentum;
+    const Vec3 axis =
+        Eigen::AngleAxisd(L.norm() / box.inertia.tensor_B(0, 0) / 30.0, L.normalized()) * (R * Vec3::UnitZ());
+    EXPECT_LT((rotationAfter(free, R, 1.0 / 30) * Vec3::UnitZ() - axis).norm(), 1e-12 * (1 + speed));
+    EXPECT_LE(free.parts, 2);
+  }
+}
+
+TEST(Tumbling, NeverSpinsFasterThanItsBound_AndConstantSpinMissesItByNoMoreThanSaid) {
+  Random random(35);
+  const double dt = 1.0 / 60;
+  for (int i = 0; i < 300; ++i) {
+    const Box box({random.uniform(0.05, 1), random.uniform(0.05, 1), random.uniform(0.05, 1)});
+    const Quat R = random.rotation();
+    const Vec3 w = random.uniform(0.5, 12) * random.direction();
+    const Tumbling free = tumbling(box.inertia, R, w, dt);
+    const Vec3 spin = torqueFreeSpin(box.inertia, R, w, dt);
+    double miss = 0.0;
+    for (int k = 0; k <= 20; ++k) {
+      const Quat now = rotationAfter(free, R, k * dt / 20);
+      EXPECT_LE(angularVelocity(box.inertia, now, free.momentum).norm(), (1 + 1e-9) * free.fastest_spin);
+      miss = std::max(miss, rotationOf(now * (rotationBy(k * dt / 20 * spin) * R).conjugate()).norm());
+    }
+    // The estimate is of the first order in the turn of a step, some 0.2 rad.
+    EXPECT_LE(miss, 1.5 * tumblingMiss(box.inertia, R, w, dt) + 1e-12) << i;
+  }
+}
+
 }  // namespace
 }  // namespace carom
