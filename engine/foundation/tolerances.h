@@ -31,6 +31,8 @@ inline constexpr double kGapSpeed = 0.1;                 // m/s at most while re
 // Events of one step and body.
 inline constexpr int kPairEvents = 8;      // up to here elastic events are solved between their two bodies
 inline constexpr int kEventsPerBody = 24;  // up to here with all that these press; then the body is held
+inline constexpr double kLively = 0.75;    // Restitution from which on events die out slowly: ...
+inline constexpr int kLivelyShare = 6;     // ... so many times as many.
 // Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
 inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events

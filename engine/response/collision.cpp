@@ -53,6 +53,14 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     report.approach_mps = std::min(report.approach_mps, before[i].x());
     rows[i].lowest_speed = 0.0;
   }
+  if (rows.size() == 1) {
+    ContactRow& row = rows.front();
+    row.impulse =
+        pointCollisionImpulse({rowResponse(row, bodies), before[0], row.friction, restitution.front()});
+    applyToRow(row, row.impulse, bodies);
+    report.impulse_Ns = row.impulse.x();
+    return report;
+  }
   const SolverSettings settings{kSweeps, kConverged * -report.approach_mps, true};
   solveContacts(rows, bodies, settings);
 

@@ -1,9 +1,9 @@
 #pragma once
 // A collision at one or more points, of two bodies or more, (paper §2.1 and §2.4) with restitution and
-// Coulomb friction: compression to rest with friction, then every compressed point leaves with e times its
-// approach speed, friction acting on. For a single frictionless point this is the paper's j. Kinetic energy
-// never grows: compression with friction only dissipates, and restitution is cut back where it would return
-// more than was there. Tested in tests/engine/response/collision_test.cpp.
+// Coulomb friction. At one point it is followed through (point_collision.h). At several: compression to rest
+// with friction, then every compressed point leaves with e times its approach speed, friction acting on.
+// Kinetic energy never grows: compression with friction only dissipates, and restitution is cut back where it
+// would return more than was there. Tested in tests/engine/response/collision_test.cpp.
 
 #include <span>
 

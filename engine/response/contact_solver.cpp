@@ -157,14 +157,17 @@ void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
 
 }  // namespace
 
+Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  Mat3 frame;
+  frame << row.n, row.t1, row.t2;
+  return frame.transpose() * collisionMatrix(bodies[at(row.a)], bodies[at(row.b)], row.r_a, row.r_b) * frame;
+}
+
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   const TangentBasis tangents = tangentBasis(row.n);
   row.t1 = tangents.t1;
   row.t2 = tangents.t2;
-  Mat3 frame;
-  frame << row.n, row.t1, row.t2;
-  const Mat3 response =
-      frame.transpose() * collisionMatrix(bodies[at(row.a)], bodies[at(row.b)], row.r_a, row.r_b) * frame;
+  const Mat3 response = rowResponse(row, bodies);
   row.normal_response = response.col(0);
   row.inverse_response = response.inverse();
   const double half_difference = 0.5 * (response(1, 1) - response(2, 2));

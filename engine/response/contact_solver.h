@@ -10,14 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/response/impulse.h"
+#include "engine/response/point_collision.h"
 
 namespace carom {
-
-struct Friction {
-  double static_coefficient = 0.0;
-  double dynamic_coefficient = 0.0;
-};
 
 /// One contact point between bodies a and b of the solver's list.
 struct ContactRow {
@@ -43,6 +38,8 @@ struct ContactRow {
 
 /// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
+/// K, 1/kg, in the row's frame (n, t1, t2).
+Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies);
 /// World-frame impulse on B for an impulse in the row's frame.
 inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {
   return impulse.x() * row.n + impulse.y() * row.t1 + impulse.z() * row.t2;

@@ -161,7 +161,7 @@ void ContactCluster::collide(bool spreads) {
   const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });
   if (spreads) {
     solveSpreading(kShareOfApproach * -approach);
-    if (!elastic) return;
+    if (!elastic && rows_.size() > 1) return;  // one point is followed through
     startAgain();
     restitution = findRestitution();
   }

@@ -121,19 +121,20 @@ class EventLoop {
     // Elastic collisions go from body to body as they would (Newton's cradle); the others do not come back,
     // and press at once on all that stands behind.
     const bool stopped = found.outcome == TimeOfImpact::Outcome::kStopped;
-    const bool spreads =
-        stopped || spent > tolerance::kPairEvents ||
-        combinedRestitution(bodies_[at(both[0])].material, bodies_[at(both[1])].material) == 0.0;
+    const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
+    const bool crowded = stopped || spent > share * tolerance::kPairEvents;
+    const bool spreads = crowded || pair.restitution == 0.0;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
     changed_.clear();
-    const bool bounds = stopped || spent > tolerance::kPairEvents || cluster_.size() > 2;
+    const bool bounds = crowded || cluster_.size() > 2;
     takeMomentum(time_s, bounds);
     if (bounds) takePaths(time_s);
-    const int most = cluster_.isExhausted() ? tolerance::kLateEventsPerBody : tolerance::kEventsPerBody;
+    const int most =
+        cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
       if (bodies_[at(i)].events > most) hold(bodies_[at(i)]);
     searchAgain(time_s);

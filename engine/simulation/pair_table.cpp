@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kLeastGravity = 0.01;          // m/s^2: 6 mm/s for parts a metre wide
 constexpr double kShortestBounce = 1.0 / 32.0;  // half a bounce, in steps
-constexpr double kLivelyShare = 4.0;            // from e = 0.75 on slow bounces last long enough to be seen
 constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
@@ -69,7 +68,7 @@ double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, co
   const double e = pair.restitution;
   if (e == 0.0) return given(gravity);
   const bool both_fall = !bodies[at(pair.body_a)].supported && !bodies[at(pair.body_b)].supported;
-  const double share = both_fall ? kFallingShare * (1.0 - e) : kLivelyShare * (1.0 - e);
+  const double share = both_fall ? kFallingShare * (1.0 - e) : (1.0 - e) / (1.0 - tolerance::kLively);
   const double shortest = both_fall ? 0.0 : kShortestBounce * gravity * settings.step_s;
   return std::max({std::min(share, 1.0) * given(gravity), shortest, given(kLeastGravity)});
 }
