@@ -36,7 +36,7 @@ void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
 Replay runOnce(const ReplayPlan& plan, renderer::FrameRenderer& pictures,
                const std::function<void(int)>& done) {
   SceneWorld scene = makeSceneWorld(plan.scene, plan.mesh);
-  pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera);
+  pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera.at(0.0, scene.world.states()));
   PhaseStopwatch watch(steadySeconds, plan.keeps_slices);
   RunFacts facts;
   FrameCost cost;
@@ -53,8 +53,9 @@ Replay runOnce(const ReplayPlan& plan, renderer::FrameRenderer& pictures,
     throwIfInterrupted();
     cost = {};
     watch.beginFrame(frame);
-    const std::vector<renderer::Instance> instances = drawnInstances(scene, states.advanceTo(frame));
-    drawAndEncode(watch, pictures, instances, plan.camera);
+    const std::span<const BodyState> bodies = states.advanceTo(frame);
+    const std::vector<renderer::Instance> instances = drawnInstances(scene, bodies);
+    drawAndEncode(watch, pictures, instances, plan.camera.at(plan.clock.time(frame), bodies));
     watch.endFrame(cost);
     cost.time_s = plan.clock.time(frame);
     cost.state_hash = scene.world.stateHash();

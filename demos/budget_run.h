@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "demos/camera_path.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_cost.h"
 #include "demos/scene_world.h"
@@ -14,7 +15,7 @@ struct ReplayPlan {
   const Scene& scene;
   const std::optional<std::filesystem::path>& mesh;
   const FrameClock& clock;
-  const renderer::Camera& camera;
+  const CameraPath& camera;
   int frames = 0;
   int replays = 0;
   bool keeps_slices = false;  ///< Of the quickest replay.

@@ -26,9 +26,11 @@ Scene chosenScene(const SceneChoice& choice);
 
 struct NamedCamera {
   std::string name;
-  renderer::Camera camera;
+  SceneCamera camera;
 };
-/// The scene's camera of that name; for an empty name "main", else its first.
+/// The scene's camera of that name; for an empty name "main", else its first. Where the scene has none of
+/// that name: "fit" shows everything, "orbit" circles about it, "follow:BODY" looks at a body. Throws
+/// UsageError.
 NamedCamera chosenCamera(const Scene& scene, const std::string& name);
 
 /// How much is told on stderr.
@@ -53,9 +55,14 @@ struct RenderOptions {
   std::filesystem::path from;    ///< A recording instead of simulating.
   std::filesystem::path ffmpeg;  ///< A video instead of frames.
   double fps = 30.0;
+  double speed = 1.0;          ///< Of the scene's time over the frames'.
+  std::optional<double> at_s;  ///< One still at this time instead of frames.
   int width = 1280;
   int height = 720;
-  std::string camera;     ///< Empty: "main", else the first.
+  std::string camera;  ///< Empty: "main", else the first.
+  std::string preset = "realtime";
+  std::string style = "daylight";
+  std::string aov;        ///< "depth,normal,id"; empty: none.
   bool portable = false;  ///< The same pixels on every CPU.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.

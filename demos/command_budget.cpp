@@ -96,7 +96,8 @@ ExitCode budget(const BudgetOptions& options) {
   if (baseline) requireSameSubject(*baseline, subject);
 
   catchInterrupts();
-  const ReplayPlan plan{scene,           options.choice.mesh,   clock, camera.camera, frames,
+  const CameraPath path(camera.camera, made, static_cast<double>(options.width) / options.height);
+  const ReplayPlan plan{scene,           options.choice.mesh,   clock, path, frames,
                         options.replays, !options.trace.empty()};
   const MachineLoad load;
   std::vector<Replay> replays;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
+constexpr double kLowestSpeed = 0.001, kHighestSpeed = 1000.0;
 constexpr double kLongestBudget_ms = 1e6;
 constexpr int kSmallestSide = 16;
 constexpr int kLargestSide = 8192;
@@ -119,6 +120,7 @@ struct CommandLine {
   CommandLine();
   void addRender();
   void addLongJobOptions();
+  void addLookOptions();
   void addSimulate();
   void addExport();
   void addDistance();
@@ -170,7 +172,8 @@ void CommandLine::addRender() {
   render_command->get_option("--from")->excludes(render_command->get_option("--fps"));
   render_command->add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
   render_command->add_option("--camera", render_options.camera,
-                             "One of the scene's cameras (main, or its first)");
+                             "One of the scene's cameras (main, or its first), fit, orbit or follow:BODY");
+  addLookOptions();
   render_command->add_flag("--portable", render_options.portable,
                            "The same pixels on every CPU, a third slower: golden frames");
   addTellingOptions(*render_command, render_options.telling);
@@ -178,6 +181,24 @@ void CommandLine::addRender() {
                            "Tell about scene and renderer first");
   render_command->footer(
       "Example: carom render drop-mesh --mesh part.stl --size 1920x1080 -o out/part_####.png");
+}
+
+void CommandLine::addLookOptions() {
+  RenderOptions& options = render_options;
+  CLI::App& render = *render_command;
+  render.add_option("--preset", options.preset, "How much a frame may cost")
+      ->check(CLI::IsMember(renderer::presetNames()))
+      ->capture_default_str();
+  render.add_option("--style", options.style, "print: white background and ground, for paper")
+      ->check(CLI::IsMember(renderer::styleNames()))
+      ->capture_default_str();
+  render.add_option("--aov", options.aov,
+                    "depth, normal, id: 16-bit PNG files beside each frame (frame_0001.depth.png)");
+  render.add_option("--speed", options.speed, "Of the scene's time: 0.1 is ten times slow motion")
+      ->capture_default_str();
+  CLI::Option* at = render.add_option("--at", options.at_s, "One picture, at exactly this many seconds");
+  for (const char* other : {"--frames", "--shard", "--from", "--ffmpeg", "--fps", "--speed", "--duration"})
+    at->excludes(render.get_option(other));
 }
 
 void CommandLine::addLongJobOptions() {
@@ -396,6 +417,18 @@ void refuseExtras(const CommandLine& line) {
 void checkRender(const RenderOptions& options) {
   if (options.choice.scene.empty() && options.from.empty())
     throw UsageError("render: SCENE is required, or --from with a recording");
+  if (!(options.speed >= kLowestSpeed && options.speed <= kHighestSpeed)) {
+    std::ostringstream message;
+    message << "--speed " << options.speed << ": accepted: " << kLowestSpeed << " to " << kHighestSpeed;
+    throw UsageError(message.str());
+  }
+  if (options.at_s && !(*options.at_s >= 0.0 && *options.at_s <= kLongest_s)) {
+    std::ostringstream message;
+    message << "--at " << *options.at_s << ": accepted: 0 to " << kLongest_s << " seconds";
+    throw UsageError(message.str());
+  }
+  if (!options.aov.empty() && (!options.stream.empty() || !options.ffmpeg.empty()))
+    throw UsageError("--aov writes files beside the frames; accepted: without --stream and --ffmpeg");
   if ((options.output == "-") != !options.stream.empty())
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }

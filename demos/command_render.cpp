@@ -12,11 +12,13 @@
 #include <unistd.h>
 
 #include "demos/atomic_file.h"
+#include "demos/camera_path.h"
 #include "demos/content_hash.h"
 #include "demos/ffmpeg_video.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_identity.h"
 #include "demos/frame_names.h"
+#include "demos/frame_outputs.h"
 #include "demos/frame_selection.h"
 #include "demos/frame_source.h"
 #include "demos/frame_stream.h"
@@ -34,31 +36,57 @@
 namespace carom::demos {
 namespace {
 
+constexpr int kMostFrames = 10000000;
+
 /// What is to be drawn, settled before anything is made.
 struct Plan {
   SceneChoice choice;
   Scene scene;
   NamedCamera camera;
+  renderer::Preset preset = renderer::Preset::kRealtime;
+  renderer::Style style = renderer::Style::kDaylight;
+  std::vector<FrameOutput> outputs;
   FrameClock clock;
+  double fps = 0.0;         ///< Of the frames as they are shown; the clock's are the scene's.
   int frame_count = 0;      ///< Of the whole run.
   std::vector<int> frames;  ///< Those chosen.
 };
+
+/// The place of a word that the command line has checked.
+template <typename Enumeration>
+Enumeration chosen(const std::string& word, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  REQUIRE(found != names.end(), word);
+  return static_cast<Enumeration>(found - names.begin());
+}
 
 Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
   SceneChoice choice = options.choice;
   if (recording) choice = recordedChoice({options.from, recording->header()}, choice, "render SCENE --from");
   const Scene scene = chosenScene(choice);
-  const double fps = recording ? recording->header().fps : options.fps;
-  const FrameClock clock({fps, scene.rate_hz});
-  Plan plan{choice, scene, chosenCamera(scene, options.camera), clock, clock.frameCount(scene.duration_s),
-            {}};
+  const double scene_fps = recording ? recording->header().fps : options.fps / options.speed;
+  if (scene.duration_s * scene_fps > kMostFrames)
+    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds more than " +
+                     std::to_string(kMostFrames) + " frames");
+  const FrameClock clock =
+      options.at_s ? FrameClock::still(*options.at_s, scene.rate_hz) : FrameClock({scene_fps, scene.rate_hz});
+  Plan plan{.choice = choice,
+            .scene = scene,
+            .camera = chosenCamera(scene, options.camera),
+            .preset = chosen<renderer::Preset>(options.preset, renderer::presetNames()),
+            .style = chosen<renderer::Style>(options.style, renderer::styleNames()),
+            .outputs = readOutputs(options.aov),
+            .clock = clock,
+            .fps = recording ? scene_fps * options.speed : options.fps,
+            .frame_count = clock.frameCount(scene.duration_s),
+            .frames = {}};
   if (recording) {
     requireSameScene({options.from, recording->header()}, plan.scene, plan.choice);
     plan.frame_count = recording->header().frames;
   }
   if (plan.frame_count < 1)
     throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
-                     std::to_string(fps) + " fps");
+                     std::to_string(plan.fps) + " fps");
   plan.frames = shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard));
   return plan;
 }
@@ -71,9 +99,12 @@ Manifest emptyManifest(const RenderOptions& options, const Plan& plan) {
   manifest.seed = plan.scene.seed;
   manifest.width = options.width;
   manifest.height = options.height;
-  manifest.fps = plan.clock.fps();
+  manifest.fps = plan.fps;
+  manifest.speed = options.speed;
   manifest.steps_per_second = plan.scene.rate_hz;
   manifest.camera = plan.camera.name;
+  manifest.preset = plan.preset;
+  manifest.style = plan.style;
   manifest.frames_planned = static_cast<int>(plan.frames.size());
   return manifest;
 }
@@ -99,15 +130,41 @@ struct Run {
   bool resume = false;
   const SceneWorld& scene;
   FrameSource& source;
+  const CameraPath& camera;
+  const OutputScale& scale;
   Manifest& manifest;
   std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
 
+/// The frame's other outputs, without their pixels.
+std::vector<OutputToWrite> plannedOutputs(const Run& run, const FrameToWrite& frame) {
+  std::vector<OutputToWrite> outputs;
+  for (const FrameOutput output : run.plan.outputs) {
+    const std::filesystem::path path = run.names->file(frame.record.frame, nameOf(output));
+    outputs.push_back(
+        {{}, path, outputText(output, frame.text, run.scale), {nameOf(output), path.filename().string(), 0}});
+  }
+  return outputs;
+}
+
+void drawOutputs(const Run& run, renderer::FrameRenderer& pictures, FrameToWrite& frame) {
+  for (std::size_t i = 0; i < frame.outputs.size(); ++i)
+    frame.outputs[i].raster = outputRaster(run.plan.outputs[i], pictures.surfaces(), run.scale);
+}
+
 bool keepFrame(Run& run, FrameToWrite& frame) {
   if (!run.resume) return false;
-  const std::optional<std::uint64_t> pixels =
-      wantedFrame(frame.path, frame.text, {run.manifest.width, run.manifest.height});
+  const FrameSize size{run.manifest.width, run.manifest.height};
+  const std::optional<std::uint64_t> pixels = wantedFrame(frame.path, frame.text, size);
   if (!pixels) return false;
+  std::vector<OutputRecord> outputs;
+  for (const OutputToWrite& output : frame.outputs) {
+    const std::optional<std::uint64_t> samples = wantedOutput(output.path, output.text, size);
+    if (!samples) return false;
+    outputs.push_back(output.record);
+    outputs.back().pixel_hash = *samples;
+  }
+  frame.record.outputs = std::move(outputs);
   frame.record.pixel_hash = *pixels;
   frame.record.kept = true;
   run.kept.push_back(frame.record);
@@ -129,9 +186,12 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
     next.record.step = state.step;
     next.record.state_hash = state.state_hash;
     next.text = frameText(run.manifest, next.record);
+    next.outputs = plannedOutputs(run, next);
     if (!keepFrame(run, next)) {
       watch.lap_ms();
-      next.image = pictures.draw(drawnInstances(run.scene, state.bodies), run.plan.camera.camera);
+      const renderer::Camera camera = run.camera.at(next.record.time_s, state.bodies);
+      next.image = pictures.draw(drawnInstances(run.scene, state.bodies), camera);
+      drawOutputs(run, pictures, next);
       next.record.timings.draw_ms = watch.lap_ms();
       writer.submit(std::move(next));
     }
@@ -187,7 +247,11 @@ void noteOlderFrames(const FrameNames& names, int count) {
 /// What an earlier run that was killed left of the files that this one is to write, and of nobody else's.
 void removeLeftOvers(const Run& run, const std::string& manifest_name) {
   std::set<std::string> names{manifest_name};
-  for (const int frame : run.plan.frames) names.insert(run.names->file(frame).filename().string());
+  for (const int frame : run.plan.frames) {
+    names.insert(run.names->file(frame).filename().string());
+    for (const FrameOutput output : run.plan.outputs)
+      names.insert(run.names->file(frame, nameOf(output)).filename().string());
+  }
   removeAbandoned(run.names->folder(), names);
 }
 
@@ -214,12 +278,18 @@ void drawPlanned(Run& run, renderer::FrameRenderer& pictures, const FrameWriter:
   if (ended_early) std::rethrow_exception(ended_early);
 }
 
+/// "still.manifest.json", which does not take the place of the manifest of frames in the same folder.
+std::string stillManifestName(const FrameNames& names) {
+  return names.file(0).stem().string() + ".manifest.json";
+}
+
 void renderFiles(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
                  const RunFacts& facts, double started_s) {
-  const std::string manifest_name = manifestName(options.frames, options.shard);
+  const std::string manifest_name =
+      options.at_s ? stillManifestName(*run.names) : manifestName(options.frames, options.shard);
   if (run.resume) removeLeftOvers(run, manifest_name);
   drawPlanned(run, pictures, writeFrameFile, options.telling, run.names->folder() / manifest_name, started_s);
-  if (!options.telling.quiet) noteOlderFrames(*run.names, run.plan.frame_count);
+  if (!options.telling.quiet && !options.at_s) noteOlderFrames(*run.names, run.plan.frame_count);
   std::cout << filesReport(run, facts) << '\n';
 }
 
@@ -247,6 +317,14 @@ void renderVideo(Run& run, renderer::FrameRenderer& pictures, const RenderOption
   std::cout << options.ffmpeg.string() << "  " << pipedReport(run) << '\n';
 }
 
+/// None where the frames go into a stream or a video.
+std::optional<FrameNames> frameNames(const RenderOptions& options, const std::string& scene) {
+  if (!options.stream.empty() || !options.ffmpeg.empty()) return std::nullopt;
+  const std::string& output = options.output;
+  if (options.at_s) return FrameNames::still(output.empty() ? "frames/" + scene + "/still.png" : output);
+  return FrameNames(output.empty() ? "frames/" + scene + "/frame_%04d.png" : output);
+}
+
 }  // namespace
 
 ExitCode render(const RenderOptions& options) {
@@ -257,13 +335,17 @@ ExitCode render(const RenderOptions& options) {
   std::optional<RecordingReader> recording;
   if (!options.from.empty()) recording.emplace(options.from);
   const Plan plan = planned(options, recording);
-  std::optional<FrameNames> names;
-  if (options.stream.empty() && options.ffmpeg.empty())
-    names.emplace(options.output.empty() ? "frames/" + plan.scene.name + "/frame_%04d.png" : options.output);
+  const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
   Manifest manifest = emptyManifest(options, plan);
 
   SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh);
-  renderer::Settings settings{options.width, options.height};
+  const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);
+  const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.world.solids(),
+                                        camera.at(0.0, made.world.states()));
+  if (!plan.outputs.empty()) manifest.outputs = outputsJson(plan.outputs, scale, made.names);
+  renderer::Settings settings{.width = options.width, .height = options.height};
+  settings.preset = plan.preset;
+  settings.style = plan.style;
   if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
   renderer::FrameRenderer pictures(settings, made.world.solids());
   manifest.gl = pictures.info();
@@ -273,7 +355,7 @@ ExitCode render(const RenderOptions& options) {
     source.emplace(*recording);
   else
     source.emplace(made, plan.clock, facts);
-  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, manifest, {}};
+  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, camera, scale, manifest, {}};
   if (options.telling.verbose) tellStart(run);
 
   catchInterrupts();

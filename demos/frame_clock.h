@@ -2,7 +2,10 @@
 // Which instant a frame shows: frame k shows exactly t = k / fps, whatever the step of the simulation, and a
 // duration holds round(duration x fps) frames. Where the step does not divide the frame, the instant lies
 // between two steps and the drawn pose is interpolated. Exact: frame, rate and fps stay whole as long as they
-// were given whole. Tested in tests/demos/frame_clock_test.cpp.
+// were given whole. Slow motion is a clock of more frames a second of the scene's time. Tested in
+// tests/demos/frame_clock_test.cpp.
+
+#include <optional>
 
 #include "engine/foundation/frames.h"
 
@@ -24,15 +27,18 @@ class FrameClock {
     double steps_per_second = 240.0;
   };
   explicit FrameClock(const Rates& rates) : rates_(rates) {}
+  /// One frame, at exactly this time; a time within a billionth of a step of it counts as a step.
+  static FrameClock still(double time_s, double steps_per_second);
 
   int frameCount(double duration_s) const;
   int stepCount(double duration_s) const;
   double fps() const { return rates_.fps; }
-  double time(int frame) const { return frame / rates_.fps; }
+  double time(int frame) const { return still_s_ ? *still_s_ : frame / rates_.fps; }
   StepInstant instant(int frame) const;
 
  private:
   Rates rates_;
+  std::optional<double> still_s_;
 };
 
 /// The pose a fraction of the way from a to b: position along the line, rotation along the shortest arc.

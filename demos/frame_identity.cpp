@@ -24,14 +24,17 @@ bool holdsExactly(const std::filesystem::path& path, const std::vector<std::uint
 renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record) {
   char time[32];
   std::snprintf(time, sizeof time, "%.17g", record.time_s);
-  return {{"Software", "carom " + programVersion()},
-          {"Build", buildName()},
-          {"Renderer", manifest.gl.renderer + ", " + manifest.gl.version},
-          {"Scene", manifest.scene + " " + hexText(manifest.scene_hash)},
-          {"Camera", manifest.camera},
-          {"Frame", std::to_string(record.frame)},
-          {"Time", time},
-          {"State", hexText(record.state_hash)}};
+  renderer::PngText text = {{"Software", "carom " + programVersion()},
+                            {"Build", buildName()},
+                            {"Renderer", manifest.gl.renderer + ", " + manifest.gl.version},
+                            {"Scene", manifest.scene + " " + hexText(manifest.scene_hash)},
+                            {"Camera", manifest.camera},
+                            {"Frame", std::to_string(record.frame)},
+                            {"Time", time},
+                            {"State", hexText(record.state_hash)}};
+  if (manifest.preset != renderer::Preset::kRealtime) text.emplace_back("Preset", nameOf(manifest.preset));
+  if (manifest.style != renderer::Style::kDaylight) text.emplace_back("Style", nameOf(manifest.style));
+  return text;
 }
 
 EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText& text) {
@@ -43,25 +46,49 @@ EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText&
   return frame;
 }
 
-std::optional<std::uint64_t> wantedFrame(const std::filesystem::path& path, const renderer::PngText& text,
-                                         const FrameSize& size) {
+EncodedFrame encodedOutput(const renderer::Raster& raster, const renderer::PngText& text) {
+  EncodedFrame frame;
+  frame.pixel_hash =
+      ContentHash().add(raster.samples.data(), raster.samples.size() * sizeof(std::uint16_t)).value();
+  renderer::PngText signed_text = text;
+  signed_text.emplace_back("Pixels", hexText(frame.pixel_hash));
+  frame.bytes = renderer::encodePng(raster, signed_text, renderer::PngPacking::kQuick);
+  return frame;
+}
+
+namespace {
+
+// `Decode` reads a file's pixels and text, `Encode` makes the file's bytes of them.
+template <typename Decode, typename Encode>
+std::optional<std::uint64_t> wanted(const std::filesystem::path& path, const renderer::PngText& text,
+                                    const FrameSize& size, const Decode& decode, const Encode& encode) {
   try {
     std::error_code unreadable;
     if (!std::filesystem::is_regular_file(path, unreadable)) return std::nullopt;
-    const renderer::DecodedPng png = renderer::readPng(path);
-    if (png.image.width != size.width || png.image.height != size.height) return std::nullopt;
+    const auto [pixels, found] = decode(path);
+    if (pixels.width != size.width || pixels.height != size.height) return std::nullopt;
     // The text is compared first: it is what differs in a stale frame, and encoding costs more.
-    if (png.text.size() != text.size() + 1 || !std::equal(text.begin(), text.end(), png.text.begin()))
+    if (found.size() != text.size() + 1 || !std::equal(text.begin(), text.end(), found.begin()))
       return std::nullopt;
-    const std::uint64_t pixel_hash = ContentHash().add(png.image.rgb.data(), png.image.rgb.size()).value();
-    if (png.text.back() != std::pair<std::string, std::string>("Pixels", hexText(pixel_hash)))
-      return std::nullopt;
-    const EncodedFrame expected = encodedFrame(png.image, text);
+    // The bytes hold the hash of the pixels, so that a file of other pixels differs.
+    const EncodedFrame expected = encode(pixels, text);
     if (!holdsExactly(path, expected.bytes)) return std::nullopt;
     return expected.pixel_hash;
   } catch (const InputError&) {
     return std::nullopt;  // no whole PNG
   }
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> wantedFrame(const std::filesystem::path& path, const renderer::PngText& text,
+                                         const FrameSize& size) {
+  return wanted(path, text, size, renderer::readPng, encodedFrame);
+}
+
+std::optional<std::uint64_t> wantedOutput(const std::filesystem::path& path, const renderer::PngText& text,
+                                          const FrameSize& size) {
+  return wanted(path, text, size, renderer::readPngRaster, encodedOutput);
 }
 
 }  // namespace carom::demos

@@ -13,7 +13,8 @@
 
 namespace carom::demos {
 
-/// Scene, camera, time, state, program and renderer of a frame.
+/// Scene, camera, time, state, program and renderer of a frame; preset and style where they are not the usual
+/// ones.
 renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record);
 
 /// The bytes of a frame's file: `text` and, last, the hash of the pixels.
@@ -23,6 +24,9 @@ struct EncodedFrame {
 };
 EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText& text);
 
+/// The bytes of the file of another output; its hash is that of the samples, low byte first.
+EncodedFrame encodedOutput(const renderer::Raster& raster, const renderer::PngText& text);
+
 struct FrameSize {
   int width = 0;
   int height = 0;
@@ -31,5 +35,9 @@ struct FrameSize {
 /// here; nothing when it is missing, truncated, damaged, edited or stale.
 std::optional<std::uint64_t> wantedFrame(const std::filesystem::path& path, const renderer::PngText& text,
                                          const FrameSize& size);
+
+/// The same of another output's file.
+std::optional<std::uint64_t> wantedOutput(const std::filesystem::path& path, const renderer::PngText& text,
+                                          const FrameSize& size);
 
 }  // namespace carom::demos

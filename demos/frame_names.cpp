@@ -27,7 +27,26 @@ FrameNames::FrameNames(const std::string& pattern) : pattern_(pattern) {
                                         : 1;
 }
 
+FrameNames FrameNames::still(const std::string& path) {
+  FrameNames names;
+  names.pattern_ = path;
+  names.folder_ = std::filesystem::path(path).parent_path();
+  names.before_ = std::filesystem::path(path).filename().string();
+  if (std::filesystem::path(path).extension() != ".png")
+    throw UsageError("-o " + path + ": accepted with --at: a name that ends in .png, such as still.png");
+  names.before_.resize(names.before_.size() - 4);
+  names.after_ = ".png";
+  names.is_still_ = true;
+  return names;
+}
+
+std::filesystem::path FrameNames::file(int frame, const std::string& output) const {
+  std::filesystem::path path = file(frame);
+  return path.replace_extension(output + ".png");
+}
+
 std::filesystem::path FrameNames::file(int frame) const {
+  if (is_still_) return folder_ / (before_ + after_);
   std::string number = std::to_string(frame);
   if (number.size() < digits_) number.insert(0, digits_ - number.size(), '0');
   return folder_ / (before_ + number + after_);

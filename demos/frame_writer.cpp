@@ -6,13 +6,25 @@
 
 namespace carom::demos {
 
-std::optional<FrameRecord> writeFrameFile(FrameToWrite frame) {
-  const double started_s = steadySeconds();
-  const EncodedFrame encoded = encodedFrame(frame.image, frame.text);
-  frame.record.pixel_hash = encoded.pixel_hash;
-  AtomicFile file(frame.path);
+namespace {
+
+/// The hash of the pixels.
+std::uint64_t writeEncoded(const EncodedFrame& encoded, const std::filesystem::path& path) {
+  AtomicFile file(path);
   file.write(encoded.bytes);
   file.commit();
+  return encoded.pixel_hash;
+}
+
+}  // namespace
+
+std::optional<FrameRecord> writeFrameFile(FrameToWrite frame) {
+  const double started_s = steadySeconds();
+  for (OutputToWrite& output : frame.outputs) {
+    output.record.pixel_hash = writeEncoded(encodedOutput(output.raster, output.text), output.path);
+    frame.record.outputs.push_back(output.record);
+  }
+  frame.record.pixel_hash = writeEncoded(encodedFrame(frame.image, frame.text), frame.path);
   frame.record.timings.encode_ms = 1000.0 * (steadySeconds() - started_s);
   return frame.record;
 }

@@ -17,14 +17,23 @@
 
 namespace carom::demos {
 
+/// Another output of a frame, with a file of its own.
+struct OutputToWrite {
+  renderer::Raster raster;
+  std::filesystem::path path;
+  renderer::PngText text;
+  OutputRecord record;
+};
+
 struct FrameToWrite {
   renderer::Image image;
   std::filesystem::path path;
   FrameRecord record;
   renderer::PngText text;
+  std::vector<OutputToWrite> outputs;
 };
 
-/// Writes the frame's file; its record, completed. Throws CannotWrite.
+/// Writes the files of the frame's outputs and then its own; its record, completed. Throws CannotWrite.
 std::optional<FrameRecord> writeFrameFile(FrameToWrite frame);
 
 class FrameWriter {

@@ -22,14 +22,29 @@ Json timingsJson(const FrameTimings& timings) {
 }
 
 Json frameJson(const FrameRecord& record) {
-  return Json::object({{"frame", record.frame},
-                       {"file", record.file},
-                       {"time_s", record.time_s},
-                       {"step", record.step},
-                       {"stateHash", hexText(record.state_hash)},
-                       {"pixelHash", hexText(record.pixel_hash)},
-                       {"kept", record.kept},
-                       {"ms", timingsJson(record.timings)}});
+  Json json = Json::object({{"frame", record.frame},
+                            {"file", record.file},
+                            {"time_s", record.time_s},
+                            {"step", record.step},
+                            {"stateHash", hexText(record.state_hash)},
+                            {"pixelHash", hexText(record.pixel_hash)},
+                            {"kept", record.kept},
+                            {"ms", timingsJson(record.timings)}});
+  if (record.outputs.empty()) return json;
+  Json outputs = Json::object();
+  for (const OutputRecord& output : record.outputs)
+    outputs.set(output.name,
+                Json::object({{"file", output.file}, {"pixelHash", hexText(output.pixel_hash)}}));
+  json.set("outputs", std::move(outputs));
+  return json;
+}
+
+/// What a run without these options has not.
+void addUnusual(const Manifest& manifest, Json& json) {
+  if (manifest.speed != 1.0) json.set("speed", manifest.speed);
+  if (manifest.preset != renderer::Preset::kRealtime) json.set("preset", nameOf(manifest.preset));
+  if (manifest.style != renderer::Style::kDaylight) json.set("style", nameOf(manifest.style));
+  if (manifest.outputs.kind() != Json::Kind::kNull) json.set("outputs", manifest.outputs);
 }
 
 }  // namespace
@@ -48,25 +63,25 @@ void writeManifest(const Manifest& manifest, const std::filesystem::path& path) 
   Json frames = Json::array();
   for (const FrameRecord& record : manifest.frames) frames.push(frameJson(record));
   const bool complete = static_cast<int>(manifest.frames.size()) == manifest.frames_planned;
-  const Json json = Json::object(
-      {{"format", 1},
-       {"command", manifest.command},
-       {"complete", complete},
-       {"scene", manifest.scene},
-       {"sceneHash", hexText(manifest.scene_hash)},
-       {"seed", static_cast<double>(manifest.seed)},
-       {"size", Json::array({manifest.width, manifest.height})},
-       {"fps", manifest.fps},
-       {"stepsPerSecond", manifest.steps_per_second},
-       {"camera", manifest.camera},
-       {"version", programVersion()},
-       {"build", buildName()},
-       {"gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}})},
-       {"cpu", cpuClass()},
-       {"framesPlanned", manifest.frames_planned},
-       {"wall_s", roundedToMicroseconds(manifest.wall_s)},
-       {"total_ms", timingsJson(totalTimings(manifest.frames))},
-       {"frames", std::move(frames)}});
+  Json json = Json::object({{"format", 1},
+                            {"command", manifest.command},
+                            {"complete", complete},
+                            {"scene", manifest.scene},
+                            {"sceneHash", hexText(manifest.scene_hash)},
+                            {"seed", static_cast<double>(manifest.seed)},
+                            {"size", Json::array({manifest.width, manifest.height})},
+                            {"fps", manifest.fps},
+                            {"stepsPerSecond", manifest.steps_per_second},
+                            {"camera", manifest.camera}});
+  addUnusual(manifest, json);
+  json.set("version", programVersion());
+  json.set("build", buildName());
+  json.set("gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}}));
+  json.set("cpu", cpuClass());
+  json.set("framesPlanned", manifest.frames_planned);
+  json.set("wall_s", roundedToMicroseconds(manifest.wall_s));
+  json.set("total_ms", timingsJson(totalTimings(manifest.frames)));
+  json.set("frames", std::move(frames));
   AtomicFile file(path);
   file.write(json.text(1) + "\n");
   file.commit();

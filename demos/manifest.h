@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "demos/json.h"
 #include "renderer/frame_renderer.h"
 
 namespace carom::demos {
@@ -19,6 +20,13 @@ struct FrameTimings {
   double encode_ms = 0.0;
 };
 
+/// A frame's other output, such as its depth.
+struct OutputRecord {
+  std::string name;
+  std::string file;              ///< Name within the folder.
+  std::uint64_t pixel_hash = 0;  ///< ContentHash of the 16-bit samples.
+};
+
 struct FrameRecord {
   int frame = 0;
   std::string file;  ///< Name within the folder.
@@ -27,6 +35,7 @@ struct FrameRecord {
   std::uint64_t state_hash = 0;  ///< Of the world after those steps.
   std::uint64_t pixel_hash = 0;  ///< ContentHash of the image's RGB bytes.
   FrameTimings timings;
+  std::vector<OutputRecord> outputs;
   bool kept = false;  ///< An earlier run had drawn it (--resume).
 };
 
@@ -38,8 +47,12 @@ struct Manifest {
   int width = 0;
   int height = 0;
   double fps = 0.0;
+  double speed = 1.0;  ///< Seconds of the scene a second of frames.
   double steps_per_second = 0.0;
   std::string camera;
+  renderer::Preset preset = renderer::Preset::kRealtime;
+  renderer::Style style = renderer::Style::kDaylight;
+  Json outputs;  ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
   renderer::ContextInfo gl;
   int frames_planned = 0;
   double wall_s = 0.0;

@@ -202,10 +202,15 @@ void addRoot(tinygltf::Model& model, const std::string& name) {
 }
 
 /// glTF's cameras look along their -z with y up.
-void addCamera(tinygltf::Model& model, const std::string& name, const renderer::Camera& camera) {
+Quat cameraRotation(const renderer::Camera& camera) {
   const renderer::CameraAxes axes = renderer::cameraAxes(camera);
   Mat3 R_WC;
   R_WC << axes.right, axes.up, -axes.forward;
+  return Quat(R_WC).normalized();
+}
+
+/// The number of its node.
+int addCamera(tinygltf::Model& model, const std::string& name, const renderer::Camera& camera) {
   tinygltf::Camera lens;
   lens.name = name;
   lens.type = "perspective";
@@ -218,9 +223,9 @@ void addCamera(tinygltf::Model& model, const std::string& name, const renderer::
   node.name = "camera " + name;
   node.camera = static_cast<int>(model.cameras.size());
   node.translation = numbers(camera.eye);
-  node.rotation = numbers(Quat(R_WC).normalized());
+  node.rotation = numbers(cameraRotation(camera));
   model.cameras.push_back(std::move(lens));
-  addNode(model, std::move(node));
+  return addNode(model, std::move(node));
 }
 
 void addChannel(tinygltf::Animation& animation, int node, const char* path,
@@ -242,7 +247,9 @@ void addChannel(tinygltf::Animation& animation, int node, const char* path,
 MotionGltf::MotionGltf(const Scene& scene, const SceneWorld& world, int frames)
     : scene_(scene), world_(world) {
   for (std::size_t i = 0; i < world.names.size(); ++i)
-    if (!world.world.bodies()[i].is_static) tracks_.push_back({i, {}, {}});
+    if (!world.world.bodies()[i].is_static) tracks_.push_back({{}, i});
+  for (const auto& [name, camera] : scene.cameras)
+    cameras_.push_back({{}, name, CameraPath(camera, world, kCameraAspect), camera.moves(), camera});
   const double needed = frames * (sizeof(float) + static_cast<double>(tracks_.size()) * kBytesOfKey);
   if (needed > kMostMotionBytes)
     throw UsageError(std::to_string(frames) + " frames of " + std::to_string(tracks_.size()) +
@@ -254,15 +261,23 @@ void MotionGltf::add(double time_s, std::span<const BodyState> states) {
   if (first_.empty())
     for (const BodyState& state : states) first_.push_back(state.X_WB);
   times_s_.push_back(static_cast<float>(time_s));
-  for (Track& track : tracks_) {
+  for (BodyTrack& track : tracks_) {
     const Pose& X_WB = states[track.body].X_WB;
-    for (const double x : X_WB.position) track.translations.push_back(static_cast<float>(x));
-    Eigen::Vector4f xyzw = X_WB.rotation.coeffs().cast<float>();
-    const std::size_t held = track.rotations.size();
-    if (held > 0 && xyzw.dot(Eigen::Map<Eigen::Vector4f>(&track.rotations[held - kXyzw])) < 0.0f)
-      xyzw = -xyzw;
-    track.rotations.insert(track.rotations.end(), xyzw.begin(), xyzw.end());
+    track.add(X_WB.position, X_WB.rotation);
   }
+  for (CameraTrack& track : cameras_) {
+    const renderer::Camera camera = track.path.at(time_s, states);
+    if (times_s_.size() == 1) track.first = camera;
+    if (track.moves) track.add(camera.eye, cameraRotation(camera));
+  }
+}
+
+void MotionGltf::Track::add(const Vec3& position, const Quat& rotation) {
+  for (const double x : position) translations.push_back(static_cast<float>(x));
+  Eigen::Vector4f xyzw = rotation.coeffs().cast<float>();
+  const std::size_t held = rotations.size();
+  if (held > 0 && xyzw.dot(Eigen::Map<Eigen::Vector4f>(&rotations[held - kXyzw])) < 0.0f) xyzw = -xyzw;
+  rotations.insert(rotations.end(), xyzw.begin(), xyzw.end());
 }
 
 std::string MotionGltf::bytes() const {
@@ -282,17 +297,21 @@ std::string MotionGltf::bytes() const {
     node.extras = physics(world_.world.bodies()[i]);
     addNode(model, std::move(node));
   }
-  for (const auto& [name, camera] : scene_.cameras) addCamera(model, name, camera);
+  std::vector<int> camera_nodes;
+  for (const CameraTrack& track : cameras_) camera_nodes.push_back(addCamera(model, track.name, track.first));
 
   tinygltf::Animation animation;
   animation.name = scene_.name;
-  const int times = tracks_.empty() ? -1 : accessors.add(times_s_, 1, 0);
-  for (const Track& track : tracks_) {
-    const int node = 1 + static_cast<int>(track.body);
-    addChannel(animation, node, "translation", {times, accessors.add(track.translations, kXyz, 0)});
-    addChannel(animation, node, "rotation", {times, accessors.add(track.rotations, kXyzw, 0)});
+  std::vector<std::pair<int, const Track*>> moving;
+  for (const BodyTrack& track : tracks_) moving.emplace_back(1 + static_cast<int>(track.body), &track);
+  for (std::size_t i = 0; i < cameras_.size(); ++i)
+    if (cameras_[i].moves) moving.emplace_back(camera_nodes[i], &cameras_[i]);
+  const int times = moving.empty() ? -1 : accessors.add(times_s_, 1, 0);
+  for (const auto& [node, track] : moving) {
+    addChannel(animation, node, "translation", {times, accessors.add(track->translations, kXyz, 0)});
+    addChannel(animation, node, "rotation", {times, accessors.add(track->rotations, kXyzw, 0)});
   }
-  if (!tracks_.empty()) model.animations.push_back(std::move(animation));
+  if (!moving.empty()) model.animations.push_back(std::move(animation));
 
   std::ostringstream out;
   const bool written = tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true);

@@ -1,6 +1,7 @@
 #pragma once
 // A scene and its motion as binary glTF 2.0 (Khronos, glTF 2.0 Specification, 2021): a node a body with the
-// solid's triangles, a node a camera, and one animation with a key a frame. The world's z is up; the node
+// solid's triangles, a node a camera (for a picture of 16:9 where it
+// fits the scene), and one animation with a key a frame. The world's z is up; the node
 // above all others turns it to glTF's y. What glTF has no word for (friction, density) is in the nodes'
 // extras. Written by tinygltf, which no other file names: assimp 5.2 writes animations, but no cameras.
 // Tested in tests/demos/motion_gltf_test.cpp.
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "demos/camera_path.h"
 #include "demos/scene.h"
 #include "demos/scene_world.h"
 
@@ -28,16 +30,26 @@ class MotionGltf {
 
  private:
   struct Track {
-    std::size_t body = 0;
     std::vector<float> translations;
     std::vector<float> rotations;  ///< x, y, z, w.
+    void add(const Vec3& position, const Quat& rotation);
+  };
+  struct BodyTrack : Track {
+    std::size_t body = 0;
+  };
+  struct CameraTrack : Track {
+    std::string name;
+    CameraPath path;
+    bool moves = false;
+    renderer::Camera first;  ///< In the first frame.
   };
 
   const Scene& scene_;
   const SceneWorld& world_;
   std::vector<Pose> first_;  ///< Of every body, in the first frame.
   std::vector<float> times_s_;
-  std::vector<Track> tracks_;  ///< Of the bodies that are not static.
+  std::vector<BodyTrack> tracks_;  ///< Of the bodies that are not static.
+  std::vector<CameraTrack> cameras_;
 };
 
 }  // namespace carom::demos

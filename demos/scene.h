@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "demos/scene_camera.h"
 #include "engine/foundation/frames.h"
 #include "engine/simulation/world.h"
 #include "renderer/frame_renderer.h"
@@ -55,7 +56,8 @@ struct CompoundPart {
 struct SurfaceLook {
   renderer::Color color;
   bool checker = false;
-  std::string material;  ///< Its name in the scene's file, or empty.
+  bool has_color = false;  ///< Given by the scene; else a body that moves takes one of the palette.
+  std::string material;    ///< Its name in the scene's file, or empty.
 };
 
 /// Copies of a body on a lattice, each moved and turned a little by the scene's random numbers.
@@ -82,6 +84,11 @@ struct Body {
   Place place;
 };
 
+/// "crate", or "crate[7]" for the copies of a repeated body.
+inline std::string nameOfCopy(const Body& body, int copy) {
+  return body.repeat.total() == 1 ? body.name : body.name + "[" + std::to_string(copy) + "]";
+}
+
 struct Scene {
   std::string name;  ///< The file's name without its ending.
   std::filesystem::path file;
@@ -91,7 +98,7 @@ struct Scene {
   std::uint64_t seed = 1;
   double duration_s = 5.0;
   std::vector<Body> bodies;
-  std::map<std::string, renderer::Camera> cameras;
+  std::map<std::string, SceneCamera> cameras;
 };
 
 }  // namespace carom::demos

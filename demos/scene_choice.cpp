@@ -1,6 +1,9 @@
 // The scene that the command line chose, with its overrides put in, and the camera.
 #include "demos/command.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "demos/asset_path.h"
 #include "demos/nearest_name.h"
 #include "demos/scene_file.h"
@@ -14,13 +17,42 @@ Scene chosenScene(const SceneChoice& choice) {
   return scene;
 }
 
+namespace {
+
+/// The cameras that every scene has, unless it has its own of that name: "fit", "orbit" and "follow:BODY".
+std::optional<SceneCamera> builtInCamera(const Scene& scene, const std::string& name) {
+  constexpr std::string_view kFollow = "follow:";
+  SceneCamera camera;
+  if (name == "fit") {
+    camera.motion = FitView{};
+  } else if (name == "orbit") {
+    camera.motion = Orbit{.fits = true};
+  } else if (name.starts_with(kFollow)) {
+    const std::string body = name.substr(kFollow.size());
+    std::vector<std::string> names;
+    for (const Body& known : scene.bodies)
+      for (int copy = 0; copy < known.repeat.total(); ++copy) names.push_back(nameOfCopy(known, copy));
+    if (std::find(names.begin(), names.end(), body) == names.end())
+      throw UsageError("--camera " + name + ": no such body in " + scene.file.string() +
+                       acceptedNames(body, names));
+    camera.motion = FollowBody{body, {}};
+  } else {
+    return std::nullopt;
+  }
+  return camera;
+}
+
+}  // namespace
+
 NamedCamera chosenCamera(const Scene& scene, const std::string& name) {
   const auto main = scene.cameras.find("main");
   auto chosen = main != scene.cameras.end() ? main : scene.cameras.begin();
   if (!name.empty()) chosen = scene.cameras.find(name);
   if (chosen != scene.cameras.end()) return {chosen->first, chosen->second};
+  if (const std::optional<SceneCamera> camera = builtInCamera(scene, name)) return {name, *camera};
   std::vector<std::string> names;
   for (const auto& [known, unused] : scene.cameras) names.push_back(known);
+  names.insert(names.end(), {"fit", "orbit", "follow:BODY"});
   throw UsageError("--camera " + name + ": no such camera in " + scene.file.string() +
                    acceptedNames(name, names));
 }

@@ -1,5 +1,6 @@
 #include "demos/scene_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -154,7 +155,10 @@ NamedMaterial readMaterial(const Json& json) {
   }
   if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
   if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
-  if (const Json* value = json.find("color")) material.look.color = readColor(*value);
+  if (const Json* value = json.find("color")) {
+    material.look.color = readColor(*value);
+    material.look.has_color = true;
+  }
   if (const Json* value = json.find("checker")) material.look.checker = value->asBoolean();
   return material;
 }
@@ -309,12 +313,73 @@ std::vector<Body> readBodies(const Json& json, const Materials& materials,
   return bodies;
 }
 
-renderer::Camera readCamera(const Json& json) {
+// Cameras: one of "eye" and "target", "fit", "follow", "orbit".
+
+void readStillCamera(const Json& json, SceneCamera& camera) {
   json.onlyKeys({"eye", "target", "fovDegrees"});
-  renderer::Camera camera;
   camera.eye = readVec3(json.at("eye"), kCoordinate);
   camera.target = readVec3(json.at("target"), kCoordinate);
   if (!((camera.eye - camera.target).norm() > kSmallestLength_m)) json.fail("eye and target coincide");
+}
+
+Vec3 readOffset(const Json& json) {
+  const Vec3 offset = readVec3(json, kCoordinate);
+  if (!(offset.norm() > kSmallestLength_m))
+    json.fail(json.shown() + " has no direction; accepted: a vector of some length");
+  return offset;
+}
+
+void readFitCamera(const Json& json, SceneCamera& camera) {
+  json.onlyKeys({"fit", "direction", "fovDegrees"});
+  if (!json.at("fit").asBoolean()) json.at("fit").fail("accepted: true, or another kind of camera");
+  FitView fit;
+  if (const Json* direction = json.find("direction")) fit.direction = readOffset(*direction);
+  camera.motion = fit;
+}
+
+std::vector<std::string> bodyNames(const std::vector<Body>& bodies) {
+  std::vector<std::string> names;
+  for (const Body& body : bodies)
+    for (int copy = 0; copy < body.repeat.total(); ++copy) names.push_back(nameOfCopy(body, copy));
+  return names;
+}
+
+void readFollowCamera(const Json& json, const std::vector<Body>& bodies, SceneCamera& camera) {
+  json.onlyKeys({"follow", "offset", "fovDegrees"});
+  FollowBody follow{json.at("follow").asString(), {}};
+  const std::vector<std::string> names = bodyNames(bodies);
+  if (std::find(names.begin(), names.end(), follow.body) == names.end())
+    json.at("follow").fail("unknown body " + json.at("follow").shown() + acceptedNames(follow.body, names));
+  if (const Json* offset = json.find("offset")) follow.offset_m = readOffset(*offset);
+  camera.motion = follow;
+}
+
+void readOrbitCamera(const Json& json, SceneCamera& camera) {
+  json.onlyKeys({"orbit", "fovDegrees"});
+  const Json& path = json.at("orbit");
+  path.onlyKeys({"target", "radius", "height", "degreesPerSecond", "startDegrees"});
+  Orbit orbit;
+  camera.target = readVec3(path.at("target"), kCoordinate);
+  orbit.radius_m = readNumber(path.at("radius"), kLength);
+  if (const Json* value = path.find("height")) orbit.height_m = readNumber(*value, kCoordinate);
+  if (const Json* value = path.find("degreesPerSecond"))
+    orbit.degrees_per_second = readNumber(*value, {-36000.0, 36000.0});
+  if (const Json* value = path.find("startDegrees"))
+    orbit.start_degrees = readNumber(*value, {-36000.0, 36000.0});
+  camera.motion = orbit;
+}
+
+SceneCamera readCamera(const Json& json, const std::vector<Body>& bodies) {
+  json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit"});
+  SceneCamera camera;
+  if (json.find("fit") != nullptr)
+    readFitCamera(json, camera);
+  else if (json.find("follow") != nullptr)
+    readFollowCamera(json, bodies, camera);
+  else if (json.find("orbit") != nullptr)
+    readOrbitCamera(json, camera);
+  else
+    readStillCamera(json, camera);
   if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, {1.0, 150.0});
   return camera;
 }
@@ -344,8 +409,9 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);
   scene.bodies = readBodies(json.at("bodies"), materials, path);
   if (const Json* value = json.find("cameras"))
-    for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera);
-  if (scene.cameras.empty()) scene.cameras["main"] = renderer::Camera();
+    for (const auto& [name, camera] : value->members())
+      scene.cameras[name] = readCamera(camera, scene.bodies);
+  if (scene.cameras.empty()) scene.cameras["main"] = SceneCamera();
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "demos/asset_path.h"
+#include "demos/body_palette.h"
 #include "demos/content_hash.h"
 #include "demos/shape_solid.h"
 #include "engine/foundation/contract.h"
@@ -94,8 +95,10 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
     description.material = body.material;
     description.is_static = body.is_static;
     made.world.addBody(description);
-    made.names.push_back(body.repeat.total() == 1 ? body.name : body.name + "[" + std::to_string(copy) + "]");
+    made.names.push_back(nameOfCopy(body, copy));
     made.looks.push_back(body.look);
+    if (!body.look.has_color && !body.is_static && !body.look.checker)
+      made.looks.back().color = paletteColor(made.looks.size() - 1);
     if (!body.colors.empty())
       made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
   }

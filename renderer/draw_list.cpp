@@ -43,22 +43,6 @@ bool inView(const Placed& placed, const CameraAxes& axes, double half_width, dou
          up - half_height * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_height);
 }
 
-InstanceRecord record(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
-  const Mat3 rotation = instance.X_WB.rotation.toRotationMatrix();
-  const Vec3 position = instance.X_WB.position - camera.eye;
-  InstanceRecord r{};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) r.rows[i][k] = static_cast<float>(rotation(i, k));
-    r.rows[i][3] = static_cast<float>(position[i]);
-  }
-  r.color[0] = linearLight(instance.color.r);
-  r.color[1] = linearLight(instance.color.g);
-  r.color[2] = linearLight(instance.color.b);
-  const double reach = kGroundDarkening * solid.extent.half.minCoeff();
-  r.color[3] = static_cast<float>(instance.checker ? -reach : reach);
-  return r;
-}
-
 // Appends groups of instances that share solid and level, nearest instance of a group first.
 std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instance> instances,
                              const Camera& camera, const SceneGeometry& geometry,
@@ -82,7 +66,7 @@ std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instanc
                           static_cast<int>(records.size()), 0}});
     ++ordered.back().group.count;
     records.push_back(
-        record(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
+        instanceRecord(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Ordered& a, const Ordered& b) { return a.nearest_m < b.nearest_m; });
@@ -103,6 +87,22 @@ DepthRange depthRange(const std::vector<Placed>& visible, double distance_m, con
 }
 
 }  // namespace
+
+InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
+  const Mat3 rotation = instance.X_WB.rotation.toRotationMatrix();
+  const Vec3 position = instance.X_WB.position - camera.eye;
+  InstanceRecord r{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) r.rows[i][k] = static_cast<float>(rotation(i, k));
+    r.rows[i][3] = static_cast<float>(position[i]);
+  }
+  r.color[0] = linearLight(instance.color.r);
+  r.color[1] = linearLight(instance.color.g);
+  r.color[2] = linearLight(instance.color.b);
+  const double reach = kGroundDarkening * solid.extent.half.minCoeff();
+  r.color[3] = static_cast<float>(instance.checker ? -reach : reach);
+  return r;
+}
 
 double topHeight(const Instance& instance, const SolidGeometry& solid) {
   const Vec3 up_B = instance.X_WB.rotation.conjugate() * Vec3::UnitZ();

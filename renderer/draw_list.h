@@ -33,6 +33,9 @@ std::optional<int> findGround(std::span<const Instance> instances, const SceneGe
 /// World height of the level top of an instance.
 double topHeight(const Instance& instance, const SolidGeometry& solid);
 
+/// Where and in which colour an instance is drawn.
+InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& solid, const Camera& camera);
+
 DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
                        const SceneGeometry& geometry);
 

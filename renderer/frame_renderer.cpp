@@ -4,21 +4,23 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "engine/foundation/contract.h"
 #include "renderer/contact_occlusion.h"
 #include "renderer/draw_list.h"
 #include "renderer/edge_filter.h"
+#include "renderer/multiple_exposure.h"
 #include "renderer/scene_geometry.h"
 #include "renderer/shader_program.h"
 #include "renderer/shaders.h"
 #include "renderer/shadow_fit.h"
+#include "renderer/surface_pass.h"
 
 namespace carom::renderer {
 namespace {
 
-constexpr int kShadowTexels = 1024;
 constexpr double kShadowLift = 2.2;  // Texels along a grazed surface's normal: the reach of the softening.
 constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
 constexpr double kHorizonOverDistance =
@@ -65,6 +67,19 @@ void placeShadowedGround(FrameBlock& block, const ShadowView& shadow, double gro
   block.shadowed[0][2] = static_cast<float>(4.0 * horizon_m / shortest);
 }
 
+// Moves the image by `shift_px`, right and up.
+std::array<float, 16> shifted(std::array<float, 16> clip_from_E, const Vec2& shift_px,
+                              const Settings& settings) {
+  if (shift_px.isZero(0.0)) return clip_from_E;
+  const double x = 2.0 * shift_px.x() / settings.width, y = 2.0 * shift_px.y() / settings.height;
+  for (std::size_t column = 0; column < 4; ++column) {
+    const float w = clip_from_E[4 * column + 3];
+    clip_from_E[4 * column] += static_cast<float>(x) * w;
+    clip_from_E[4 * column + 1] += static_cast<float>(y) * w;
+  }
+  return clip_from_E;
+}
+
 void copy(float (&to)[4], const Vec3& v, double w) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
   to[3] = static_cast<float>(w);
@@ -75,14 +90,17 @@ void copy(float (&to)[4], const Vec3& v, double w) {
 struct FrameRenderer::Impl {
   Impl(const Settings& wanted, std::span<const Solid> given)
       : settings(checked(wanted)),
-        to_light(settings.to_light.normalized()),
+        quality(qualityOf(settings.preset, settings.style)),
+        samples(samplesOf(quality, settings.to_light.normalized())),
         solids(given.begin(), given.end()),
         context(createOffscreenContext(settings.pixels)),
         gl(context->gl()),
         geometry(gl, solids),
-        filter(settings.width, settings.height) {
+        filter(settings.width, settings.height),
+        surface_pass(gl, {settings.width, settings.height}) {
     linkPrograms();
     createTargets();
+    if (quality.mirror) createMirrorTarget();
     createOcclusionBuffer();
     gl.GenBuffers(1, &frame_buffer);
     gl.GenVertexArrays(1, &no_attributes);
@@ -91,48 +109,77 @@ struct FrameRenderer::Impl {
 
   void linkPrograms();
   void createTargets();
+  void createMirrorTarget();
   void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
                     const std::function<void()>& drawn);
-  ShadowView shadowView(std::span<const Instance> instances, const Camera& camera,
-                        const DrawList& list) const;
-  void uploadFrame(const Camera& camera, const DrawList& list, const ShadowView& shadow) const;
-  void drawShadows(const DrawList& list, const ShadowView& shadow) const;
-  void drawScene(const DrawList& list) const;
-  void drawOcclusion(std::span<const Instance> instances, const Camera& camera, const DrawList& list) const;
+  void expose(const Sample& sample);
+  ShadowView shadowView(const Vec3& to_light) const;
+  void uploadFrame(const ShadowView& shadow, const Sample& sample) const;
+  void drawShadows(const ShadowView& shadow) const;
+  void drawMirrored() const;
+  void drawScene(const Vec3& to_light) const;
+  void bindTextures() const;
+  std::vector<OcclusionVertex> occlusionTriangles() const;
+  void drawOcclusion() const;
   void readBack();
+  const SurfaceImage& knownSurfaces();
+
+  // What the frame at hand shows.
+  struct View {
+    std::vector<Instance> instances;
+    Camera camera;
+    DrawList list;
+    std::vector<OcclusionVertex> occlusion;
+  };
 
   Settings settings;
-  Vec3 to_light;
+  Quality quality;
+  std::vector<Sample> samples;
   std::vector<Solid> solids;
   std::unique_ptr<OffscreenContext> context;
   const GlFunctions& gl;
   SceneGeometry geometry;
   EdgeFilter filter;
+  MultipleExposure exposure;
+  SurfacePass surface_pass;
   GLuint body_program = 0, shadowed_ground_program = 0, open_ground_program = 0, sky_program = 0;
-  GLuint shadow_program = 0, occlusion_program = 0;
-  GLuint scene_target = 0, shadow_target = 0;
+  GLuint shadow_program = 0, occlusion_program = 0, mirrored_program = 0;
+  GLuint scene_target = 0, shadow_target = 0, mirror_target = 0, shadow_map = 0, mirror_texture = 0;
+  int mirror_width = 0, mirror_height = 0;
   GLuint frame_buffer = 0, no_attributes = 0, occlusion_array = 0, occlusion_buffer = 0;
   std::vector<std::uint8_t> pixels;
   Image image;
+  View view;
+  SurfaceImage surfaces;
+  bool surfaces_known = true;  // Those of a view that shows nothing yet: none.
 };
 
 void FrameRenderer::Impl::linkPrograms() {
-  const auto link = [&](const char* name, const char* vertex, const char* light, const char* common,
-                        const char* fragment) {
-    return linkProgram(gl, {name, {kGlslHead, vertex}, {kGlslHead, light, common, fragment}});
+  std::string variant;
+  if (settings.style == Style::kPrint) variant += "#define PRINT\n";
+  if (!quality.soft_look_up) variant += "#define SMALL_SHADOWS\n";
+  if (quality.mirror) variant += "#define POLISHED\n";
+  const auto link = [&](const char* name, const std::string& lines, const char* vertex, const char* light,
+                        const char* common, const char* fragment) {
+    return linkProgram(
+        gl, {name, {kGlslHead, lines.c_str(), vertex}, {kGlslHead, lines.c_str(), light, common, fragment}});
   };
-  body_program = link("body", kBodyVertex, kGlslLight, "", kBodyFragment);
+  body_program = link("body", variant, kBodyVertex, kGlslLight, "", kBodyFragment);
   shadowed_ground_program =
-      link("shadowed ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
-  open_ground_program = link("open ground", kGroundVertex, kGlslLight, kGroundCommon, kGroundOpenFragment);
-  sky_program = link("sky", kSkyVertex, kGlslLight, "", kSkyFragment);
-  shadow_program = link("shadow", kShadowVertex, "", "", kShadowFragment);
-  occlusion_program = link("occlusion", kOcclusionVertex, "", "", kOcclusionFragment);
+      link("shadowed ground", variant, kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
+  open_ground_program =
+      link("open ground", variant, kGroundVertex, kGlslLight, kGroundCommon, kGroundOpenFragment);
+  sky_program = link("sky", variant, kSkyVertex, kGlslLight, "", kSkyFragment);
+  shadow_program = link("shadow", "", kShadowVertex, "", "", kShadowFragment);
+  occlusion_program = link("occlusion", "", kOcclusionVertex, "", "", kOcclusionFragment);
+  if (quality.mirror)
+    mirrored_program =
+        link("mirrored body", variant + "#define MIRROR\n", kBodyVertex, kGlslLight, "", kBodyFragment);
 }
 
 void FrameRenderer::Impl::createTargets() {
-  GLuint buffers[2], shadow_map = 0;
+  GLuint buffers[2];
   gl.GenRenderbuffers(2, buffers);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, settings.width, settings.height);
@@ -146,8 +193,8 @@ void FrameRenderer::Impl::createTargets() {
 
   gl.GenTextures(1, &shadow_map);
   gl.BindTexture(GL_TEXTURE_2D, shadow_map);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowTexels, kShadowTexels, 0, GL_DEPTH_COMPONENT,
-                GL_FLOAT, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, quality.shadow_texels, quality.shadow_texels, 0,
+                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -181,74 +228,125 @@ void FrameRenderer::Impl::createOcclusionBuffer() {
   }
 }
 
-// The passes: shadow map, bodies, ground, sky, contact shadows; then the image leaves GL and its edges are
-// smoothed.
+// What the ground mirrors: bodies where alpha is one. Half as fine as the image: the exposures blur it
+// anyway.
+void FrameRenderer::Impl::createMirrorTarget() {
+  GLuint depth = 0;
+  mirror_width = (settings.width + 1) / 2;
+  mirror_height = (settings.height + 1) / 2;
+  gl.GenTextures(1, &mirror_texture);
+  gl.BindTexture(GL_TEXTURE_2D, mirror_texture);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, mirror_width, mirror_height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.GenRenderbuffers(1, &depth);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, depth);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, mirror_width, mirror_height);
+  gl.GenFramebuffers(1, &mirror_target);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, mirror_target);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mirror_texture, 0);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || gl.GetError() != GL_NO_ERROR) {
+    std::ostringstream message;
+    message << "the GL driver has no room for mirrored images of " << settings.width << "x"
+            << settings.height;
+    throw NoRenderer(message.str());
+  }
+}
+
+// One exposure or several, and their mean.
 const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera,
                                        const std::function<void()>& drawn) {
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
-  const DrawList list = buildDrawList(instances, camera, settings, geometry);
-  const ShadowView shadow = shadowView(instances, camera, list);
+  view.instances.assign(instances.begin(), instances.end());
+  view.camera = camera;
+  view.list = buildDrawList(instances, camera, settings, geometry);
+  view.occlusion = occlusionTriangles();
+  surfaces_known = false;
   context->makeCurrent();
-  uploadFrame(camera, list, shadow);
-  geometry.uploadInstances(gl, list.records);
-  drawShadows(list, shadow);
-  drawScene(list);
-  drawOcclusion(instances, camera, list);
-  if (drawn) {
-    gl.Finish();
-    drawn();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    expose(samples[i]);
+    if (drawn && i + 1 == samples.size()) {
+      gl.Finish();
+      drawn();
+    }
+    readBack();
+    if (samples.size() > 1) exposure.add(image);
   }
-  readBack();
+  if (samples.size() > 1) exposure.develop(image);
   return image;
 }
 
-ShadowView FrameRenderer::Impl::shadowView(std::span<const Instance> instances, const Camera& camera,
-                                           const DrawList& list) const {
+// The passes: shadow map, mirrored bodies, bodies, ground, sky, contact shadows.
+void FrameRenderer::Impl::expose(const Sample& sample) {
+  const ShadowView shadow = shadowView(sample.to_light);
+  uploadFrame(shadow, sample);
+  geometry.uploadInstances(gl, view.list.records);
+  drawShadows(shadow);
+  if (quality.mirror) drawMirrored();
+  drawScene(sample.to_light);
+  drawOcclusion();
+}
+
+ShadowView FrameRenderer::Impl::shadowView(const Vec3& to_light) const {
+  const std::vector<Instance>& instances = view.instances;
+  const Camera& camera = view.camera;
   std::vector<ShadowCaster> casters;
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (list.ground == static_cast<int>(i)) continue;
+    if (view.list.ground == static_cast<int>(i)) continue;
     const Extent& extent = geometry.solid(instances[i].solid).extent;
     const Pose X_EB{instances[i].X_WB.rotation, instances[i].X_WB * extent.center - camera.eye};
     casters.push_back({X_EB, extent.half});
   }
-  return fitShadow({camera, static_cast<double>(settings.width) / settings.height, to_light, kShadowTexels},
-                   casters);
+  return fitShadow(
+      {camera, static_cast<double>(settings.width) / settings.height, to_light, quality.shadow_texels},
+      casters);
 }
 
-void FrameRenderer::Impl::uploadFrame(const Camera& camera, const DrawList& list,
-                                      const ShadowView& shadow) const {
+void FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sample) const {
+  const Camera& camera = view.camera;
+  const DrawList& list = view.list;
   const CameraAxes axes = cameraAxes(camera);
   const double focal = focalLengthPixels(camera, settings.height);
   const double distance = (camera.target - camera.eye).norm();
   const double square = checkerSquare(distance);
   FrameBlock block{};
-  const std::array<float, 16> clip = clipFromE(camera, settings.width, settings.height, list.depth);
+  const std::array<float, 16> clip =
+      shifted(clipFromE(camera, settings.width, settings.height, list.depth), sample.shift_px, settings);
   std::copy(clip.begin(), clip.end(), block.clip_from_E);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) block.shadow_rows[r][c] = static_cast<float>(shadow.rows(r, c));
   if (shadow.texel_m == 0.0) block.shadow_rows[0][3] = -1.0f;  // Outside the map everywhere: all is lit.
-  copy(block.to_light, to_light, kShadowLift * shadow.texel_m);
+  copy(block.to_light, sample.to_light, kShadowLift * shadow.texel_m);
   const Vec3 x = axes.right / focal, y = axes.up / focal;
-  copy(block.ray_corner, axes.forward - 0.5 * settings.width * x - 0.5 * settings.height * y,
+  copy(block.ray_corner,
+       axes.forward - (0.5 * settings.width + sample.shift_px.x()) * x -
+           (0.5 * settings.height + sample.shift_px.y()) * y,
        1.0 / (kFogOverDistance * distance));
-  copy(block.ray_x, x, kShadowTexels);
+  copy(block.ray_x, x, quality.shadow_texels);
   copy(block.ray_y, y, 0.0);
   block.ground[0] = list.ground ? static_cast<float>(list.ground_z_E) : kNoGround;
   block.ground[1] = static_cast<float>(1.0 / square);
   block.ground[2] = static_cast<float>(std::fmod(camera.eye.x() / square, 2.0));
   block.ground[3] = static_cast<float>(std::fmod(camera.eye.y() / square, 2.0));
+  for (int i = 0; i < 2; ++i) block.mirror[i] = static_cast<float>(sample.mirror_shear[i]);
+  block.mirror[2] = 1.0f / static_cast<float>(settings.width);
+  block.mirror[3] = 1.0f / static_cast<float>(settings.height);
   placeShadowedGround(block, shadow, list.ground_z_E, kHorizonOverDistance * distance);
   gl.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 }
 
-void FrameRenderer::Impl::drawShadows(const DrawList& list, const ShadowView& shadow) const {
+void FrameRenderer::Impl::drawShadows(const ShadowView& shadow) const {
   if (shadow.texel_m == 0.0) return;
   gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
-  gl.Viewport(0, 0, kShadowTexels, kShadowTexels);
+  gl.Viewport(0, 0, quality.shadow_texels, quality.shadow_texels);
   gl.Enable(GL_DEPTH_TEST);
   gl.Disable(GL_BLEND);
   gl.DepthMask(GL_TRUE);
@@ -258,11 +356,38 @@ void FrameRenderer::Impl::drawShadows(const DrawList& list, const ShadowView& sh
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 4.0f);
   gl.UseProgram(shadow_program);
-  for (const DrawGroup& group : list.casting) geometry.draw(gl, group.range, group.first, group.count);
+  for (const DrawGroup& group : view.list.casting) geometry.draw(gl, group.range, group.first, group.count);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
-void FrameRenderer::Impl::drawScene(const DrawList& list) const {
+// The winding turns over in a mirror.
+void FrameRenderer::Impl::drawMirrored() const {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, mirror_target);
+  gl.Viewport(0, 0, mirror_width, mirror_height);
+  gl.Enable(GL_FRAMEBUFFER_SRGB);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  bindTextures();
+  if (!view.list.ground || !(view.list.ground_z_E < 0.0)) return;
+  gl.Enable(GL_CULL_FACE);
+  gl.FrontFace(GL_CW);
+  gl.UseProgram(mirrored_program);
+  for (const DrawGroup& group : view.list.casting) geometry.draw(gl, group.range, group.first, group.count);
+  gl.FrontFace(GL_CCW);
+}
+
+void FrameRenderer::Impl::bindTextures() const {
+  gl.ActiveTexture(GL_TEXTURE1);
+  gl.BindTexture(GL_TEXTURE_2D, mirror_texture);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, shadow_map);
+}
+
+void FrameRenderer::Impl::drawScene(const Vec3& to_light) const {
+  const DrawList& list = view.list;
   gl.BindFramebuffer(GL_FRAMEBUFFER, scene_target);
   gl.Viewport(0, 0, settings.width, settings.height);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
@@ -287,18 +412,20 @@ void FrameRenderer::Impl::drawScene(const DrawList& list) const {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void FrameRenderer::Impl::drawOcclusion(std::span<const Instance> instances, const Camera& camera,
-                                        const DrawList& list) const {
+std::vector<OcclusionVertex> FrameRenderer::Impl::occlusionTriangles() const {
   std::vector<OcclusionBody> bodies;
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    const Instance& instance = instances[i];
+  for (std::size_t i = 0; i < view.instances.size(); ++i) {
+    const Instance& instance = view.instances[i];
     const Solid& solid = solids[static_cast<std::size_t>(instance.solid)];
-    const Pose X_EB{instance.X_WB.rotation, instance.X_WB.position - camera.eye};
+    const Pose X_EB{instance.X_WB.rotation, instance.X_WB.position - view.camera.eye};
     bodies.push_back({&solid, geometry.solid(instance.solid).boxes, X_EB, solid.radius(),
-                      list.ground == static_cast<int>(i)});
+                      view.list.ground == static_cast<int>(i)});
   }
-  const std::vector<OcclusionVertex> triangles =
-      contactOcclusion(bodies, focalLengthPixels(camera, settings.height));
+  return contactOcclusion(bodies, focalLengthPixels(view.camera, settings.height));
+}
+
+void FrameRenderer::Impl::drawOcclusion() const {
+  const std::vector<OcclusionVertex>& triangles = view.occlusion;
   if (triangles.empty()) return;
   gl.BindVertexArray(occlusion_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
@@ -320,6 +447,15 @@ void FrameRenderer::Impl::readBack() {
   filter.apply(pixels, image);
 }
 
+const SurfaceImage& FrameRenderer::Impl::knownSurfaces() {
+  if (surfaces_known) return surfaces;
+  context->makeCurrent();
+  uploadFrame({}, {});
+  surface_pass.draw(view.instances, solids, view.camera, view.list, geometry, surfaces);
+  surfaces_known = true;
+  return surfaces;
+}
+
 FrameRenderer::FrameRenderer(const Settings& settings, std::span<const Solid> solids)
     : impl_(std::make_unique<Impl>(settings, solids)) {}
 FrameRenderer::~FrameRenderer() = default;
@@ -327,6 +463,9 @@ FrameRenderer::~FrameRenderer() = default;
 const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera,
                                  const std::function<void()>& drawn) {
   return impl_->draw(instances, camera, drawn);
+}
+const SurfaceImage& FrameRenderer::surfaces() {
+  return impl_->knownSurfaces();
 }
 ContextInfo FrameRenderer::info() const {
   return impl_->context->info();

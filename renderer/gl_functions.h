@@ -8,6 +8,7 @@ namespace carom::renderer {
 
 // Name without "gl", and the type of its pointer.
 #define CAROM_GL_FUNCTIONS(X)                                                                          \
+  X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                                                             \
   X(AttachShader, PFNGLATTACHSHADERPROC)                                                               \
   X(BindBuffer, PFNGLBINDBUFFERPROC)                                                                   \
   X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                                                           \
@@ -28,12 +29,14 @@ namespace carom::renderer {
   X(Disable, PFNGLDISABLEPROC)                                                                         \
   X(DrawArrays, PFNGLDRAWARRAYSPROC)                                                                   \
   X(DrawBuffer, PFNGLDRAWBUFFERPROC)                                                                   \
+  X(DrawBuffers, PFNGLDRAWBUFFERSPROC)                                                                 \
   X(DrawElementsInstancedBaseVertexBaseInstance, PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC) \
   X(Enable, PFNGLENABLEPROC)                                                                           \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)                                         \
   X(Finish, PFNGLFINISHPROC)                                                                           \
   X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)                                         \
   X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                                               \
+  X(FrontFace, PFNGLFRONTFACEPROC)                                                                     \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                                                                   \
   X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                                                         \
   X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                                                       \
@@ -49,6 +52,7 @@ namespace carom::renderer {
   X(LinkProgram, PFNGLLINKPROGRAMPROC)                                                                 \
   X(PixelStorei, PFNGLPIXELSTOREIPROC)                                                                 \
   X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                                             \
+  X(ReadBuffer, PFNGLREADBUFFERPROC)                                                                   \
   X(ReadPixels, PFNGLREADPIXELSPROC)                                                                   \
   X(RenderbufferStorage, PFNGLRENDERBUFFERSTORAGEPROC)                                                 \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                                               \

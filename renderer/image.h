@@ -1,5 +1,5 @@
 #pragma once
-// An 8-bit sRGB image in memory, top row first.
+// Images in memory, top row first: 8-bit sRGB, and what lies behind each pixel.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +16,13 @@ struct Image {
     return rgb.data() +
            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }
+};
+
+/// How far away what each pixel shows is, along the view axis.
+struct DepthImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> depth_m;  ///< width * height, rows from top to bottom; +infinity for the sky.
 };
 
 }  // namespace carom::renderer

@@ -106,10 +106,15 @@ bool writeImage(png_structp png, png_infop info, const Image& image, png_textp t
   return true;
 }
 
-// Every filter is tried and deflate takes its time: for reports, which hold many images.
+// Small: every filter is tried and deflate takes its time, for reports, which hold many images. Quick: depths
+// and ids vary along both axes, and what differs from the row above is short.
 bool writeRaster(png_structp png, png_infop info, const Raster& raster, const std::uint8_t* bytes,
-                 png_textp text, int text_count) {
+                 png_textp text, int text_count, PngPacking packing) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
+  if (packing == PngPacking::kQuick) {
+    png_set_compression_level(png, 1);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  }
   constexpr std::array<int, 4> kColorTypes = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                               PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
   png_set_IHDR(png, info, static_cast<png_uint_32>(raster.width), static_cast<png_uint_32>(raster.height),
@@ -238,11 +243,11 @@ DecodedBytes decode(const std::filesystem::path& path, Samples wanted) {
 
 // PNG stores the high byte of a 16-bit sample first.
 std::vector<std::uint8_t> bytesOf(const Raster& raster) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
-  for (const std::uint16_t sample : raster.samples) {
-    if (raster.bits == 16) bytes.push_back(static_cast<std::uint8_t>(sample >> 8));
-    bytes.push_back(static_cast<std::uint8_t>(sample & 0xff));
+  if (raster.bits == 8) return {raster.samples.begin(), raster.samples.end()};
+  std::vector<std::uint8_t> bytes(2 * raster.samples.size());
+  for (std::size_t i = 0; i < raster.samples.size(); ++i) {
+    bytes[2 * i] = static_cast<std::uint8_t>(raster.samples[i] >> 8);
+    bytes[2 * i + 1] = static_cast<std::uint8_t>(raster.samples[i] & 0xff);
   }
   return bytes;
 }
@@ -272,7 +277,7 @@ std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text) {
   return bytes;
 }
 
-std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text) {
+std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing) {
   REQUIRE(raster.width > 0 && raster.height > 0, raster.width, raster.height);
   REQUIRE(raster.channels >= 1 && raster.channels <= 4, raster.channels);
   REQUIRE(raster.bits == 8 || raster.bits == 16, raster.bits);
@@ -285,7 +290,7 @@ std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text) {
   const Writer writer(error);
   png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
   if (!writeRaster(writer.png, writer.info, raster, rows.data(), chunks.data(),
-                   static_cast<int>(chunks.size())))
+                   static_cast<int>(chunks.size()), packing))
     throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
   return bytes;
 }

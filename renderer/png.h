@@ -22,8 +22,11 @@ using PngText = std::vector<std::pair<std::string, std::string>>;
 /// is 1 to 79 ASCII characters; a text may be UTF-8.
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {});
 
-/// The raster's own channels and bits, packed for size rather than speed; tagged sRGB when it has 8 bits.
-std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text = {});
+enum class PngPacking { kSmall, kQuick };
+
+/// The raster's own channels and bits, packed for size or for speed; tagged sRGB when it has 8 bits.
+std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text = {},
+                                    PngPacking packing = PngPacking::kSmall);
 
 struct DecodedPng {
   Image image;

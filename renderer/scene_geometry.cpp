@@ -61,6 +61,7 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   geometry.extent = solidExtent(solid);
   geometry.is_round = hasRoundPart(solid);
   for (const ConvexPart& part : solid.parts()) geometry.boxes.push_back(roundedBox(part));
+  geometry.flat_parts = pool.add(buildFlatMesh(solid));
   const double bevel = bevelWidth(solid, bevel_cap_m);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
     const bool same = i > 1 && !geometry.is_round;

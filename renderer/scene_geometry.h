@@ -28,6 +28,7 @@ struct MeshRange {
 
 struct SolidGeometry {
   std::array<MeshRange, kDetailLevels> levels;
+  MeshRange flat_parts;  ///< The parts without rounding, unbevelled.
   Extent extent;
   std::vector<RoundedBox> boxes;  ///< One a part.
   bool is_round = false;          ///< Has a ball or capsule among its parts.

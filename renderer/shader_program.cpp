@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "renderer/offscreen_context.h"
 
@@ -14,7 +15,10 @@ namespace {
   throw NoRenderer(std::string("the GL driver does not ") + what + " shader '" + name + "': " + log);
 }
 
-GLuint compile(const GlFunctions& gl, GLenum stage, const char* name, std::span<const char* const> texts) {
+GLuint compile(const GlFunctions& gl, GLenum stage, const char* name, std::span<const char* const> pieces) {
+  std::vector<const char*> texts;
+  for (const char* piece : pieces)
+    if (piece != nullptr) texts.push_back(piece);
   const GLuint shader = gl.CreateShader(stage);
   gl.ShaderSource(shader, static_cast<GLsizei>(texts.size()), texts.data(), nullptr);
   gl.CompileShader(shader);

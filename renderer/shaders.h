@@ -1,6 +1,8 @@
 #pragma once
 // The GLSL of all passes, and the block of values they share. Frame E: the world's axes, origin at the eye;
-// light is linear until the sRGB framebuffer encodes it.
+// light is linear until the sRGB framebuffer encodes it. Variants are chosen by lines between the head and
+// the rest: PRINT (white surroundings), SMALL_SHADOWS (2x2 texels), MIRROR (bodies as the ground mirrors
+// them), POLISHED (the ground shows what it mirrors).
 
 namespace carom::renderer {
 
@@ -15,6 +17,8 @@ struct FrameBlock {
   float ground[4];      ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
   float shadowed[4][4];  ///< xy: corners, in order, of the ground's part that the shadow map covers; z of the
                          ///< first: how many times as large the whole ground is.
+  float mirror[4];       ///< xy: how mirrored things are sheared, over their height above the ground; zw: 1 /
+                         ///< pixels.
 };
 
 inline constexpr const char* kGlslHead = R"(#version 420 core
@@ -27,6 +31,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 ray_y;
   vec4 ground;
   vec4 shadowed[4];
+  vec4 mirror;
 };
 // Texture coordinates in the shadow map of a point with normal n, lifted out of the reach of its own shadow.
 vec3 shadowCoordinates(vec3 p, vec3 n) {
@@ -57,6 +62,12 @@ vec3 skyAt(float elevation) {
   return mix(mix(kHorizon, kZenith, high), kBelow, low);
 }
 
+#ifdef SMALL_SHADOWS
+float lit(vec3 s) {
+  if (any(greaterThan(abs(s.xy - 0.5), vec2(0.497)))) return 1.0;
+  return texture(shadow_map, vec3(s.xy, min(s.z, 1.0)));
+}
+#else
 // Shadow softened by a tent of four texels each way: sixteen comparisons in four fetches.
 float lit(vec3 s) {
   if (any(greaterThan(abs(s.xy - 0.5), vec2(0.497)))) return 1.0;
@@ -77,6 +88,7 @@ float lit(vec3 s) {
                    dot(wx, vec4(q01.wz, q11.wz)), dot(wx, vec4(q01.xy, q11.xy)));
   return dot(wy, rows) / 16.0;
 }
+#endif
 
 // Checker of the world's xy, each pixel the exact mean over its footprint.
 float checker(vec2 uv) {
@@ -86,12 +98,20 @@ float checker(vec2 uv) {
   vec2 mean = 2.0 * (a - b) / w;
   return 0.5 - 0.5 * mean.x * mean.y;
 }
+#ifdef PRINT
+const vec3 kLightSquare = vec3(0.80);
+const vec3 kDarkSquare = vec3(0.70);
+#else
 const vec3 kLightSquare = vec3(0.52, 0.515, 0.50);
 const vec3 kDarkSquare = vec3(0.305, 0.315, 0.34);
+#endif
 
 // A film's shoulder: straight for dim light, never quite white. Then the air in between, bright as the horizon.
 vec3 film(vec3 light, float distance_m) {
   vec3 image = light * inversesqrt(1.0 + light * light);
+#ifdef PRINT
+  return image;
+#endif
   float q = distance_m * ray_corner.w;
   return mix(kHorizon, image, exp(-q * q));
 }
@@ -114,7 +134,12 @@ void main() {
   n_E = vec3(dot(row0.xyz, n_B), dot(row1.xyz, n_B), dot(row2.xyz, n_B));
   shadow = shadowCoordinates(p_E, n_E);
   albedo = color;
+#ifdef MIRROR
+  float height = p_E.z - ground.x;
+  gl_Position = clip_from_E * vec4(p_E.xy + height * mirror.xy, ground.x - height, 1.0);
+#else
   gl_Position = clip_from_E * vec4(p_E, 1.0);
+#endif
 }
 )";
 
@@ -126,8 +151,15 @@ in vec3 shadow;
 flat in vec4 albedo;
 out vec4 pixel;
 void main() {
+#ifdef MIRROR
+  if (p_E.z < ground.x) discard;
+  vec3 from_eye = p_E - vec3(0.0, 0.0, 2.0 * ground.x);  // from below the ground, where the eye's image is
+  float distance_m = length(from_eye);
+  vec3 v = from_eye / -distance_m;
+#else
   float distance_m = length(p_E);
   vec3 v = p_E / -distance_m;
+#endif
   vec3 n = normalize(n_E);
   vec3 base = albedo.rgb;
   if (albedo.w < 0.0 && n.z > 0.5)
@@ -175,8 +207,31 @@ vec3 groundPoint() {
   vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
   return ray * (ground.x / ray.z);
 }
+#ifdef POLISHED
+layout(binding = 1) uniform sampler2D mirrored;
+// Sky and bodies, as a coat of varnish mirrors them: more at grazing angles.
+vec3 polished(vec3 image, vec3 p) {
+  float nv = -p.z * inversesqrt(dot(p, p));
+  float grazing = 1.0 - nv;
+  float share = 0.16 + 0.5 * grazing * grazing * grazing * grazing * grazing;
+  vec4 bodies = texture(mirrored, gl_FragCoord.xy * mirror.zw);
+  return mix(image, mix(mix(image, skyAt(nv), 0.4), bodies.rgb, bodies.a), share);
+}
+#endif
 vec4 groundPixel(vec3 p, float sun) {
   vec3 base = mix(kDarkSquare, kLightSquare, checker(p.xy * ground.y + ground.zw));
+#ifdef PRINT
+  // Paper: shadows and a trace of the squares, both gone before the horizon.
+  float far = length(p) * ray_corner.w * 2.0;
+  vec3 paper = (base + 0.2) * mix(vec3(0.52, 0.54, 0.58), vec3(1.0), max(to_light.z, 0.0) > 0.0 ? sun : 1.0);
+  return vec4(mix(vec3(1.0), paper, exp(-far * far)), 1.0);
+#endif
+#ifdef POLISHED
+  vec3 lit_ground = base * (kSun * (max(to_light.z, 0.0) * sun) + kSkyLight);
+  vec3 image = polished(lit_ground * inversesqrt(1.0 + lit_ground * lit_ground), p);
+  float q = length(p) * ray_corner.w;
+  return vec4(mix(kHorizon, image, exp(-q * q)), 1.0);
+#endif
   vec3 light = base * (kSun * (max(to_light.z, 0.0) * sun) + kSkyLight);
   return vec4(film(light, length(p)), 1.0);
 }
@@ -203,7 +258,43 @@ inline constexpr const char* kSkyFragment = R"(
 out vec4 pixel;
 void main() {
   vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
+#ifdef PRINT
+  pixel = vec4(1.0);
+#else
   pixel = vec4(skyAt(ray.z * inversesqrt(dot(ray, ray))), 1.0);
+#endif
+}
+)";
+
+// Surface images: the plane of the face, constant over it, meets the pixel's ray. Color's first component is
+// the number to write.
+inline constexpr const char* kSurfaceVertex = R"(
+layout(location = 0) in vec3 p_B;
+layout(location = 1) in vec3 n_B;
+layout(location = 2) in vec4 row0;
+layout(location = 3) in vec4 row1;
+layout(location = 4) in vec4 row2;
+layout(location = 5) in vec4 color;
+flat out vec4 plane;
+flat out float id;
+void main() {
+  vec4 p = vec4(p_B, 1.0);
+  vec3 p_E = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
+  vec3 n_E = vec3(dot(row0.xyz, n_B), dot(row1.xyz, n_B), dot(row2.xyz, n_B));
+  plane = vec4(n_E, dot(n_E, p_E));
+  id = color.x;
+  gl_Position = clip_from_E * vec4(p_E, 1.0);
+}
+)";
+inline constexpr const char* kSurfaceFragment = R"(
+flat in vec4 plane;
+flat in float id;
+layout(location = 0) out vec4 normal_and_depth;
+layout(location = 1) out float number;
+void main() {
+  vec3 ray = ray_corner.xyz + gl_FragCoord.x * ray_x.xyz + gl_FragCoord.y * ray_y.xyz;
+  normal_and_depth = vec4(plane.xyz, plane.w / dot(plane.xyz, ray));
+  number = id;
 }
 )";
 

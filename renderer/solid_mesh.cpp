@@ -215,6 +215,13 @@ TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail) {
   return mesh;
 }
 
+TriangleMesh buildFlatMesh(const Solid& solid) {
+  TriangleMesh mesh;
+  for (const ConvexPart& part : solid.parts())
+    if (part.radius_m == 0.0) addSharpPart(mesh, part.core);
+  return mesh;
+}
+
 double bevelWidth(const Solid& solid, double cap_m) {
   double width = solid.parts().front().width();
   for (const ConvexPart& part : solid.parts()) width = std::min(width, part.width());

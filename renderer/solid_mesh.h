@@ -30,6 +30,9 @@ struct MeshDetail {
 /// All parts of the solid in one mesh, in the solid's frame.
 TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail);
 
+/// The parts without rounding alone, with sharp edges: the solid's exact faces.
+TriangleMesh buildFlatMesh(const Solid& solid);
+
 /// The bevel that suits a solid: a small fraction of its smallest part's width, and not more than `cap_m`.
 double bevelWidth(const Solid& solid, double cap_m);
 

@@ -46,6 +46,18 @@ TEST(FrameClock, KeepsABrokenFrameRateWithinRounding) {
   }
 }
 
+TEST(FrameClock, AStillIsOneFrameAtExactlyItsTime) {
+  const FrameClock clock = FrameClock::still(0.29, 100.0);
+  EXPECT_EQ(clock.frameCount(5.0), 1);
+  EXPECT_EQ(clock.time(0), 0.29);
+  EXPECT_EQ(clock.instant(0).step, 29);  // 0.29 x 100 rounds to below 29, but that is what is meant
+  EXPECT_EQ(clock.instant(0).fraction, 0.0);
+  const StepInstant between = FrameClock::still(1.2345, 240.0).instant(0);
+  EXPECT_EQ(between.step, 296);
+  EXPECT_NEAR(between.fraction, 0.28, 1e-9);
+  EXPECT_EQ(FrameClock::still(0.0, 240.0).instant(0).lastStepNeeded(), 0);
+}
+
 TEST(FrameClock, InterpolatesAlongTheLineAndTheShortestArc) {
   const Pose a{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())), Vec3(1.0, 2.0, 3.0)};
   const Quat quarter_on(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));

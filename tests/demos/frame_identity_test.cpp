@@ -61,6 +61,8 @@ TEST(FrameIdentity, WhateverThePixelsDependOnMakesAFrameStale) {
   const std::vector<std::function<void(Manifest&, FrameRecord&)>> changes = {
       [](Manifest& m, FrameRecord&) { m.scene_hash ^= 1; },
       [](Manifest& m, FrameRecord&) { m.camera = "other"; },
+      [](Manifest& m, FrameRecord&) { m.preset = renderer::Preset::kFast; },
+      [](Manifest& m, FrameRecord&) { m.style = renderer::Style::kPrint; },
       [](Manifest& m, FrameRecord&) { m.gl.version = "4.6"; },
       [](Manifest& m, FrameRecord&) { m.gl.renderer = "softpipe"; },
       [](Manifest&, FrameRecord& r) { r.state_hash ^= 1; },

@@ -14,6 +14,9 @@ TEST(FrameNames, PadsTheNumberAsThePatternSays) {
   EXPECT_EQ(FrameNames("%d.png").file(12), "12.png");
   EXPECT_EQ(FrameNames("a#b.png").file(12345), "a12345b.png");
   EXPECT_EQ(FrameNames("/x/y/%03d.png").folder(), "/x/y");
+  EXPECT_EQ(FrameNames("out/frame_%04d.png").file(7, "depth"), "out/frame_0007.depth.png");
+  EXPECT_EQ(FrameNames::still("out/a.b.png").file(7), "out/a.b.png");
+  EXPECT_EQ(FrameNames::still("out/still.png").file(0, "id"), "out/still.id.png");
 }
 
 TEST(FrameNames, RefusesPatternsWithoutExactlyOneNumber) {

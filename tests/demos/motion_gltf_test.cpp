@@ -236,6 +236,28 @@ TEST(MotionGltf, RotationsTakeTheSignNearestToTheLast) {
     EXPECT_EQ(toQuat((*channel)->mRotationKeys[k].mValue).coeffs(), turned.coeffs()) << k;
 }
 
+TEST(MotionGltf, CamerasThatMoveAreAnimatedAndTheOthersNot) {
+  Scene scene = spinningScene();
+  scene.cameras["chase"].motion = FollowBody{"die[2]", Vec3(1, -4, 2)};
+  const Exported file(scene, 3);
+  const aiAnimation& animation = *file.read->mAnimations[0];
+  const auto channelOf = [&](const char* name) {
+    return std::find_if(animation.mChannels, animation.mChannels + animation.mNumChannels,
+                        [&](const aiNodeAnim* c) { return c->mNodeName == aiString(name); });
+  };
+  EXPECT_EQ(channelOf("camera main"), animation.mChannels + animation.mNumChannels);
+  const aiNodeAnim* const* chase = channelOf("camera chase");
+  ASSERT_NE(chase, animation.mChannels + animation.mNumChannels);
+  for (unsigned k = 0; k < 3; ++k) {
+    const Vec3 die = file.states[k][2].X_WB.position;
+    EXPECT_LT((shownPoint(file, **chase, k, Vec3(0, 0, 0)) - upright(die + Vec3(1, -4, 2))).norm(),
+              kTolerance_m);
+    // It looks along its -z, at the body.
+    const Vec3 ahead = shownPoint(file, **chase, k, Vec3(0, 0, -Vec3(1, -4, 2).norm()));
+    EXPECT_LT((ahead - upright(die)).norm(), 10.0 * kTolerance_m);
+  }
+}
+
 TEST(MotionGltf, CopiesShareTrianglesAndThoseOfOneColourTheMesh) {
   const Exported file(spinningScene(), 2);
   ASSERT_NE(file.read, nullptr) << file.importer.GetErrorString();

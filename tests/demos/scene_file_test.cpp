@@ -25,6 +25,11 @@ void PrintTo(const Refusal& refusal, std::ostream* out) {
 }
 
 const std::string kBox = "\"shape\": { \"box\": [1, 1, 1] }";
+/// A scene with one camera, in the file's second line.
+std::string cameraScene(const std::string& camera) {
+  return "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
+         " } ],\n \"cameras\": { \"main\": " + camera + " } }";
+}
 const char kOneOfShapes[] = "accepted: exactly one of box, sphere, capsule, hull, compound";
 
 const Refusal kRefusals[] = {
@@ -109,6 +114,22 @@ const Refusal kRefusals[] = {
      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
          " } ],\n \"cameras\": { \"main\": { \"eye\": [1, 2, 3], \"target\": [1, 2, 3] } } }",
      ":2: cameras.main: eye and target coincide"},
+    {"MisspeltCamera", cameraScene("{ \"folow\": \"a\" }"),
+     ":2: cameras.main.folow: unknown key \"folow\"; did you mean \"follow\"? accepted: eye, target, "
+     "fovDegrees, fit, direction, follow, offset, orbit"},
+    {"TwoKindsOfCamera", cameraScene("{ \"fit\": true, \"eye\": [1, 2, 3] }"),
+     ":2: cameras.main.eye: unknown key \"eye\"; accepted: fit, direction, fovDegrees"},
+    {"FitThatDoesNot", cameraScene("{ \"fit\": false }"),
+     ":2: cameras.main.fit: accepted: true, or another kind of camera"},
+    {"FollowNobody", cameraScene("{ \"follow\": \"b\" }"),
+     ":2: cameras.main.follow: unknown body \"b\"; did you mean \"a\"? accepted: a"},
+    {"FollowFromWithin", cameraScene("{ \"follow\": \"a\", \"offset\": [0, 0, 0] }"),
+     ":2: cameras.main.offset: [0,0,0] has no direction; accepted: a vector of some length"},
+    {"OrbitWithoutRadius", cameraScene("{ \"orbit\": { \"target\": [0, 0, 0] } }"),
+     ":2: cameras.main.orbit: key \"radius\" is missing"},
+    {"OrbitMisspelt", cameraScene("{ \"orbit\": { \"target\": [0, 0, 0], \"radius\": 1, \"hight\": 2 } }"),
+     ":2: cameras.main.orbit.hight: unknown key \"hight\"; did you mean \"height\"? accepted: target, "
+     "radius, height, degreesPerSecond, startDegrees"},
 };
 
 class SceneFileRefuses : public testing::TestWithParam<Refusal> {};
