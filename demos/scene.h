@@ -89,6 +89,14 @@ inline std::string nameOfCopy(const Body& body, int copy) {
   return body.repeat.total() == 1 ? body.name : body.name + "[" + std::to_string(copy) + "]";
 }
 
+/// A body of water with its name in the scene's file; `fluid` is what the engine takes. The surface over (x,
+/// y) at time t is surfaceAt(fluid, gravity's magnitude, {x, y}, t).
+struct NamedFluid {
+  std::string name;
+  Fluid fluid;
+  Place place;
+};
+
 struct Scene {
   std::string name;  ///< The file's name without its ending.
   std::filesystem::path file;
@@ -97,6 +105,8 @@ struct Scene {
   double rate_hz = 240.0;  ///< Steps a second.
   std::uint64_t seed = 1;
   double duration_s = 5.0;
+  Air air;
+  std::vector<NamedFluid> fluids;
   std::vector<Body> bodies;
   std::map<std::string, SceneCamera> cameras;
 };

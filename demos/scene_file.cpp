@@ -33,6 +33,7 @@ struct Range {
 };
 constexpr Range kLength{kSmallestLength_m, kLargestLength_m};
 constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
+constexpr Range kFactor{0.0, 1000.0};
 constexpr Range kSpeed{-kLargestSpeed, kLargestSpeed};
 
 std::string plainNumber(double value) {
@@ -142,7 +143,8 @@ struct NamedMaterial {
 using Materials = std::map<std::string, NamedMaterial>;
 
 NamedMaterial readMaterial(const Json& json) {
-  json.onlyKeys({"staticFriction", "dynamicFriction", "restitution", "density", "color", "checker"});
+  json.onlyKeys(
+      {"staticFriction", "dynamicFriction", "restitution", "density", "dragCoefficient", "color", "checker"});
   NamedMaterial material;
   Material& m = material.physical;
   if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
@@ -155,6 +157,7 @@ NamedMaterial readMaterial(const Json& json) {
   }
   if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
   if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
+  if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);
   if (const Json* value = json.find("color")) {
     material.look.color = readColor(*value);
     material.look.has_color = true;
@@ -271,7 +274,7 @@ Repeat readRepeat(const Json& json) {
 
 Body readBody(const Json& json, const Materials& materials, const std::filesystem::path& file) {
   json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
-                 "color", "static", "repeat"});
+                 "dragCoefficient", "color", "static", "repeat"});
   Body body;
   body.place = placeOf(json, file);
   body.name = json.at("name").asString();
@@ -290,6 +293,8 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
       material->fail("density " + plainNumber(body.material.density_kgpm3) +
                      " for a body that moves; accepted: above 0");
   }
+  if (const Json* value = json.find("dragCoefficient"))
+    body.material.drag_coefficient = readNumber(*value, kFactor);
   if (const Json* color = json.find("color")) body.colors = readColors(*color);
   if (const Json* repeat = json.find("repeat")) body.repeat = readRepeat(*repeat);
   if (body.is_static && (!body.linear_velocity.isZero(0.0) || !body.angular_velocity.isZero(0.0)))
@@ -311,6 +316,86 @@ std::vector<Body> readBodies(const Json& json, const Materials& materials,
   }
   if (bodies.empty()) json.fail("a scene needs at least one body");
   return bodies;
+}
+
+// Air and fluids.
+
+Air readAir(const Json& json) {
+  json.onlyKeys({"density", "wind", "skinFriction"});
+  Air air;
+  air.density_kgpm3 = 1.2;
+  if (const Json* value = json.find("density")) air.density_kgpm3 = readNumber(*value, {0.0, 1e4});
+  if (const Json* value = json.find("wind")) air.wind = readVec3(*value, kSpeed);
+  if (const Json* value = json.find("skinFriction")) air.skin_friction = readNumber(*value, kFactor);
+  return air;
+}
+
+Vec2 readDirection(const Json& json) {
+  if (json.items().size() != 2)
+    json.fail(json.shown() + " has " + std::to_string(json.items().size()) +
+              " numbers; accepted: two, x and y");
+  const Vec2 direction(readNumber(json.items()[0], kCoordinate), readNumber(json.items()[1], kCoordinate));
+  if (!(direction.norm() > kSmallestLength_m))
+    json.fail(json.shown() + " has no direction; accepted: two numbers, x and y, of some length");
+  return direction.normalized();
+}
+
+Wave readWave(const Json& json) {
+  json.onlyKeys({"amplitude", "wavelength", "direction", "period", "phaseDegrees"});
+  Wave wave;
+  wave.amplitude_m = readNumber(json.at("amplitude"), {0.0, kLargestLength_m});
+  wave.wavelength_m = readNumber(json.at("wavelength"), {0.01, kLargestLength_m});
+  if (const Json* value = json.find("direction")) wave.direction = readDirection(*value);
+  if (const Json* value = json.find("period")) wave.period_s = readNumber(*value, {0.01, 1e5});
+  if (const Json* value = json.find("phaseDegrees"))
+    wave.phase = readNumber(*value, {-36000.0, 36000.0}) * kPi / 180.0;
+  return wave;
+}
+
+void readFluidSpace(const Json& json, Fluid& fluid) {
+  const Json* box = json.find("box");
+  const Json* level = json.find("level");
+  if ((box == nullptr) == (level == nullptr)) json.fail("accepted: either \"box\" or \"level\"");
+  if (level != nullptr) {
+    fluid.max.z() = readNumber(*level, kCoordinate);
+    return;
+  }
+  box->onlyKeys({"min", "max"});
+  fluid.min = readVec3(box->at("min"), kCoordinate);
+  fluid.max = readVec3(box->at("max"), kCoordinate);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (!(fluid.max[axis] - fluid.min[axis] >= kSmallestLength_m))
+      box->at("max").fail(box->at("max").shown() + " is not above \"min\" along " + "xyz"[axis] +
+                          "; accepted: larger along every axis");
+}
+
+NamedFluid readFluid(const Json& json, const std::filesystem::path& file) {
+  json.onlyKeys({"name", "box", "level", "density", "drag", "linearDrag", "flow", "addedMass", "waves"});
+  NamedFluid named;
+  named.place = placeOf(json, file);
+  named.name = json.at("name").asString();
+  if (named.name.empty()) json.at("name").fail("a fluid needs a name");
+  Fluid& fluid = named.fluid;
+  readFluidSpace(json, fluid);
+  if (const Json* value = json.find("density")) fluid.density_kgpm3 = readNumber(*value, {0.0, 1e6, true});
+  if (const Json* value = json.find("drag")) fluid.drag = readNumber(*value, kFactor);
+  if (const Json* value = json.find("linearDrag")) fluid.linear_drag_mps = readNumber(*value, kFactor);
+  if (const Json* value = json.find("flow")) fluid.flow = readVec3(*value, kSpeed);
+  if (const Json* value = json.find("addedMass")) fluid.added_mass = readNumber(*value, kFactor);
+  if (const Json* value = json.find("waves"))
+    for (const Json& item : value->items()) fluid.waves.push_back(readWave(item));
+  return named;
+}
+
+std::vector<NamedFluid> readFluids(const Json& json, const std::filesystem::path& file) {
+  std::vector<NamedFluid> fluids;
+  std::set<std::string> names;
+  for (const Json& item : json.items()) {
+    fluids.push_back(readFluid(item, file));
+    if (!names.insert(fluids.back().name).second)
+      item.at("name").fail(item.at("name").shown() + " names two fluids");
+  }
+  return fluids;
 }
 
 // Cameras: one of "eye" and "target", "fit", "follow", "orbit".
@@ -393,8 +478,8 @@ void readFormat(const Json& json) {
 
 Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   const Json json = Json::parse(text, path.string());
-  json.onlyKeys(
-      {"format", "description", "gravity", "rate", "seed", "materials", "bodies", "cameras", "duration"});
+  json.onlyKeys({"format", "description", "gravity", "rate", "seed", "materials", "air", "fluids", "bodies",
+                 "cameras", "duration"});
   readFormat(json);
   Scene scene;
   scene.name = path.stem().string();
@@ -405,6 +490,8 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   if (const Json* value = json.find("seed"))
     scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
+  if (const Json* value = json.find("air")) scene.air = readAir(*value);
+  if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);
   scene.bodies = readBodies(json.at("bodies"), materials, path);

@@ -131,6 +131,8 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh) {
   WorldSettings settings;
   settings.step_s = 1.0 / scene.rate_hz;
   settings.gravity = scene.gravity;
+  settings.air = scene.air;
+  for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
   SceneWorld made{World(settings), {}, {}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);
   const std::vector<Overlap> overlaps = made.world.start();

@@ -33,7 +33,7 @@ double cosineNear(double x) {
 
 // The angle in [0, pi] with this sine >= 0 and cosine (both scaled alike). Newton's step on sin(target -
 // angle) has a cubic error: from at most 0.34 rad, four steps reach rounding.
-double angleOf(double sine, double cosine) {
+double angleOfUnit(double sine, double cosine) {
   constexpr double kHalfPi = 1.5707963267948966;
   double angle = kHalfPi * (1.0 - cosine);
   for (int i = 0; i < 4; ++i) {
@@ -62,11 +62,31 @@ SineCosine sineCosine(double angle) {
   }
 }
 
+double angleOf(double y, double x) {
+  const double length = std::sqrt(x * x + y * y);
+  if (!(length > 0.0)) return 0.0;
+  const double angle = angleOfUnit(std::abs(y) / length, x / length);
+  return y < 0.0 ? -angle : angle;
+}
+
+// x = k ln 2 + rest, the rest summed by Taylor's series: |rest| <= 0.35, so the first term left out is below
+// 1e-17.
+double exponential(double x) {
+  constexpr double kLn2High = 0x1.62e42fefap-1;  // 34 significant bits: k * kLn2High is exact
+  constexpr double kLn2Low = 0x1.cf79abc9e3b3ap-40;
+  constexpr double kLog2e = 0x1.71547652b82fep+0;
+  const double k = std::nearbyint(x * kLog2e);
+  const double rest = (x - k * kLn2High) - k * kLn2Low;
+  double sum = 1.0;
+  for (int i = 14; i >= 1; --i) sum = 1.0 + rest * sum / i;
+  return std::ldexp(sum, static_cast<int>(k));
+}
+
 Vec3 rotationOf(const Quat& q) {
   const Vec3 v = q.w() < 0.0 ? Vec3(-q.vec()) : Vec3(q.vec());
   const double sine = v.norm();
   // Twice the angle over the sine tends to 2.
-  return sine > 1e-9 ? Vec3((2.0 * angleOf(sine, std::abs(q.w())) / sine) * v) : Vec3(2.0 * v);
+  return sine > 1e-9 ? Vec3((2.0 * angleOfUnit(sine, std::abs(q.w())) / sine) * v) : Vec3(2.0 * v);
 }
 
 Quat rotationBy(const Vec3& rotation) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/environment/gravity.h"
 #include "engine/foundation/tolerances.h"
 #include "engine/modes/support_polygon.h"
 
@@ -55,14 +54,15 @@ double fastest(std::span<const ImpulseBody> bodies, std::span<const double> radi
   return speed;
 }
 
-// Whether impulses within the friction cones take all that gravity gives in a step. Contacts that press now
-// hold at the gap they have.
+// Whether impulses within the friction cones take all that gravity, air and water give in a step. Contacts
+// that press now hold at the gap they have.
 bool conesBalanceGravity(const RestQuestion& q) {
   std::vector<ContactRow> rows(q.rows.begin(), q.rows.end());
   std::vector<ImpulseBody> bodies(q.bodies.begin(), q.bodies.end());
-  for (ImpulseBody& body : bodies) {
-    body.velocity = {};
-    if (body.inverse_mass > 0.0) body.velocity.linear = gravityImpulsePerMass(q.gravity, q.step_s);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].velocity = {};
+    if (bodies[i].inverse_mass == 0.0) continue;
+    bodies[i].velocity = q.pushes.empty() ? Velocity{q.step_s * q.gravity, Vec3::Zero()} : q.pushes[i];
   }
   for (ContactRow& row : rows) {
     if (row.impulse.x() > 0.0) row.lowest_speed = 0.0;
@@ -87,7 +87,7 @@ bool liesStill(const Velocity& velocity, double radius_m) {
 }
 
 bool canRest(const RestQuestion& question) {
-  return forcesPassThroughSupports(question) && conesBalanceGravity(question);
+  return (!question.pushes.empty() || forcesPassThroughSupports(question)) && conesBalanceGravity(question);
 }
 
 }  // namespace carom

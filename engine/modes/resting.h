@@ -3,8 +3,8 @@
 // each of its bodies that stand on level contacts passes through the body's support polygon, and (2) the
 // contacts can balance gravity within their friction cones. DEVIATES: the paper asks only for (1) and low
 // kinetic energy, which would freeze a box on a steep incline. (2) is asked of the contact solver itself:
-// from zero velocity, one step's gravity must leave zero velocity. Tested in
-// tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp.
+// from zero velocity, one step's gravity (in air and water: all that they do) must leave zero velocity.
+// Tested in tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp.
 
 #include <span>
 
@@ -22,6 +22,9 @@ struct RestQuestion {
   std::span<const double> radii;  ///< Of the bodies, metres.
   Vec3 gravity = Vec3::Zero();
   double step_s = 0.0;
+  /// What gravity, air and water give each body in a step from standstill; empty: gravity alone. Where more
+  /// than gravity may push, (2) alone decides.
+  std::span<const Velocity> pushes = {};
 };
 
 /// (1) and (2) above. Cost: a converged contact solve; ask rarely.

@@ -1,7 +1,7 @@
 #pragma once
 // The path of a body over a time interval: constant acceleration, and constant spin or torque-free tumbling,
-// evaluated exactly at any instant. In flight the acceleration is gravity (an exact parabola); in lasting
-// contact it is zero. Tested in tests/engine/motion/trajectory_test.cpp.
+// evaluated exactly at any instant. In flight the acceleration is gravity (an exact parabola), in air and
+// water the mean one; in lasting contact it is zero. Tested in tests/engine/motion/trajectory_test.cpp.
 
 #include "engine/foundation/elementary.h"
 #include "engine/foundation/frames.h"

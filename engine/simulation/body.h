@@ -11,8 +11,8 @@ namespace carom {
 /// How a body travels through the current step.
 enum class Travel : std::uint8_t {
   kStill,      ///< Static or resting.
-  kBallistic,  ///< Free flight: gravity acts along the path.
-  kCarried,    ///< In lasting contact: gravity was given at the start of the step (paper §2.4).
+  kBallistic,  ///< Free flight: gravity and what else surrounds the body act along the path.
+  kCarried,    ///< In lasting contact: their impulse was given at the start of the step (paper §2.4).
   kHeld        ///< Stopped at its last safe time for the rest of the step.
 };
 
@@ -24,7 +24,11 @@ struct Body {
   bool resting = false;
   int rest_island = -1;
   bool supported = false;  ///< Static, resting, or pressed by lasting contact in the last step.
-  double still_s = 0.0;    ///< For how long it has lain still.
+  // What lasting contacts gave it in the last step, in the mean: its way through water and air is foreseen
+  // with this, or what a floor holds would seem to sink. Zero in flight.
+  Vec3 contact_force = Vec3::Zero();   ///< N, world frame.
+  Vec3 contact_torque = Vec3::Zero();  ///< N m about the centre of mass, world frame.
+  double still_s = 0.0;                ///< For how long it has lain still.
   Mode mode = Mode::kFree;
 
   Pose X_WB;          ///< At the time of the last finished step.
@@ -34,7 +38,9 @@ struct Body {
   // differ in lasting contact, where the path also reopens gaps without giving the body energy.
   Travel travel = Travel::kStill;
   Trajectory path;
-  Velocity momentum_velocity;  ///< At path.start_s.
+  Velocity momentum_velocity;        ///< At path.start_s.
+  Vec3 acceleration = Vec3::Zero();  ///< In flight: of the momentum velocity; the environment's mean force.
+  Vec3 torque = Vec3::Zero();        ///< In flight: its mean torque, N m, world frame.
   int events = 0;
   bool collided = false;
 
@@ -43,10 +49,13 @@ struct Body {
   /// The velocity impulses act on, at a time not before path.start_s.
   Velocity velocityAt(double t_s) const {
     Velocity v = momentum_velocity;
-    if (travel == Travel::kBallistic) v.linear += (t_s - path.start_s) * path.acceleration;
-    if (!v.angular.isZero(0.0))
-      v.angular = angularVelocity(inertia, path.at(t_s).rotation,
-                                  angularMomentum(inertia, path.X_WB.rotation, v.angular));
+    const bool flies = travel == Travel::kBallistic;
+    if (flies) v.linear += (t_s - path.start_s) * acceleration;
+    const bool turned = flies && !torque.isZero(0.0);
+    if (!turned && v.angular.isZero(0.0)) return v;
+    Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular);
+    if (turned) momentum += (t_s - path.start_s) * torque;
+    v.angular = angularVelocity(inertia, path.at(t_s).rotation, momentum);
     return v;
   }
 

@@ -5,7 +5,6 @@
 #include <queue>
 #include <tuple>
 
-#include "engine/environment/gravity.h"
 #include "engine/simulation/contact_cluster.h"
 
 namespace carom {
@@ -40,10 +39,11 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            const WorldSettings& settings, StepCounters& counters, PhaseClock* clock)
+            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters, PhaseClock* clock)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
+        planner_(planner),
         settings_(settings),
         counters_(counters),
         clock_(clock),
@@ -145,7 +145,8 @@ class EventLoop {
     for (Body& body : bodies_) {
       if (!body.resting || body.rest_island != island) continue;
       wake(body);
-      body.travel = Travel::kCarried;  // it lies on others; gravity takes part again from the next step
+      body.travel =
+          Travel::kCarried;  // it lies on others or floats; gravity takes part again from the next step
     }
   }
 
@@ -160,8 +161,8 @@ class EventLoop {
     body.path.start_s = time_s;
   }
 
-  // New momentum, and the path that goes with it. Where contacts bound the paths, gravity is given for the
-  // rest of the step.
+  // New momentum, and the path that goes with it. Where contacts bound the paths, gravity and what else
+  // surrounds the body is given for the rest of the step.
   void takeMomentum(double time_s, bool bounds) {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
@@ -173,18 +174,23 @@ class EventLoop {
       changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) continue;
-      body.path.velocity = body.momentum_velocity.linear;
-      turnFreely(body, settings_.step_s - time_s);
-      if (bounds) carry(body, settings_.step_s - time_s);
+      if (body.travel == Travel::kBallistic) {
+        planner_.plan(member.body, body);
+      } else {
+        body.path.velocity = body.momentum_velocity.linear;
+        turnFreely(body, settings_.step_s - time_s);
+      }
+      if (bounds) carry(body);
       cluster_.path(i) = {body.path.velocity, body.path.spin};
     }
   }
 
-  void carry(Body& body, double rest_of_step) {
+  void carry(Body& body) {
     if (body.travel != Travel::kBallistic) return;
-    const Vec3 gained = gravityImpulsePerMass(settings_.gravity, rest_of_step);
-    body.momentum_velocity.linear += gained;
-    body.path.velocity += 0.5 * gained;
+    const Velocity gained = planner_.gained(body);
+    body.momentum_velocity.linear += gained.linear;
+    body.momentum_velocity.angular += gained.angular;
+    body.path.velocity += 0.5 * (settings_.step_s - body.path.start_s) * body.path.acceleration;
     body.path.acceleration.setZero();
     body.travel = Travel::kCarried;
   }
@@ -203,7 +209,7 @@ class EventLoop {
       if (body.resting) wakeInStep(index);
       if (i >= 2 && !cluster_.momentumChanged(i)) {
         bring(index, time_s);
-        carry(body, settings_.step_s - time_s);
+        carry(body);
         changed_.push_back(index);
       }
       body.path.velocity = cluster_.path(i).linear;
@@ -243,6 +249,7 @@ class EventLoop {
   std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
+  FlightPlanner& planner_;
   const WorldSettings& settings_;
   StepCounters& counters_;
   PhaseClock* clock_;
@@ -256,8 +263,9 @@ class EventLoop {
 }  // namespace
 
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
-  EventLoop(bodies, shapes, table, settings, counters, clock).run();
+               FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
+               PhaseClock* clock) {
+  EventLoop(bodies, shapes, table, planner, settings, counters, clock).run();
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 // its budget of events is held at its last safe time: accuracy is lost and counted, the gap is not. Internal
 // to the simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
 
+#include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 
 namespace carom {
@@ -12,6 +13,7 @@ namespace carom {
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
 /// where it began, if lower) throughout.
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+               FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
+               PhaseClock* clock);
 
 }  // namespace carom

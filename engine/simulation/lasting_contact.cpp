@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/environment/gravity.h"
 #include "engine/modes/islands.h"
 
 namespace carom {
@@ -122,10 +121,32 @@ Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& sha
   return assembly;
 }
 
-void giveGravity(LastingContacts& contacts, const std::vector<Body>& bodies, const WorldSettings& settings) {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves())
-      contacts.bodies[i].velocity.linear += gravityImpulsePerMass(settings.gravity, settings.step_s);
+// The impulse of gravity and of what else surrounds the body over the step.
+void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
+                     const FlightPlanner& planner) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves()) continue;
+    const Velocity gained = planner.gained(bodies[i]);
+    contacts.bodies[i].velocity.linear += gained.linear;
+    contacts.bodies[i].velocity.angular += gained.angular;
+  }
+}
+
+// For the next step's plans: what contacts have given; nothing to bodies in flight, which must not be planned
+// as if something held them.
+void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies, FlightPlanner& planner) {
+  if (planner.isVacuum()) return;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves()) continue;
+    if (!contacts.touched[i]) {
+      planner.leaveContacts(static_cast<int>(i), bodies[i]);
+      continue;
+    }
+    const Velocity gained = planner.gained(bodies[i]);
+    planner.takeContacts(bodies[i],
+                         {contacts.bodies[i].velocity.linear - bodies[i].velocity.linear - gained.linear,
+                          contacts.bodies[i].velocity.angular - bodies[i].velocity.angular - gained.angular});
+  }
 }
 
 // The path of a pressed body: the mean of the velocities before and after, which is exact for constant
@@ -204,11 +225,11 @@ bool isLasting(const ShapePair& pair, double step_s) {
 }
 
 LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                     std::vector<ShapePair>& pairs, const WorldSettings& settings,
-                                     StepCounters& counters) {
+                                     std::vector<ShapePair>& pairs, FlightPlanner& planner,
+                                     const WorldSettings& settings, StepCounters& counters) {
   Assembly assembly = assemble(bodies, shapes, pairs, settings.step_s);
   LastingContacts& contacts = assembly.contacts;
-  giveGravity(contacts, bodies, settings);
+  giveEnvironment(contacts, bodies, planner);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
   solveImpulses(assembly, contacts.rows, contacts.bodies, settings.gravity.norm() * settings.step_s);
   for (const ContactRow& row : contacts.rows) {
@@ -217,6 +238,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (!bodies[i].moves()) contacts.touched[i] = 0;
+  foreseeContacts(contacts, bodies, planner);
   setPaths(assembly, bodies, shapes, pairs, settings.step_s, counters);
   remember(assembly, pairs);
   counters.contact_points = static_cast<int>(contacts.rows.size());

@@ -8,6 +8,7 @@
 
 #include "engine/response/contact_solver.h"
 #include "engine/simulation/contact_rows.h"
+#include "engine/simulation/flight_plan.h"
 
 namespace carom {
 
@@ -25,10 +26,10 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts);
 bool isLasting(const ShapePair& pair, double step_s);
 
 /// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must
-/// come with ballistic paths that start at the beginning of the step; resting ones do not give way.
+/// come with planned paths that start at the beginning of the step; resting ones do not give way.
 LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                     std::vector<ShapePair>& pairs, const WorldSettings& settings,
-                                     StepCounters& counters);
+                                     std::vector<ShapePair>& pairs, FlightPlanner& planner,
+                                     const WorldSettings& settings, StepCounters& counters);
 
 /// Makes a body that rested move again.
 void wake(Body& body);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/environment/gravity.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/tolerances.h"
 #include "engine/modes/islands.h"
 #include "engine/modes/resting.h"
 #include "engine/modes/sliding.h"
 #include "engine/simulation/event_loop.h"
+#include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 #include "engine/simulation/pair_table.h"
 #include "engine/simulation/start_poses.h"
@@ -29,8 +29,23 @@ void requireDescription(const BodyDescription& d, std::size_t solids) {
           d.X_WB.rotation.norm());
   REQUIRE(d.linear_velocity.allFinite() && d.angular_velocity.allFinite());
   REQUIRE(d.is_static || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
+  REQUIRE(d.material.drag_coefficient.value_or(0.0) >= 0.0);
   REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
   REQUIRE(d.material.static_friction >= 0.0 && d.material.dynamic_friction >= 0.0);
+}
+
+void requireEnvironment(const WorldSettings& settings) {
+  REQUIRE(settings.air.density_kgpm3 >= 0.0 && settings.air.skin_friction >= 0.0 &&
+          settings.air.wind.allFinite());
+  for (const Fluid& fluid : settings.fluids) {
+    REQUIRE(fluid.density_kgpm3 > 0.0 && std::isfinite(fluid.density_kgpm3), fluid.density_kgpm3);
+    REQUIRE(fluid.drag >= 0.0 && fluid.linear_drag_mps >= 0.0 && fluid.added_mass >= 0.0);
+    REQUIRE((fluid.min.array() < fluid.max.array()).all() && std::isfinite(fluid.max.z()));
+    REQUIRE(fluid.flow.allFinite());
+    for (const Wave& wave : fluid.waves)
+      REQUIRE(wave.wavelength_m > 0.0 && wave.period_s >= 0.0 &&
+              std::abs(wave.direction.norm() - 1.0) < 1e-9);
+  }
 }
 
 }  // namespace
@@ -61,6 +76,7 @@ struct World::Impl {
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
   PairTable table;
+  FlightPlanner planner;
   StepCounters counters;
   int steps = 0;
   bool started = false;
@@ -75,7 +91,7 @@ struct World::Impl {
   void accumulateStillness();
   Islands joinPressing(const LastingContacts& contacts) const;
   void restIslands(const LastingContacts& contacts);
-  bool islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) const;
+  bool islandCanRest(const std::vector<int>& members, const LastingContacts& contacts);
   void publish();
 };
 
@@ -87,19 +103,17 @@ void World::Impl::makeShapes() {
       shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero())});
 }
 
-// Every body starts the step as if it were in flight: the exact parabola, torque-free rotation.
+// Every body starts the step as if it were in flight.
 void World::Impl::planFlight(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kForces);
-  for (Body& body : bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
     body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     body.momentum_velocity = body.velocity;
     body.events = 0;
     body.collided = false;
     body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
-    if (!body.moves()) continue;
-    body.path.velocity = body.velocity.linear;
-    body.path.acceleration = settings.gravity;
-    turnFreely(body, settings.step_s);
+    if (body.moves()) planner.plan(static_cast<int>(i), body);
   }
 }
 
@@ -116,7 +130,7 @@ bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {
 
 LastingContacts World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  return solveLastingContacts(bodies, shapes, table.pairs(), settings, counters);
+  return solveLastingContacts(bodies, shapes, table.pairs(), planner, settings, counters);
 }
 
 // The state at the step's end, and the closest features there.
@@ -147,19 +161,23 @@ Islands World::Impl::joinPressing(const LastingContacts& contacts) const {
   return islands;
 }
 
-bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) const {
+bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) {
   std::vector<int> local(bodies.size(), -1);
   std::vector<ImpulseBody> island_bodies;
   std::vector<double> radii;
+  std::vector<Velocity> pushes;
   for (int m : members) {
+    if (planner.restless(bodies[at(m)])) return false;
     local[at(m)] = static_cast<int>(island_bodies.size());
     island_bodies.push_back(contacts.bodies[at(m)]);
     radii.push_back(bodies[at(m)].radius_m);
+    if (!planner.isVacuum()) pushes.push_back(planner.pushAtRest(m, bodies[at(m)]));
   }
   // All supports that do not belong to the island are one body that cannot move.
   const int ground = static_cast<int>(island_bodies.size());
   island_bodies.push_back({});
   radii.push_back(0.0);
+  if (!planner.isVacuum()) pushes.push_back({});
   std::vector<ContactRow> rows;
   for (ContactRow row : contacts.rows) {
     const bool in_a = local[at(row.a)] >= 0;
@@ -171,7 +189,7 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
     row.b = in_b ? local[at(row.b)] : ground;
     rows.push_back(row);
   }
-  return canRest({rows, island_bodies, radii, settings.gravity, settings.step_s});
+  return canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes});
 }
 
 void World::Impl::restIslands(const LastingContacts& contacts) {
@@ -229,7 +247,9 @@ void World::Impl::publish() {
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
   REQUIRE(settings.step_s > 0.0 && std::isfinite(settings.step_s), settings.step_s);
   REQUIRE(settings.gravity.allFinite());
+  requireEnvironment(settings);
   impl_->settings = settings;
+  impl_->planner = FlightPlanner(settings);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -266,6 +286,9 @@ std::vector<Overlap> World::start() {
   REQUIRE(!w.started);
   w.started = true;
   w.makeShapes();
+  std::vector<int> solid_of;
+  for (const BodyDescription& description : w.descriptions) solid_of.push_back(description.solid);
+  w.planner.begin(w.solids, std::move(solid_of));
   w.planFlight(nullptr);
   w.findPairs(nullptr);
   std::vector<Overlap> overlaps = separateTouching(w.bodies, w.shapes, w.table, w.settings.gravity);
@@ -291,7 +314,7 @@ void World::step(PhaseClock* clock) {
   if (w.pathsLeaveBounds(clock)) w.findPairs(clock);
 
   // Advance from one time of impact to the next.
-  runEvents(w.bodies, w.shapes, w.table, w.settings, w.counters, clock);
+  runEvents(w.bodies, w.shapes, w.table, w.planner, w.settings, w.counters, clock);
   w.finishStep(clock);
 
   // Modes.
@@ -301,6 +324,7 @@ void World::step(PhaseClock* clock) {
   w.updateModes(contacts);
   w.publish();
   ++w.steps;
+  w.planner.beginStep(time());
 }
 
 double World::time() const {
@@ -334,11 +358,12 @@ Audit World::audit() const {
   audit.smallest_gap_m = std::numeric_limits<double>::infinity();
   for (const ShapePair& pair : w.table.pairs())
     audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
-  for (const Body& body : w.bodies) {
+  for (std::size_t i = 0; i < w.bodies.size(); ++i) {
+    const Body& body = w.bodies[i];
     if (body.is_static) continue;
     const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;
     audit.kinetic_energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
-    audit.potential_energy_J += gravityPotential(body.inertia, w.settings.gravity, body.X_WB.position);
+    audit.potential_energy_J += w.planner.potential(static_cast<int>(i), body);
     audit.linear_momentum += momentum;
     audit.angular_momentum += body.X_WB.position.cross(momentum) +
                               angularMomentum(body.inertia, body.X_WB.rotation, body.velocity.angular);

@@ -8,9 +8,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/environment/air.h"
+#include "engine/environment/fluid.h"
 #include "engine/foundation/frames.h"
 #include "engine/simulation/phase_clock.h"
 #include "engine/solid/solid.h"
@@ -22,6 +25,7 @@ struct Material {
   double dynamic_friction = 0.5;
   double restitution = 0.0;
   double density_kgpm3 = 1000.0;
+  std::optional<double> drag_coefficient = {};  ///< In air and water; none: the standard one of the shape.
 };
 
 /// What a body does at the moment (paper §2.4, §2.5).
@@ -56,6 +60,8 @@ struct WorldSettings {
   double step_s = 1.0 / 240.0;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   bool resting_mode = true;  ///< Off: bodies are simulated even when they lie still.
+  Air air = {};
+  std::vector<Fluid> fluids = {};
 };
 
 /// Two bodies that overlap at the start, and by how much.
@@ -79,7 +85,7 @@ struct StepCounters {
 struct Audit {
   double time_s = 0.0;
   double kinetic_energy_J = 0.0;
-  double potential_energy_J = 0.0;  ///< -m g . x, zero at the world's origin.
+  double potential_energy_J = 0.0;  ///< -m g . x, zero at the world's origin, and the fluid displaced.
   Vec3 linear_momentum = Vec3::Zero();
   Vec3 angular_momentum = Vec3::Zero();  ///< About the world's origin.
   double smallest_gap_m = 0.0;           ///< Over candidate pairs; +infinity when there is none.

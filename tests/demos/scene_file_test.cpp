@@ -24,6 +24,13 @@ void PrintTo(const Refusal& refusal, std::ostream* out) {
   *out << refusal.name;
 }
 
+/// A scene with this fluid on its second line.
+std::string fluidScene(const std::string& fluid) {
+  return "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ],\n"
+         "  \"fluids\": [ { \"name\": \"pool\"" +
+         fluid + " } ] }";
+}
+
 const std::string kBox = "\"shape\": { \"box\": [1, 1, 1] }";
 /// A scene with one camera, in the file's second line.
 std::string cameraScene(const std::string& camera) {
@@ -36,7 +43,7 @@ const Refusal kRefusals[] = {
     {"MisspeltTopKey", "{ \"format\": 1, \"boddies\": [] }",
      ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: format, description, gravity, "
      "rate, seed, "
-     "materials, bodies, cameras, duration"},
+     "materials, air, fluids, bodies, cameras, duration"},
     {"MisspeltShape", bodyScene("\"shape\": { \"bx\": [1, 1, 1] }"),
      ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, "
      "hull, compound"},
@@ -46,9 +53,9 @@ const Refusal kRefusals[] = {
          kBox + " } ] }",
      ":2: bodies[0].material: unknown material \"wod\"; did you mean \"wood\"? accepted: wood"},
     {"KeyOfALaterFormat",
-     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"fluids\": [] }",
-     ":2: fluids: unknown key \"fluids\"; accepted: format, description, gravity, rate, seed, materials, "
-     "bodies, cameras, duration"},
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"sound\": [] }",
+     ":2: sound: unknown key \"sound\"; accepted: format, description, gravity, rate, seed, materials, "
+     "air, fluids, bodies, cameras, duration"},
     {"UnknownFormat", "{ \"format\": 2, \"bodies\": [] }", ":1: format: 2 is unknown; accepted: 1"},
     {"MissingFormat", "{ \"bodies\": [] }", ":1: key \"format\" is missing"},
     {"NoBodies", "{ \"format\": 1, \"bodies\": [] }", ":1: bodies: a scene needs at least one body"},
@@ -130,6 +137,28 @@ const Refusal kRefusals[] = {
     {"OrbitMisspelt", cameraScene("{ \"orbit\": { \"target\": [0, 0, 0], \"radius\": 1, \"hight\": 2 } }"),
      ":2: cameras.main.orbit.hight: unknown key \"hight\"; did you mean \"height\"? accepted: target, "
      "radius, height, degreesPerSecond, startDegrees"},
+    {"NegativeDragCoefficient", bodyScene(kBox + ", \"dragCoefficient\": -1"),
+     ":3: bodies[0].dragCoefficient: -1 is out of range; accepted: 0 to 1000"},
+    {"MisspeltFluidKey", fluidScene(", \"level\": 0, \"densty\": 1000"),
+     ":2: fluids[0].densty: unknown key \"densty\"; did you mean \"density\"? accepted: name, box, level, "
+     "density, drag, linearDrag, flow, addedMass, waves"},
+    {"FluidWithoutSpace", fluidScene(""), ":2: fluids[0]: accepted: either \"box\" or \"level\""},
+    {"FluidWithTwoSpaces", fluidScene(", \"level\": 0, \"box\": { \"min\": [0, 0, 0], \"max\": [1, 1, 1] }"),
+     ":2: fluids[0]: accepted: either \"box\" or \"level\""},
+    {"FluidUpsideDown", fluidScene(", \"box\": { \"min\": [0, 0, 2], \"max\": [1, 1, 1] }"),
+     ":2: fluids[0].box.max: [1,1,1] is not above \"min\" along z; accepted: larger along every axis"},
+    {"FluidOfNoDensity", fluidScene(", \"level\": 0, \"density\": 0"),
+     ":2: fluids[0].density: 0 is out of range; accepted: above 0 to 1e+06"},
+    {"WaveWithoutLength", fluidScene(", \"level\": 0, \"waves\": [ { \"amplitude\": 0.1 } ]"),
+     ":2: fluids[0].waves[0]: key \"wavelength\" is missing"},
+    {"WaveUpwards",
+     fluidScene(", \"level\": 0, \"waves\": [ { \"amplitude\": 0.1, \"wavelength\": 2, \"direction\": [0, 0, "
+                "1] } ]"),
+     ":2: fluids[0].waves[0].direction: [0,0,1] has 3 numbers; accepted: two, x and y"},
+    {"MisspeltAirKey",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
+         " } ],\n \"air\": { \"wnd\": [1, 0, 0] } }",
+     ":2: air.wnd: unknown key \"wnd\"; did you mean \"wind\"? accepted: density, wind, skinFriction"},
 };
 
 class SceneFileRefuses : public testing::TestWithParam<Refusal> {};

@@ -149,7 +149,23 @@ TEST(SceneSchema, RefusesWhatTheProgramRefuses) {
   };
   const std::string box = "\"shape\": { \"box\": [1, 1, 1] }";
   EXPECT_TRUE(schema.accepts(Json::parse(body(box), "good")));
+  const auto fluid = [&](const std::string& inside) {
+    return "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + box +
+           " } ], \"fluids\": [ { \"name\": \"f\", " + inside + " } ] }";
+  };
+  const std::string good_fluid = fluid(
+      "\"box\": { \"min\": [0, 0, 0], \"max\": [1, 1, 1] }, \"waves\": [ { \"amplitude\": 0.1, "
+      "\"wavelength\": 2 } ]");
+  EXPECT_TRUE(schema.accepts(Json::parse(good_fluid, "good")));
+  EXPECT_NO_THROW(parseScene(good_fluid, "good.json"));
   const std::vector<std::string> refused = {
+      fluid("\"density\": 1000"),
+      fluid("\"level\": 0, \"density\": 0"),
+      fluid("\"level\": 0, \"drag\": -1"),
+      fluid("\"level\": 0, \"box\": { \"min\": [0, 0, 0], \"max\": [1, 1, 1] }"),
+      fluid("\"level\": 0, \"waves\": [ { \"amplitude\": 0.1 } ]"),
+      fluid("\"level\": 0, \"deep\": true"),
+      body(box + ", \"dragCoefficient\": -1"),
       "{ \"format\": 2, \"bodies\": [] }",
       "{ \"format\": 1, \"bodies\": [] }",
       "{ \"format\": 1, \"boddies\": [] }",

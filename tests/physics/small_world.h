@@ -40,6 +40,8 @@ class SmallWorld {
                       bool resting_mode = true)
       : world_(WorldSettings{1.0 / rate_hz, gravity, resting_mode}) {}
 
+  explicit SmallWorld(const WorldSettings& settings) : world_(settings) {}
+
   int add(const Placement& p) {
     const int solid = world_.addSolid(p.solid);
     return world_.addBody({solid, p.X_WB, p.velocity, p.spin, p.material, p.is_static});

@@ -33,6 +33,25 @@ TEST(SineCosine, HoldNextToEveryQuarterTurn) {
     }
 }
 
+TEST(AngleOf, IsTheArcTangentInTheRightQuarter) {
+  Random random(13);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform(-1.0, 1.0), y = random.uniform(-1.0, 1.0) * random.logUniform(1e-12, 1.0);
+    ASSERT_NEAR(angleOf(y, x), static_cast<double>(atan2l(y, x)), 1e-15) << y << " " << x;
+  }
+  EXPECT_EQ(angleOf(0.0, 0.0), 0.0);
+  EXPECT_EQ(angleOf(0.0, 3.0), 0.0);
+}
+
+TEST(Exponential, IsWithinTwoUnitsInTheLastPlace) {
+  Random random(14);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = random.uniform(-700.0, 700.0) * (i % 2 ? 1.0 : 1e-3);
+    const long double exact = expl(x);
+    ASSERT_LE(std::abs(exponential(x) - exact), 2 * 0x1p-52L * exact) << x;
+  }
+}
+
 TEST(RotationBy, TurnsByTheVectorsLengthAboutItsDirection) {
   Random random(12);
   for (int i = 0; i < 1000; ++i) {

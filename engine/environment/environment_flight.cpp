@@ -1,0 +1,141 @@
+#include "engine/environment/environment_flight.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/foundation/elementary.h"
+
+namespace carom {
+namespace {
+
+// How far a stroke may go: a body that bobs, in radians of its fastest swing (a stroke of x radians shortens
+// the period by x^2/24); drag, as the share of the speed it may take; the way, of the radius; the turn, rad.
+constexpr double kSwing = 0.1;
+constexpr double kAirShare = 0.04;
+constexpr double kFluidShare = 0.1;
+constexpr double kLinearShare = 0.2;
+constexpr double kWayShare = 0.25;
+constexpr double kTurn = 0.25;
+constexpr int kMostStrokes = 16;
+constexpr double kLargestTurn = 2.0;  // rad a step: beyond, no axis of the whole turn is reliable
+
+struct State {
+  Pose X_WB;
+  Vec3 velocity;
+  Vec3 angular_momentum;
+};
+
+// The rate of the speed's change in a stream, at most: of v' = g - c v^2 at speed u, sqrt(c (g + c u^2)); no
+// body shows a stream more than half of its surface.
+double dragRate(double density, double coefficient, const EnvironmentBody& body, double gravity,
+                double speed) {
+  const double c = 0.25 * density * coefficient * body.surface->area_m2 / body.inertia->mass_kg;
+  return std::sqrt(c * (gravity + c * speed * speed));
+}
+
+int strokesFor(const Environment& environment, const EnvironmentBody& body, const Pose& X_WB,
+               const Velocity& velocity, double dt_s) {
+  const double gravity = environment.gravity.norm();
+  const double radius = body.surface->radius_m;
+  const double coefficient = body.drag_coefficient.value_or(kCylinderDrag);
+  const double speed = velocity.linear.norm(), turning = velocity.angular.norm();
+  const double surface_speed = speed + turning * radius;
+  const double way = (speed + 0.5 * gravity * dt_s) * dt_s;
+  double most = 1.0;
+  const Air& air = environment.air;
+  if (air.density_kgpm3 > 0.0) {
+    const double rate =
+        dragRate(air.density_kgpm3, coefficient, body, gravity, surface_speed + air.wind.norm());
+    most = std::max(most, rate * dt_s / kAirShare);
+  }
+  for (const Fluid& fluid : environment.fluids) {
+    if (!reaches(fluid, X_WB.position, radius + way)) continue;
+    // The stiffest float: a slab that bobs flat, omega^2 = g rho_fluid / (rho thickness).
+    const double density = body.inertia->mass_kg / body.surface->volume_m3;
+    const double swing = std::sqrt(gravity * fluid.density_kgpm3 / (density * body.surface->width_m));
+    const double rate = dragRate(fluid.density_kgpm3, fluid.drag * coefficient, body, gravity,
+                                 surface_speed + fluid.flow.norm());
+    const double linear =
+        fluid.density_kgpm3 * fluid.linear_drag_mps * body.surface->area_m2 / body.inertia->mass_kg;
+    most = std::max({most, swing * dt_s / kSwing, rate * dt_s / kFluidShare, linear * dt_s / kLinearShare,
+                     speed * dt_s / (kWayShare * radius), turning * dt_s / kTurn});
+  }
+  return static_cast<int>(std::ceil(std::min(most, static_cast<double>(kMostStrokes))));
+}
+
+void drift(const Inertia& inertia, double dt_s, State& state) {
+  state.X_WB.position += dt_s * state.velocity;
+  if (state.angular_momentum.isZero(0.0)) return;
+  Quat& R_WB = state.X_WB.rotation;
+  const Vec3 spin =
+      torqueFreeSpin(inertia, R_WB, angularVelocity(inertia, R_WB, state.angular_momentum), dt_s);
+  R_WB = (rotationBy(dt_s * spin) * R_WB).normalized();
+}
+
+// The share of linear drag that is taken at the end of a kick: half, which is second order, but more where
+// half would overshoot.
+double implicitShare(const Mat6& linear, const Mat6& mass, double dt_s) {
+  double stiffness = 0.0;
+  for (Eigen::Index i = 0; i < 6; ++i) stiffness = std::max(stiffness, linear(i, i) / mass(i, i));
+  stiffness *= 2.0 * dt_s;  // off-diagonal terms at most double it
+  return stiffness > 2.0 ? 1.0 - 1.0 / stiffness : 0.5;
+}
+
+void kick(const Environment& environment, const EnvironmentBody& body, const ContactLoad& contacts,
+          double t_s, double dt_s, ForceScratch& scratch, State& state) {
+  const Inertia& inertia = *body.inertia;
+  const Quat& R_WB = state.X_WB.rotation;
+  Vec6 v;
+  v.head<3>() = R_WB.conjugate() * state.velocity;
+  v.tail<3>() = inertia.inverse_tensor_B * (R_WB.conjugate() * state.angular_momentum);
+  BodyForces forces = bodyForces(environment, body, state.X_WB, v, t_s, scratch);
+  forces.load.head<3>() += R_WB.conjugate() * contacts.force_N;
+  forces.load.tail<3>() += R_WB.conjugate() * contacts.torque_Nm;
+  Vec6 momentum;  // gained
+  if (forces.quadratic.isZero(0.0) && forces.linear.isZero(0.0) && forces.added_mass.isZero(0.0)) {
+    momentum = dt_s * forces.load;
+  } else {
+    Mat6 mass = forces.added_mass;
+    mass.topLeftCorner<3, 3>() += inertia.mass_kg * Mat3::Identity();
+    mass.bottomRightCorner<3, 3>() += inertia.tensor_B;
+    const double share = implicitShare(forces.linear, mass, dt_s);
+    const Mat6 matrix = mass + dt_s * forces.quadratic + (dt_s * share) * forces.linear;
+    // The gain U1 - U0, whose right side is the whole force: nothing is lost to cancellation.
+    const Vec6 gain = matrix.llt().solve(dt_s * forces.total(v));
+    momentum.head<3>() = inertia.mass_kg * gain.head<3>();
+    momentum.tail<3>() = inertia.tensor_B * gain.tail<3>();
+  }
+  state.velocity += inertia.inverse_mass * (R_WB * momentum.head<3>());
+  state.angular_momentum += R_WB * momentum.tail<3>();
+}
+
+Vec3 spinBetween(const Inertia& inertia, const Pose& from, const State& to, const Velocity& velocity,
+                 double dt_s) {
+  const Vec3 omega_end = angularVelocity(inertia, to.X_WB.rotation, to.angular_momentum);
+  const double fastest = std::max(velocity.angular.norm(), omega_end.norm());
+  if (fastest * dt_s > kLargestTurn)
+    return torqueFreeSpin(inertia, from.rotation, 0.5 * (velocity.angular + omega_end), dt_s);
+  return rotationOf(to.X_WB.rotation * from.rotation.conjugate()) / dt_s;
+}
+
+}  // namespace
+
+EnvironmentFlight flyThroughEnvironment(const Environment& environment, const EnvironmentBody& body,
+                                        const Pose& X_WB, const Velocity& velocity,
+                                        const ContactLoad& contacts, double t_s, double dt_s,
+                                        ForceScratch& scratch) {
+  const Inertia& inertia = *body.inertia;
+  State state{X_WB, velocity.linear, angularMomentum(inertia, X_WB.rotation, velocity.angular)};
+  const int strokes = strokesFor(environment, body, X_WB, velocity, dt_s);
+  const double k = dt_s / strokes;
+  drift(inertia, 0.5 * k, state);
+  for (int i = 0; i < strokes; ++i) {
+    kick(environment, body, contacts, t_s + (i + 0.5) * k, k, scratch, state);
+    drift(inertia, i + 1 < strokes ? k : 0.5 * k, state);
+  }
+  return {state.X_WB, state.velocity, state.angular_momentum,
+          spinBetween(inertia, X_WB, state, velocity, dt_s), strokes};
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#pragma once
+// The flight of one body through its environment, without contacts, over one step: strokes of torque-free
+// drift about kicks in the middle of each (Strang), so that without drag it is time-reversible and keeps its
+// energy. In a kick the pose is held and the velocity taken by Kahan's method, which is linearly implicit:
+//   (M + k S(U0) + k w B) U1 = (M - k (1 - w) B) U0 + k F,
+// U relative to the stream. S and B are not negative, so a kick of any length and speed is stable; where
+// drag balances the load it stands still, so the terminal velocity is exact; and on a line it follows tanh to
+// third order. Tested in tests/engine/environment/environment_flight_test.cpp and tests/physics/.
+
+#include "engine/environment/body_forces.h"
+
+namespace carom {
+
+struct EnvironmentFlight {
+  Pose X_end;
+  Vec3 velocity_end = Vec3::Zero();          ///< m/s of the centre of mass.
+  Vec3 angular_momentum_end = Vec3::Zero();  ///< World frame.
+  Vec3 spin = Vec3::Zero();  ///< The constant spin that leads to X_end; past two radians, near it.
+  int strokes = 0;
+};
+
+/// What contacts add all the while, in the world frame about the centre of mass.
+struct ContactLoad {
+  Vec3 force_N = Vec3::Zero();
+  Vec3 torque_Nm = Vec3::Zero();
+};
+
+/// From `X_WB` with `velocity` (angular in the world frame) for `dt_s` seconds, beginning at `t_s`.
+EnvironmentFlight flyThroughEnvironment(const Environment& environment, const EnvironmentBody& body,
+                                        const Pose& X_WB, const Velocity& velocity,
+                                        const ContactLoad& contacts, double t_s, double dt_s,
+                                        ForceScratch& scratch);
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+#pragma once
+// The free paths of bodies: the exact parabola under gravity alone; through air and water the path and the
+// momentum that end where the body's own flight through its environment ends (environment_flight.h). In
+// between both change evenly: the environment acts as its mean force and torque, so what an impulse cuts
+// short is planned anew from there, and nothing acts twice. Internal to the simulation floor. Tested through
+// tests/engine/simulation/ and tests/physics/.
+
+#include <span>
+#include <vector>
+
+#include "engine/environment/environment_flight.h"
+#include "engine/simulation/body.h"
+
+namespace carom {
+
+class FlightPlanner {
+ public:
+  FlightPlanner() = default;
+  explicit FlightPlanner(const WorldSettings& settings);
+
+  /// Once the world is complete: `solid_of` gives each body's solid.
+  void begin(std::span<const Solid> solids, std::vector<int> solid_of);
+  /// The world's time at the beginning of the step that follows.
+  void beginStep(double time_s) { time_s_ = time_s; }
+
+  /// Plans body `index` from `path.start_s` with its momentum velocity, to the end of the step.
+  void plan(int index, Body& body);
+  /// Remembers what the step's lasting contacts changed of the velocity, for the next plan.
+  void takeContacts(Body& body, const Velocity& change) const;
+  /// For a body that no contact presses: plans it anew where its plan foresaw some.
+  void leaveContacts(int index, Body& body);
+  /// What the environment gives a body from `path.start_s` to the end of the step.
+  Velocity gained(const Body& body) const;
+
+  /// The velocity that the environment would give the body in one step from standstill, where there is air or
+  /// water.
+  Velocity pushAtRest(int index, const Body& body);
+  /// Whether the forces on a body that lies still change by themselves: it floats where waves go.
+  bool restless(const Body& body) const;
+  /// Energy of the body's place, J: weight, and the fluid that it displaces.
+  double potential(int index, const Body& body) const;
+
+  bool isVacuum() const { return environment_.isVacuum(); }
+
+ private:
+  bool isTouched(const Body& body, double rest_of_step_s) const;
+  EnvironmentBody environmentBody(int index, const Body& body) const;
+
+  Environment environment_;
+  double step_s_ = 0.0;
+  double time_s_ = 0.0;
+  std::vector<SolidSurface> surfaces_;
+  std::vector<int> solid_of_;
+  ForceScratch scratch_;
+};
+
+}  // namespace carom
