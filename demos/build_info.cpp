@@ -17,10 +17,10 @@ std::string buildName() {
 }
 
 std::vector<std::pair<std::string, std::string>> libraryVersions() {
-  return {{"Eigen", CAROM_EIGEN_VERSION},      {"assimp", CAROM_ASSIMP_VERSION},
-          {"libpng", CAROM_PNG_VERSION},       {"qhull", CAROM_QHULL_VERSION},
-          {"CLI11", CAROM_CLI11_VERSION},      {"nlohmann-json", CAROM_JSON_VERSION},
-          {"tinygltf", CAROM_TINYGLTF_VERSION}};
+  return {{"Eigen", CAROM_EIGEN_VERSION},       {"assimp", CAROM_ASSIMP_VERSION},
+          {"libpng", CAROM_PNG_VERSION},        {"qhull", CAROM_QHULL_VERSION},
+          {"CLI11", CAROM_CLI11_VERSION},       {"nlohmann-json", CAROM_JSON_VERSION},
+          {"tinygltf", CAROM_TINYGLTF_VERSION}, {"cairo", CAROM_CAIRO_VERSION}};
 }
 
 std::string cpuClass() {

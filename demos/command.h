@@ -63,6 +63,8 @@ struct RenderOptions {
   std::string preset = "realtime";
   std::string style = "daylight";
   std::string aov;        ///< "depth,normal,id"; empty: none.
+  std::string overlays;   ///< "closest,distance"; empty: none.
+  std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
   bool portable = false;  ///< The same pixels on every CPU.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
@@ -140,6 +142,13 @@ struct BudgetOptions {
   Telling telling;
 };
 ExitCode budget(const BudgetOptions& options);
+
+struct FiguresOptions {
+  std::filesystem::path output = "figures";  ///< A folder.
+  int width = 1280;
+  int height = 720;
+};
+ExitCode figures(const FiguresOptions& options);
 
 ExitCode doctor();
 

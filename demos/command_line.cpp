@@ -10,6 +10,7 @@
 #include "demos/command.h"
 #include "demos/manual_page.h"
 #include "demos/nearest_name.h"
+#include "demos/overlay_choice.h"
 #include "demos/shell_completion.h"
 
 namespace carom::demos {
@@ -102,10 +103,12 @@ struct CommandLine {
   DistanceOptions distance_options;
   CompareOptions compare_options;
   BudgetOptions budget_options;
+  FiguresOptions figures_options;
   bool wants_manual = false;
   bool wants_completion = false;
   std::string size;
   std::string budget_size;
+  std::string figures_size;
   std::string budget_tolerance;
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
@@ -115,17 +118,20 @@ struct CommandLine {
   CLI::App* distance_command = nullptr;
   CLI::App* compare_command = nullptr;
   CLI::App* budget_command = nullptr;
+  CLI::App* figures_command = nullptr;
   CLI::App* doctor_command = nullptr;
 
   CommandLine();
   void addRender();
   void addLongJobOptions();
   void addLookOptions();
+  void addOverlayOptions();
   void addSimulate();
   void addExport();
   void addDistance();
   void addCompare();
   void addBudget();
+  void addFigures();
 };
 
 CommandLine::CommandLine() {
@@ -153,6 +159,7 @@ CommandLine::CommandLine() {
   addDistance();
   addCompare();
   addBudget();
+  addFigures();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   doctor_command->footer("Example: carom doctor");
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
@@ -174,6 +181,7 @@ void CommandLine::addRender() {
   render_command->add_option("--camera", render_options.camera,
                              "One of the scene's cameras (main, or its first), fit, orbit or follow:BODY");
   addLookOptions();
+  addOverlayOptions();
   render_command->add_flag("--portable", render_options.portable,
                            "The same pixels on every CPU, a third slower: golden frames");
   addTellingOptions(*render_command, render_options.telling);
@@ -216,6 +224,17 @@ void CommandLine::addLongJobOptions() {
   ffmpeg->excludes(render.get_option("--output"))->excludes(stream);
   resume->excludes(stream)->excludes(ffmpeg);
   from->excludes(render.get_option("--seed"))->excludes(render.get_option("--duration"));
+}
+
+void CommandLine::addOverlayOptions() {
+  std::string names;
+  for (const OverlayDescription& d : overlayDescriptions())
+    names.append(names.empty() ? "" : ", ").append(d.name);
+  render_command->add_option(
+      "--overlay", render_options.overlays,
+      "Drawn over each frame, comma separated (--overlay help says what each is):\n" + names);
+  render_command->add_option("--focus", render_options.focus,
+                             "Overlays speak of these bodies only; of one, all its pairs");
 }
 
 void CommandLine::addSimulate() {
@@ -349,6 +368,16 @@ void CommandLine::addBudget() {
       "After a change: carom budget fifty-bodies --size 640x360 --baseline now.json --tolerance 10%");
 }
 
+void CommandLine::addFigures() {
+  figures_command = app.add_subcommand(
+      "figures", "Draws the paper's figures 1 to 10 from the running engine, as PNG files");
+  figures_command
+      ->add_option("-o,--output", figures_options.output, "Folder for figure_01.png to figure_10.png")
+      ->capture_default_str();
+  figures_command->add_option("--size", figures_size, "WIDTHxHEIGHT in pixels (1280x720)");
+  figures_command->footer("Example: carom figures -o figures --size 1920x1080");
+}
+
 std::vector<std::string> optionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -415,6 +444,8 @@ void refuseExtras(const CommandLine& line) {
 }
 
 void checkRender(const RenderOptions& options) {
+  if (!options.focus.empty() && options.overlays.empty())
+    throw UsageError("--focus is of --overlay, which is missing");
   if (options.choice.scene.empty() && options.from.empty())
     throw UsageError("render: SCENE is required, or --from with a recording");
   if (!(options.speed >= kLowestSpeed && options.speed <= kHighestSpeed)) {
@@ -464,6 +495,7 @@ void checkValues(CommandLine& line) {
   if (line.render_command->parsed()) checkRender(line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (line.export_command->parsed()) checkExport(line.export_options);
+  if (!line.figures_size.empty()) readSize(line.figures_size, line.figures_options);
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
@@ -497,6 +529,10 @@ ExitCode runCommandLine(int argc, char** argv) {
     return ExitCode::kOk;
   }
   refuseExtras(line);
+  if (line.render_options.overlays == "help") {
+    std::cout << overlayHelp();
+    return ExitCode::kOk;
+  }
   checkValues(line);
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);
@@ -507,6 +543,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.distance_command->parsed()) return distance(line.distance_options);
   if (line.compare_command->parsed()) return compare(line.compare_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
+  if (line.figures_command->parsed()) return figures(line.figures_options);
   return doctor();
 }
 

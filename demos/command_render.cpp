@@ -25,6 +25,7 @@
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
+#include "demos/overlays.h"
 #include "demos/pipe_writer.h"
 #include "demos/progress.h"
 #include "demos/recorded_scene.h"
@@ -132,6 +133,7 @@ struct Run {
   FrameSource& source;
   const CameraPath& camera;
   const OutputScale& scale;
+  Overlays& overlays;
   Manifest& manifest;
   std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
@@ -177,7 +179,7 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
     throwIfInterrupted();
     Stopwatch watch;
     FrameToWrite next;
-    const FrameState state = run.source.at(frame);
+    const FrameState state = run.overlays.advance(run.source, frame);
     next.record.timings.physics_ms = watch.lap_ms();
     if (run.names != nullptr) next.path = run.names->file(frame);
     next.record.frame = frame;
@@ -190,7 +192,7 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
     if (!keepFrame(run, next)) {
       watch.lap_ms();
       const renderer::Camera camera = run.camera.at(next.record.time_s, state.bodies);
-      next.image = pictures.draw(drawnInstances(run.scene, state.bodies), camera);
+      next.image = run.overlays.draw(pictures, state, frame, camera);
       drawOutputs(run, pictures, next);
       next.record.timings.draw_ms = watch.lap_ms();
       writer.submit(std::move(next));
@@ -334,11 +336,14 @@ ExitCode render(const RenderOptions& options) {
     throw UsageError("-o -: standard output is a terminal; accepted: a pipe or a file");
   std::optional<RecordingReader> recording;
   if (!options.from.empty()) recording.emplace(options.from);
+  const OverlayChoice shown = readOverlays(options.overlays);
   const Plan plan = planned(options, recording);
   const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
   Manifest manifest = emptyManifest(options, plan);
 
   SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh);
+  Overlays overlays({shown, options.focus, recording.has_value()}, made, plan.clock);
+  manifest.overlays = overlays.identity();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);
   const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.world.solids(),
                                         camera.at(0.0, made.world.states()));
@@ -354,8 +359,9 @@ ExitCode render(const RenderOptions& options) {
   if (recording)
     source.emplace(*recording);
   else
-    source.emplace(made, plan.clock, facts);
-  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, camera, scale, manifest, {}};
+    source.emplace(made, plan.clock, facts, overlays.phases());
+  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, camera, scale, overlays, manifest,
+          {}};
   if (options.telling.verbose) tellStart(run);
 
   catchInterrupts();

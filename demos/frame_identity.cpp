@@ -34,6 +34,7 @@ renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record)
                             {"State", hexText(record.state_hash)}};
   if (manifest.preset != renderer::Preset::kRealtime) text.emplace_back("Preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) text.emplace_back("Style", nameOf(manifest.style));
+  if (!manifest.overlays.empty()) text.emplace_back("Overlays", manifest.overlays);
   return text;
 }
 

@@ -4,11 +4,13 @@
 
 namespace carom::demos {
 
-FrameSource::FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts) : scene_(&scene) {
-  states_.emplace(scene.world, clock, [&scene, &facts](const World& world) {
+FrameSource::FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases)
+    : scene_(&scene) {
+  const auto after_step = [&scene, &facts](const World& world) {
     throwIfInterrupted();
     checkStep(world, world.audit(), scene.names, facts);
-  });
+  };
+  states_.emplace(scene.world, clock, after_step, phases);
 }
 
 FrameState FrameSource::at(int frame) {

@@ -14,8 +14,8 @@ namespace carom::demos {
 
 class FrameSource {
  public:
-  /// Steps the world of `scene`; all must outlive this.
-  FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts);
+  /// Steps the world of `scene`, telling `phases`; all must outlive this.
+  FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases = nullptr);
   explicit FrameSource(RecordingReader& recording) : recording_(&recording) {}
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;

@@ -44,6 +44,7 @@ void addUnusual(const Manifest& manifest, Json& json) {
   if (manifest.speed != 1.0) json.set("speed", manifest.speed);
   if (manifest.preset != renderer::Preset::kRealtime) json.set("preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) json.set("style", nameOf(manifest.style));
+  if (!manifest.overlays.empty()) json.set("overlays", manifest.overlays);
   if (manifest.outputs.kind() != Json::Kind::kNull) json.set("outputs", manifest.outputs);
 }
 

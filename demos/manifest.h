@@ -52,7 +52,8 @@ struct Manifest {
   std::string camera;
   renderer::Preset preset = renderer::Preset::kRealtime;
   renderer::Style style = renderer::Style::kDaylight;
-  Json outputs;  ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
+  Json outputs;          ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
+  std::string overlays;  ///< Names and focus; empty: none.
   renderer::ContextInfo gl;
   int frames_planned = 0;
   double wall_s = 0.0;

@@ -2,7 +2,7 @@
 # install_missing_packages [PACKAGE...] installs what is missing (root or sudo); without the right to, one line says what is missing.
 
 carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libassimp-dev libpng-dev libqhull-dev
-  libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev)
+  libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev)
 # What the benchmarks compare with; each can be missing.
 benchmark_peers=(libfcl-dev libccd-dev libbullet-dev libode-dev)
 

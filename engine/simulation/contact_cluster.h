@@ -41,6 +41,10 @@ class ContactCluster {
   /// So much has been solved in this step that impulses spread no further.
   bool isExhausted() const { return visits_ > most_visits_; }
 
+  /// What was solved last: the rows, their bodies being members, and where each came from.
+  std::span<const ContactRow> rows() const { return rows_; }
+  std::span<const SourcedRow> sources() const { return sources_; }
+
   std::size_t size() const { return members_.size(); }
   const Member& member(std::size_t i) const { return members_[i]; }
   /// What impulses have made of member i; what its path is to be.

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/simulation/contact_cluster.h"
+#include "engine/simulation/step_record.h"
 
 namespace carom {
 namespace {
@@ -39,7 +40,8 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters, PhaseClock* clock)
+            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters, PhaseClock* clock,
+            StepView* view)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
@@ -47,6 +49,7 @@ class EventLoop {
         settings_(settings),
         counters_(counters),
         clock_(clock),
+        view_(view),
         cluster_(bodies, shapes, table, settings, counters) {}
 
   void run() {
@@ -129,6 +132,7 @@ class EventLoop {
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
+    if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
     changed_.clear();
     const bool bounds = crowded || cluster_.size() > 2;
     takeMomentum(time_s, bounds);
@@ -253,6 +257,7 @@ class EventLoop {
   const WorldSettings& settings_;
   StepCounters& counters_;
   PhaseClock* clock_;
+  StepView* view_;
   ContactCluster cluster_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
   std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step.
@@ -264,8 +269,8 @@ class EventLoop {
 
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-               PhaseClock* clock) {
-  EventLoop(bodies, shapes, table, planner, settings, counters, clock).run();
+               PhaseClock* clock, StepView* view) {
+  EventLoop(bodies, shapes, table, planner, settings, counters, clock, view).run();
 }
 
 }  // namespace carom

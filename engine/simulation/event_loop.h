@@ -7,13 +7,14 @@
 
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
+#include "engine/simulation/step_view.h"
 
 namespace carom {
 
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
-/// where it began, if lower) throughout.
+/// where it began, if lower) throughout. `view`, unless null, is told of the collisions.
 void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-               PhaseClock* clock);
+               PhaseClock* clock, StepView* view);
 
 }  // namespace carom

@@ -242,6 +242,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   setPaths(assembly, bodies, shapes, pairs, settings.step_s, counters);
   remember(assembly, pairs);
   counters.contact_points = static_cast<int>(contacts.rows.size());
+  contacts.sources = std::move(assembly.sources);
   return std::move(assembly.contacts);
 }
 

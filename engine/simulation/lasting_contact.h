@@ -15,6 +15,7 @@ namespace carom {
 /// The contact rows of a step with where they came from; kept for the modes.
 struct LastingContacts {
   std::vector<ContactRow> rows;
+  std::vector<SourcedRow> sources;  ///< As long: the rows as they were before the solve, and where from.
   std::vector<ImpulseBody> bodies;  ///< One per body of the world, velocities after the solve.
   std::vector<char> touched;        ///< Bodies that some row pressed.
 };

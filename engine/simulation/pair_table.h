@@ -50,6 +50,8 @@ class PairTable {
 
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }
+  /// One a shape: what it was paired by.
+  const std::vector<Proxy>& proxies() const { return proxies_; }
   /// The pairs of a body, by index.
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 

@@ -15,6 +15,7 @@
 #include "engine/simulation/pair_table.h"
 #include "engine/simulation/start_poses.h"
 #include "engine/simulation/state_hash.h"
+#include "engine/simulation/step_record.h"
 
 namespace carom {
 namespace {
@@ -78,6 +79,7 @@ struct World::Impl {
   PairTable table;
   FlightPlanner planner;
   StepCounters counters;
+  StepView* view = nullptr;  ///< Who is told of the step, if anybody.
   int steps = 0;
   bool started = false;
 
@@ -311,10 +313,11 @@ void World::step(PhaseClock* clock) {
     w.planFlight(clock);
     contacts = w.solveContacts(clock);
   }
+  if (w.view != nullptr) recordContacts({w.bodies, w.shapes, w.table, time()}, contacts, *w.view);
   if (w.pathsLeaveBounds(clock)) w.findPairs(clock);
 
   // Advance from one time of impact to the next.
-  runEvents(w.bodies, w.shapes, w.table, w.planner, w.settings, w.counters, clock);
+  runEvents(w.bodies, w.shapes, w.table, w.planner, w.settings, w.counters, clock, w.view);
   w.finishStep(clock);
 
   // Modes.
@@ -325,6 +328,15 @@ void World::step(PhaseClock* clock) {
   w.publish();
   ++w.steps;
   w.planner.beginStep(time());
+  if (w.view != nullptr) recordPairs({w.bodies, w.shapes, w.table, time()}, *w.view);
+}
+
+void World::watch(StepView* view) {
+  impl_->view = view;
+  if (view == nullptr) return;
+  *view = StepView{};
+  view->begin_s = time();
+  recordPairs({impl_->bodies, impl_->shapes, impl_->table, time()}, *view);
 }
 
 double World::time() const {

@@ -16,6 +16,7 @@
 #include "engine/environment/fluid.h"
 #include "engine/foundation/frames.h"
 #include "engine/simulation/phase_clock.h"
+#include "engine/simulation/step_view.h"
 #include "engine/solid/solid.h"
 
 namespace carom {
@@ -108,6 +109,10 @@ class World {
   std::vector<Overlap> start();
   /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome.
   void step(PhaseClock* clock = nullptr);
+
+  /// From now on `view` is told of every step (and at once of the pairs and bounds of the start), which
+  /// changes no bit of the outcome; null: nothing is told any more. `view` must outlive that.
+  void watch(StepView* view);
 
   double time() const;
   int stepCount() const;

@@ -35,6 +35,7 @@ inline const std::vector<Library>& guardedLibraries() {
   static const std::vector<Library> libraries{
       {"OSMesa", "GL/osmesa", {"renderer/offscreen_context.cpp", "renderer/offscreen_context.h"}},
       {"libpng", "png", {"renderer/png.cpp"}},
+      {"Cairo", "cairo", {"renderer/canvas.cpp"}},
       {"assimp", "assimp/", {"demos/mesh_import.cpp"}},
       {"tinygltf", "tiny_gltf.h", {"demos/motion_gltf.cpp"}},
       {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};

@@ -1,0 +1,74 @@
+#include "engine/simulation/step_record.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace carom {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// What resting bodies took last, at the points of contact that their poses still give.
+void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& view) {
+  const Body& a = world.bodies[at(pair.body_a)];
+  const Body& b = world.bodies[at(pair.body_b)];
+  if (a.moves() || b.moves() || pair.remembered_count == 0) return;
+  const ContactManifold manifold =
+      contactManifold(pair.closest, *world.shapes[at(pair.shapes.a)].part, a.X_WB,
+                      *world.shapes[at(pair.shapes.b)].part, b.X_WB, pair.window);
+  for (const ManifoldPoint& point : manifold.view())
+    for (int i = 0; i < pair.remembered_count; ++i) {
+      const RememberedImpulse& remembered = pair.remembered[at(i)];
+      if (remembered.id != point.id) continue;
+      view.lasting.push_back({pair.body_a, pair.body_b, a.X_WB.inverse() * point.p_W,
+                              b.X_WB.inverse() * point.p_W, point.n_W, point.gap_m, remembered.impulse_W,
+                              point.id, world.time_s});
+    }
+}
+
+}  // namespace
+
+void recordContacts(const RecordedWorld& world, const LastingContacts& contacts, StepView& view) {
+  view.begin_s = world.time_s;
+  view.lasting.clear();
+  for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
+    const ContactRow& row = contacts.rows[i];
+    const SourcedRow& source = contacts.sources[i];
+    const Quat& R_WA = world.bodies[at(row.a)].X_WB.rotation;
+    const Quat& R_WB = world.bodies[at(row.b)].X_WB.rotation;
+    view.lasting.push_back({row.a, row.b, R_WA.conjugate() * row.r_a, R_WB.conjugate() * row.r_b, row.n,
+                            source.gap_m, rowImpulse(row, row.impulse), source.id, world.time_s});
+  }
+  for (const ShapePair& pair : world.table.pairs()) recordResting(world, pair, view);
+}
+
+void recordCollision(const std::vector<Body>& bodies, const ContactCluster& cluster, double time_s,
+                     StepView& view) {
+  for (std::size_t i = 0; i < cluster.rows().size(); ++i) {
+    const ContactRow& row = cluster.rows()[i];
+    if (row.impulse.isZero(0.0)) continue;
+    const int a = cluster.member(at(row.a)).body;
+    const int b = cluster.member(at(row.b)).body;
+    const Quat R_WA = bodies[at(a)].path.at(time_s).rotation;
+    const Quat R_WB = bodies[at(b)].path.at(time_s).rotation;
+    const SourcedRow& source = cluster.sources()[i];
+    view.collisions.push_back({a, b, R_WA.conjugate() * row.r_a, R_WB.conjugate() * row.r_b, row.n,
+                               source.gap_m, rowImpulse(row, row.impulse), source.id, view.begin_s + time_s});
+  }
+}
+
+void recordPairs(const RecordedWorld& world, StepView& view) {
+  view.candidates.clear();
+  for (const ShapePair& pair : world.table.pairs())
+    view.candidates.push_back({pair.body_a, pair.body_b, pair.closest.distance_m});
+  std::stable_sort(view.candidates.begin(), view.candidates.end(),
+                   [](const CandidateView& x, const CandidateView& y) {
+                     return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
+                   });
+  view.swept.clear();
+  for (const Proxy& proxy : world.table.proxies()) view.swept.push_back({proxy.group, proxy.bounds});
+}
+
+}  // namespace carom
