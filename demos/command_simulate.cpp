@@ -27,8 +27,8 @@ void writeAudit(CsvFile& csv, int step, const Audit& audit) {
   row << step << ',' << audit.time_s << ',' << audit.kinetic_energy_J << ',' << audit.potential_energy_J
       << ',' << p.x() << ',' << p.y() << ',' << p.z() << ',' << l.x() << ',' << l.y() << ',' << l.z() << ','
       << audit.smallest_gap_m << ',' << audit.resting_bodies << ',' << c.candidate_pairs << ','
-      << c.distance_queries << ',' << c.contact_points << ',' << c.events << ',' << c.stopped_bodies << ','
-      << c.iteration_limits;
+      << c.distance_queries << ',' << c.contact_points << ',' << c.events << ',' << c.impacts << ','
+      << c.newton_steps << ',' << c.stopped_bodies << ',' << c.iteration_limits;
   csv.row(row);
 }
 
@@ -92,7 +92,7 @@ ExitCode simulate(const SimulateOptions& options) {
   CsvFile audits(
       options.audit,
       "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
-      "distance_queries,contact_points,events,stopped_bodies,iteration_limits");
+      "distance_queries,contact_points,events,impacts,newton_steps,stopped_bodies,iteration_limits");
   std::optional<RecordingWriter> recording;
   if (!options.output.empty()) recording.emplace(options.output, recordingHeader(options, scene, made));
   RunFacts facts;

@@ -1,6 +1,8 @@
 #pragma once
 // What the world keeps of a body and of its parts. Internal to the simulation floor.
 
+#include <optional>
+
 #include "engine/motion/rigid_body.h"
 #include "engine/motion/trajectory.h"
 #include "engine/response/impulse.h"
@@ -33,6 +35,8 @@ struct Body {
 
   Pose X_WB;          ///< At the time of the last finished step.
   Velocity velocity;  ///< At the time of the last finished step.
+  /// kg m^2/s, world frame, of a body that has flown freely since it was computed: not rounded in every step.
+  std::optional<Vec3> kept_angular_momentum;
 
   // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They
   // differ in lasting contact, where the path also reopens gaps without giving the body energy.
@@ -45,6 +49,11 @@ struct Body {
   bool collided = false;
 
   bool moves() const { return !is_static && !resting; }
+  /// Nothing has turned it in this step but its own spin.
+  bool flewFreely() const {
+    return travel == Travel::kBallistic && path.start_s == 0.0 && torque.isZero(0.0) &&
+           momentum_velocity.angular == velocity.angular;
+  }
 
   /// The velocity impulses act on, at a time not before path.start_s.
   Velocity velocityAt(double t_s) const {

@@ -1,6 +1,7 @@
 #include "engine/simulation/contact_cluster.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/response/collision.h"
 
@@ -13,7 +14,9 @@ constexpr int kMostSweeps = 80;   // of one solve
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
-constexpr double kGapShare = 0.4;   // of the rest gap
+constexpr double kGapShare = 0.4;  // of the rest gap
+// Approaches of one instant that differ by a smaller share are one collision: what is symmetric stays so.
+constexpr double kSameApproach = 1e-6;
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
 std::size_t at(int i) {
@@ -120,6 +123,39 @@ bool ContactCluster::expandMoved(double noticeable_mps) {
   return rows_.size() > rows;
 }
 
+// Whether the bodies' spheres say that the pair could be in the window.
+bool ContactCluster::isNear(const ShapePair& pair) const {
+  const Body& a = bodies_[at(pair.body_a)];
+  const Body& b = bodies_[at(pair.body_b)];
+  return (b.path.positionAt(time_s_) - a.path.positionAt(time_s_)).norm() <=
+         a.radius_m + b.radius_m + pair.window.ceiling;
+}
+
+// Bodies may meet several others at the same instant and speed (a ball two that touch): one collision, so
+// that its outcome does not depend on who is asked first.
+void ContactCluster::joinSimultaneous(double approach_mps) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (bodies_[at(members_[i].body)].is_static) continue;
+    for (int p : table_.pairsOf(members_[i].body)) {
+      ShapePair& pair = table_.pairs()[at(p)];
+      if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
+      pair_joined_[at(p)] = number_;
+      const Body& a = bodies_[at(pair.body_a)];
+      const Body& b = bodies_[at(pair.body_b)];
+      const Pose X_WA = a.path.at(time_s_);
+      const Pose X_WB = b.path.at(time_s_);
+      const ClosestFeatures closest = closestFeatures(*shapes_[at(pair.shapes.a)].part, X_WA,
+                                                      *shapes_[at(pair.shapes.b)].part, X_WB, pair.tracked);
+      ++counters_.distance_queries;
+      const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - X_WB.position) -
+                            a.velocityAt(time_s_).at(closest.p_A_W - X_WA.position);
+      if (closest.distance_m <= pair.window.ceiling &&
+          std::abs(closest.n_W.dot(relative) - approach_mps) <= -kSameApproach * approach_mps)
+        addPair(p, closest);
+    }
+  }
+}
+
 double ContactCluster::safeResidual() const {
   return kGapShare * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
 }
@@ -156,6 +192,7 @@ std::vector<double> ContactCluster::findRestitution() {
 void ContactCluster::collide(bool spreads) {
   double approach = 0.0;
   for (const ContactRow& row : rows_) approach = std::min(approach, rowVelocity(row, momentum_).x());
+  if (!spreads && approach < 0.0) joinSimultaneous(approach);
   std::vector<double> restitution = findRestitution();
   if (approach >= 0.0) return;
   const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });

@@ -65,6 +65,8 @@ class ContactCluster {
   void addPair(int pair, const ClosestFeatures& closest);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
+  void joinSimultaneous(double approach_mps);
+  bool isNear(const ShapePair& pair) const;
   double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
   void startAgain();
   void solveSpreading(double careful_mps);

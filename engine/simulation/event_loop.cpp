@@ -88,15 +88,18 @@ class EventLoop {
     ShapePair& pair = table_.pairs()[at(index)];
     TimeOfImpact& found = prediction.found;
     const int queries = found.queries;
+    const int newton_steps = found.newton_steps;
     lookFurther(movingPart(pair.shapes.a), movingPart(pair.shapes.b), prediction.search, found, pair.tracked);
     counters_.distance_queries += found.queries - queries;
+    counters_.newton_steps += found.newton_steps - newton_steps;
     if (found.outcome == TimeOfImpact::Outcome::kClear) return;
     if (found.outcome == TimeOfImpact::Outcome::kPending) {
       events_.push({found.time_s, index, prediction.version});
       return;
     }
-    resolve(index, found);
     ++counters_.events;
+    counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
+    resolve(index, found);
   }
 
   MovingPart movingPart(int shape) const {
@@ -121,8 +124,8 @@ class EventLoop {
       if (bodies_[at(i)].resting) wakeInStep(i);
       if (!bodies_[at(i)].is_static) spent = std::max(spent, ++bodies_[at(i)].events);
     }
-    // Elastic collisions go from body to body as they would (Newton's cradle); the others do not come back,
-    // and press at once on all that stands behind.
+    // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
+    // speed are one; the others do not come back, and press at once on all that stands behind.
     const bool stopped = found.outcome == TimeOfImpact::Outcome::kStopped;
     const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
     const bool crowded = stopped || spent > share * tolerance::kPairEvents;
@@ -134,7 +137,7 @@ class EventLoop {
     }
     if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
     changed_.clear();
-    const bool bounds = crowded || cluster_.size() > 2;
+    const bool bounds = crowded || (spreads && cluster_.size() > 2);
     takeMomentum(time_s, bounds);
     if (bounds) takePaths(time_s);
     const int most =

@@ -139,8 +139,20 @@ LastingContacts World::Impl::solveContacts(PhaseClock* clock) {
 void World::Impl::finishStep(PhaseClock* clock) {
   for (Body& body : bodies) {
     if (!body.moves()) continue;
+    const Vec3 spin_before = body.velocity.angular;
+    const Quat rotation_before = body.X_WB.rotation;
+    const bool flew_freely = body.flewFreely();
     body.velocity = body.velocityAt(settings.step_s);
     body.X_WB = body.path.at(settings.step_s);
+    if (!flew_freely || spin_before.isZero(0.0)) {
+      body.kept_angular_momentum.reset();
+      continue;
+    }
+    if (!body.kept_angular_momentum)
+      body.kept_angular_momentum = angularMomentum(body.inertia, rotation_before, spin_before);
+    body.velocity.angular = angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum);
+  }
+  for (const Body& body : bodies) {
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
   }

@@ -77,7 +77,9 @@ struct StepCounters {
   int candidate_pairs = 0;
   int distance_queries = 0;
   int contact_points = 0;
-  int events = 0;            ///< Times of impact resolved.
+  int events = 0;            ///< Times at which impulses acted between steps, ...
+  int impacts = 0;           ///< ... of these, roots: fast approaches that came into the window.
+  int newton_steps = 0;      ///< Of the searches for times of impact.
   int stopped_bodies = 0;    ///< Held at their last safe time because an event budget was reached.
   int iteration_limits = 0;  ///< Closest-feature walks that reached their bound.
 };

@@ -61,7 +61,7 @@ TEST_P(Gyroscope, KeepsItsAngularMomentumForAMinute) {
     world_.step();
     worst = std::max(worst, (world_.world().audit().angular_momentum - before).norm());
   }
-  EXPECT_LE(worst, 2e-12 * before.norm());  // 1.2e-12: the rounding of 3600 steps
+  EXPECT_LE(worst, 1e-12 * before.norm());
 }
 
 TEST_P(Gyroscope, KeepsItsEnergyForAMinute) {
