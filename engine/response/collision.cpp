@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kSweeps = 400;
 constexpr double kConverged = 1e-12;  // of the approach speed
+constexpr double kStopped = 1e-10;    // of the approach speed: slower points are left alone
+constexpr int kMostStops = 4000;
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
 double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before,
@@ -40,6 +42,28 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
     (twiceEnergyGain(rows, before, bodies) <= 0.0 ? low : high) = middle;
   }
   setShare(low);
+}
+
+// What the solves have left approaching, where they have not converged (rough ground, very unequal masses):
+// one point after the other, the fastest first, is stopped by a collision of its own without restitution.
+// Each takes energy away, so this ends.
+void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double tolerated_mps) {
+  for (int i = 0; i < kMostStops; ++i) {
+    std::size_t fastest = 0;
+    double approach = 0.0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double speed = rowVelocity(rows[k], bodies).x();
+      if (speed >= approach) continue;
+      approach = speed;
+      fastest = k;
+    }
+    if (approach >= -tolerated_mps) return;
+    ContactRow& row = rows[fastest];
+    const Vec3 impulse =
+        pointCollisionImpulse({rowResponse(row, bodies), rowVelocity(row, bodies), row.friction, 0.0});
+    applyToRow(row, impulse, bodies);
+    row.impulse += impulse;
+  }
 }
 
 }  // namespace
@@ -79,6 +103,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       cutRestitution(rows, before, compressed, bodies);
     }
   }
+  stopApproaches(rows, bodies, -kStopped * report.approach_mps);
   for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
   return report;
 }

@@ -1,6 +1,6 @@
-// stress tunnelling | sweeps | pile | energy: what Carom promises of contact, asked often. Without options
-// each runs at the size of its bar (from minutes to an hour); small sizes take seconds. Exit code 0 when
-// every bar is met, 1 when one is missed, 2 for options it does not understand.
+// stress tunnelling | sweeps | collisions | pile | energy: what Carom promises of contact, asked often.
+// Without options each runs at the size of its bar (from minutes to an hour); small sizes take seconds. Exit
+// code 0 when every bar is met, 1 when one is missed, 2 for options it does not understand.
 
 #include "tests/bench/stress.h"
 
@@ -31,6 +31,12 @@ int main(int argc, char** argv) {
   sweeps->add_option("--seed", sweep.seed);
   sweeps->add_option("--threads", sweep.threads)->check(CLI::Range(1, 256));
 
+  CollisionRun collision;
+  CLI::App* collisions = app.add_subcommand("collisions", "random collisions: energy, momentum, approach");
+  collisions->add_option("--collisions", collision.collisions)->check(CLI::Range(1L, 1000000000L));
+  collisions->add_option("--seed", collision.seed);
+  collisions->add_option("--threads", collision.threads)->check(CLI::Range(1, 256));
+
   PileRun pile;
   pile.crowds = {Crowd::kHulls, Crowd::kBoxes};
   pile.frictions = {0.5, 0.1, 0.0};
@@ -60,6 +66,7 @@ int main(int argc, char** argv) {
   bool met = true;
   if (shots->parsed()) met = runTunnelling(tunnelling);
   if (sweeps->parsed()) met = runSweeps(sweep);
+  if (collisions->parsed()) met = runCollisions(collision);
   if (piles->parsed()) met = runPiles(pile);
   if (energies->parsed()) met = runEnergy(energy);
   return met ? 0 : 1;

@@ -29,6 +29,13 @@ struct SweepRun {
 };
 bool runSweeps(const SweepRun& run);
 
+struct CollisionRun {
+  long collisions = 10'000'000;
+  std::uint64_t seed = 1;
+  int threads = 2;
+};
+bool runCollisions(const CollisionRun& run);
+
 struct PileRun {
   std::vector<Crowd> crowds;
   std::vector<double> frictions;

@@ -5,11 +5,11 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source demos/packages.sh
 
-tunnelling=() sweeps=() energy=() pile=()
+tunnelling=() sweeps=() collisions=() energy=() pile=()
 case "${1-}" in
   "") ;;
   --small)
-    tunnelling=(--trials 3000) sweeps=(--sweeps 10000) energy=(--share 0.1)
+    tunnelling=(--trials 3000) sweeps=(--sweeps 10000) collisions=(--collisions 100000) energy=(--share 0.1)
     pile=(--bodies 40 --seconds 5)
     ;;
   *)
@@ -24,7 +24,7 @@ build_preset bench stress
 
 program=build/bench/tests/bench/stress
 code=0
-for part in tunnelling sweeps energy pile; do
+for part in tunnelling sweeps collisions energy pile; do
   declare -n options=$part
   echo
   echo "stress $part ${options[*]}"
