@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "demos/drawn_water.h"
 #include "demos/frame_states.h"
 #include "demos/interrupt.h"
 #include "demos/phase_stopwatch.h"
@@ -22,12 +23,14 @@ void addWork(FrameCost& cost, const StepCounters& step) {
 }
 
 void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
-                   std::span<const renderer::Instance> instances, const renderer::Camera& camera) {
+                   std::span<const renderer::Instance> instances, const renderer::Camera& camera,
+                   std::span<const renderer::WaterVolume> water) {
   watch.begin(FramePhase::kDraw);
-  const renderer::Image& image = pictures.draw(instances, camera, [&watch] {
+  const auto drawn = [&watch] {
     watch.end();
     watch.begin(FramePhase::kReadback);
-  });
+  };
+  const renderer::Image& image = pictures.draw(instances, camera, drawn, water);
   watch.end();
   const FramePhaseScope phase(watch, FramePhase::kEncode);
   renderer::encodePng(image);
@@ -36,7 +39,8 @@ void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
 Replay runOnce(const ReplayPlan& plan, renderer::FrameRenderer& pictures,
                const std::function<void(int)>& done) {
   SceneWorld scene = makeSceneWorld(plan.scene, plan.mesh);
-  pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera.at(0.0, scene.world.states()));
+  pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera.at(0.0, scene.world.states()), {},
+                drawnWater(plan.scene, 0.0));
   PhaseStopwatch watch(steadySeconds, plan.keeps_slices);
   RunFacts facts;
   FrameCost cost;
@@ -55,7 +59,8 @@ Replay runOnce(const ReplayPlan& plan, renderer::FrameRenderer& pictures,
     watch.beginFrame(frame);
     const std::span<const BodyState> bodies = states.advanceTo(frame);
     const std::vector<renderer::Instance> instances = drawnInstances(scene, bodies);
-    drawAndEncode(watch, pictures, instances, plan.camera.at(plan.clock.time(frame), bodies));
+    const double time_s = plan.clock.time(frame);
+    drawAndEncode(watch, pictures, instances, plan.camera.at(time_s, bodies), drawnWater(plan.scene, time_s));
     watch.endFrame(cost);
     cost.time_s = plan.clock.time(frame);
     cost.state_hash = scene.world.stateHash();

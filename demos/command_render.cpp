@@ -14,6 +14,7 @@
 #include "demos/atomic_file.h"
 #include "demos/camera_path.h"
 #include "demos/content_hash.h"
+#include "demos/drawn_water.h"
 #include "demos/ffmpeg_video.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_identity.h"
@@ -192,7 +193,8 @@ void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer
     if (!keepFrame(run, next)) {
       watch.lap_ms();
       const renderer::Camera camera = run.camera.at(next.record.time_s, state.bodies);
-      next.image = run.overlays.draw(pictures, state, frame, camera);
+      next.image =
+          run.overlays.draw(pictures, state, frame, camera, drawnWater(run.plan.scene, next.record.time_s));
       drawOutputs(run, pictures, next);
       next.record.timings.draw_ms = watch.lap_ms();
       writer.submit(std::move(next));

@@ -102,12 +102,12 @@ OverlayFrame Overlays::frameOf(const FrameState& state, int frame) const {
 }
 
 renderer::Image Overlays::draw(renderer::FrameRenderer& pictures, const FrameState& state, int frame,
-                               const renderer::Camera& camera) {
+                               const renderer::Camera& camera, std::span<const renderer::WaterVolume> water) {
   std::vector<renderer::Instance> instances = drawnInstances(scene_, state.bodies);
-  if (!any()) return pictures.draw(instances, camera);
+  if (!any()) return pictures.draw(instances, camera, {}, water);
   recolor(state.bodies, instances);
   if (watch_) watch_->begin(FramePhase::kDraw);
-  const renderer::Image& picture = pictures.draw(instances, camera);
+  const renderer::Image& picture = pictures.draw(instances, camera, {}, water);
   if (watch_) watch_->end();
   OverlayFrame of = frameOf(state, frame);
   of.cost = endTiming();

@@ -46,7 +46,7 @@ class Overlays {
   void recolor(std::span<const BodyState> bodies, std::vector<renderer::Instance>& instances) const;
   /// Draws the frame's picture with its overlays; `state` is what `advance` returned.
   renderer::Image draw(renderer::FrameRenderer& pictures, const FrameState& state, int frame,
-                       const renderer::Camera& camera);
+                       const renderer::Camera& camera, std::span<const renderer::WaterVolume> water = {});
   /// Draws the overlays alone over `image`.
   renderer::Image paint(const renderer::Image& image, const renderer::DepthImage& depth,
                         const OverlayFrame& frame, const renderer::Camera& camera) const;

@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
-# The main job: installs what is missing, builds the carom program, renders every shipped scene to frames/<scene>/.
+# The main job: installs what is missing, builds the carom program, renders the paper's scenes to frames/<scene>/; with
+# scenes' names those, with --all every shipped scene.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
+
+case "${1-}" in
+  "") scenes=(bouncing-ball contact-vertex-face contact-vertex-vertex contact-vertex-edge contact-edge-edge multi-contact
+    sliding resting imported-meshes drop-mesh fifty-bodies crates-in-a-pool) ;;
+  --all) scenes=(); for path in assets/scenes/*.json; do scenes+=("$(basename "$path" .json)"); done ;;
+  *) scenes=("$@") ;;
+esac
 
 started=$SECONDS
 install_missing_packages
@@ -11,8 +19,7 @@ built=$SECONDS
 
 carom=build/release/demos/carom
 frames=0
-for path in assets/scenes/*.json; do
-  scene=$(basename "$path" .json)
+for scene in "${scenes[@]}"; do
   echo "rendering $scene"
   report=$("$carom" render "$scene")
   echo "  $report"

@@ -94,6 +94,7 @@ inline std::string nameOfCopy(const Body& body, int copy) {
 struct NamedFluid {
   std::string name;
   Fluid fluid;
+  renderer::Color color = renderer::WaterVolume{}.color;
   Place place;
 };
 

@@ -370,7 +370,8 @@ void readFluidSpace(const Json& json, Fluid& fluid) {
 }
 
 NamedFluid readFluid(const Json& json, const std::filesystem::path& file) {
-  json.onlyKeys({"name", "box", "level", "density", "drag", "linearDrag", "flow", "addedMass", "waves"});
+  json.onlyKeys(
+      {"name", "box", "level", "density", "drag", "linearDrag", "flow", "addedMass", "waves", "color"});
   NamedFluid named;
   named.place = placeOf(json, file);
   named.name = json.at("name").asString();
@@ -384,6 +385,7 @@ NamedFluid readFluid(const Json& json, const std::filesystem::path& file) {
   if (const Json* value = json.find("addedMass")) fluid.added_mass = readNumber(*value, kFactor);
   if (const Json* value = json.find("waves"))
     for (const Json& item : value->items()) fluid.waves.push_back(readWave(item));
+  if (const Json* value = json.find("color")) named.color = readColor(*value);
   return named;
 }
 

@@ -17,6 +17,7 @@
 #include "renderer/shaders.h"
 #include "renderer/shadow_fit.h"
 #include "renderer/surface_pass.h"
+#include "renderer/water_pass.h"
 
 namespace carom::renderer {
 namespace {
@@ -107,12 +108,13 @@ struct FrameRenderer::Impl {
     pixels.resize(4 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   }
 
+  std::string shaderVariant() const;
   void linkPrograms();
   void createTargets();
   void createMirrorTarget();
   void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
-                    const std::function<void()>& drawn);
+                    const std::function<void()>& drawn, std::span<const WaterVolume> water);
   void expose(const Sample& sample);
   ShadowView shadowView(const Vec3& to_light) const;
   void uploadFrame(const ShadowView& shadow, const Sample& sample) const;
@@ -131,6 +133,7 @@ struct FrameRenderer::Impl {
     Camera camera;
     DrawList list;
     std::vector<OcclusionVertex> occlusion;
+    std::vector<WaterVolume> water;
   };
 
   Settings settings;
@@ -143,6 +146,7 @@ struct FrameRenderer::Impl {
   EdgeFilter filter;
   MultipleExposure exposure;
   SurfacePass surface_pass;
+  std::unique_ptr<WaterPass> water_pass;
   GLuint body_program = 0, shadowed_ground_program = 0, open_ground_program = 0, sky_program = 0;
   GLuint shadow_program = 0, occlusion_program = 0, mirrored_program = 0;
   GLuint scene_target = 0, shadow_target = 0, mirror_target = 0, shadow_map = 0, mirror_texture = 0;
@@ -155,11 +159,16 @@ struct FrameRenderer::Impl {
   bool surfaces_known = true;  // Those of a view that shows nothing yet: none.
 };
 
-void FrameRenderer::Impl::linkPrograms() {
+std::string FrameRenderer::Impl::shaderVariant() const {
   std::string variant;
   if (settings.style == Style::kPrint) variant += "#define PRINT\n";
   if (!quality.soft_look_up) variant += "#define SMALL_SHADOWS\n";
   if (quality.mirror) variant += "#define POLISHED\n";
+  return variant;
+}
+
+void FrameRenderer::Impl::linkPrograms() {
+  const std::string variant = shaderVariant();
   const auto link = [&](const char* name, const std::string& lines, const char* vertex, const char* light,
                         const char* common, const char* fragment) {
     return linkProgram(
@@ -179,17 +188,23 @@ void FrameRenderer::Impl::linkPrograms() {
 }
 
 void FrameRenderer::Impl::createTargets() {
-  GLuint buffers[2];
-  gl.GenRenderbuffers(2, buffers);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+  GLuint color = 0, depth = 0;
+  gl.GenRenderbuffers(1, &color);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, color);
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, settings.width, settings.height);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, settings.width, settings.height);
+  gl.GenTextures(1, &depth);
+  gl.BindTexture(GL_TEXTURE_2D, depth);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, settings.width, settings.height, 0,
+                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl.GenFramebuffers(1, &scene_target);
   gl.BindFramebuffer(GL_FRAMEBUFFER, scene_target);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   const bool scene_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  water_pass = std::make_unique<WaterPass>(
+      gl, WaterPass::Scene{color, depth, settings.width, settings.height}, shaderVariant());
 
   gl.GenTextures(1, &shadow_map);
   gl.BindTexture(GL_TEXTURE_2D, shadow_map);
@@ -259,7 +274,8 @@ void FrameRenderer::Impl::createMirrorTarget() {
 
 // One exposure or several, and their mean.
 const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera,
-                                       const std::function<void()>& drawn) {
+                                       const std::function<void()>& drawn,
+                                       std::span<const WaterVolume> water) {
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
@@ -267,6 +283,7 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   view.camera = camera;
   view.list = buildDrawList(instances, camera, settings, geometry);
   view.occlusion = occlusionTriangles();
+  view.water.assign(water.begin(), water.end());
   surfaces_known = false;
   context->makeCurrent();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -282,7 +299,7 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   return image;
 }
 
-// The passes: shadow map, mirrored bodies, bodies, ground, sky, contact shadows.
+// The passes: shadow map, mirrored bodies, bodies, ground, sky, contact shadows, water.
 void FrameRenderer::Impl::expose(const Sample& sample) {
   const ShadowView shadow = shadowView(sample.to_light);
   uploadFrame(shadow, sample);
@@ -291,6 +308,7 @@ void FrameRenderer::Impl::expose(const Sample& sample) {
   if (quality.mirror) drawMirrored();
   drawScene(sample.to_light);
   drawOcclusion();
+  water_pass->draw(view.water, view.camera, view.list.depth);
 }
 
 ShadowView FrameRenderer::Impl::shadowView(const Vec3& to_light) const {
@@ -461,8 +479,8 @@ FrameRenderer::FrameRenderer(const Settings& settings, std::span<const Solid> so
 FrameRenderer::~FrameRenderer() = default;
 
 const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera,
-                                 const std::function<void()>& drawn) {
-  return impl_->draw(instances, camera, drawn);
+                                 const std::function<void()>& drawn, std::span<const WaterVolume> water) {
+  return impl_->draw(instances, camera, drawn, water);
 }
 const SurfaceImage& FrameRenderer::surfaces() {
   return impl_->knownSurfaces();

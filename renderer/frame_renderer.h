@@ -4,32 +4,21 @@
 // air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
 // Tested in tests/renderer/frame_renderer_test.cpp.
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
 
 #include "engine/foundation/frames.h"
 #include "engine/solid/solid.h"
+#include "renderer/color.h"
 #include "renderer/image.h"
 #include "renderer/offscreen_context.h"
 #include "renderer/preset.h"
 #include "renderer/projection.h"
 #include "renderer/surface_image.h"
+#include "renderer/water_volume.h"
 
 namespace carom::renderer {
-
-/// sRGB, each 0 to 1.
-struct Color {
-  float r = 0.8f;
-  float g = 0.8f;
-  float b = 0.8f;
-};
-
-/// The light of an sRGB channel (IEC 61966-2-1), 0 to 1.
-inline float linearLight(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
 
 /// One body to draw.
 struct Instance {
@@ -69,9 +58,9 @@ class FrameRenderer {
   /// Draws one frame; the image is valid until the next call. From any thread, one at a time.
   /// Throws InputError when the camera is impossible (see `cameraAxes`).
   /// `drawn` is called when GL has finished and the image is about to be read back, to tell the two apart;
-  /// waiting for GL there changes no pixel.
+  /// waiting for GL there changes no pixel. `water` is drawn over all of it; it is not in `surfaces()`.
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
-                    const std::function<void()>& drawn = {});
+                    const std::function<void()>& drawn = {}, std::span<const WaterVolume> water = {});
 
   /// What the middle of each pixel of the last `draw` shows: the engine's own solids, with sharp edges and
   /// exact rounds, and the endless ground. Computed at the first call after a `draw`, in 5 to 20 ms at 720p;

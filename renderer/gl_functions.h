@@ -55,6 +55,7 @@ namespace carom::renderer {
   X(ReadBuffer, PFNGLREADBUFFERPROC)                                                                   \
   X(ReadPixels, PFNGLREADPIXELSPROC)                                                                   \
   X(RenderbufferStorage, PFNGLRENDERBUFFERSTORAGEPROC)                                                 \
+  X(Scissor, PFNGLSCISSORPROC)                                                                         \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                                               \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                                                   \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                                             \

@@ -21,8 +21,8 @@ Pace paceOf(const Wave& wave, double gravity_mps2) {
   return {k, wave.period_s > 0.0 ? 2.0 * std::numbers::pi / wave.period_s : std::sqrt(gravity_mps2 * k)};
 }
 
-SineCosine phaseAt(const Wave& wave, const Pace& pace, const Vec2& p, double t_s) {
-  return sineCosine(pace.wavenumber * wave.direction.dot(p) - pace.frequency * t_s + wave.phase);
+double phaseAt(const Wave& wave, const Pace& pace, const Vec2& p, double t_s) {
+  return pace.wavenumber * wave.direction.dot(p) - pace.frequency * t_s + wave.phase;
 }
 
 }  // namespace
@@ -33,11 +33,15 @@ double Fluid::waveHeight() const {
   return height;
 }
 
+double wavePhase(const Wave& wave, double gravity_mps2, const Vec2& p, double t_s) {
+  return phaseAt(wave, paceOf(wave, gravity_mps2), p, t_s);
+}
+
 SurfacePoint surfaceAt(const Fluid& fluid, double gravity_mps2, const Vec2& p, double t_s) {
   SurfacePoint surface{fluid.max.z(), Vec2::Zero()};
   for (const Wave& wave : fluid.waves) {
     const Pace pace = paceOf(wave, gravity_mps2);
-    const SineCosine at = phaseAt(wave, pace, p, t_s);
+    const SineCosine at = sineCosine(phaseAt(wave, pace, p, t_s));
     surface.height_m += wave.amplitude_m * at.sine;
     surface.slope += (wave.amplitude_m * pace.wavenumber * at.cosine) * wave.direction;
   }
@@ -51,7 +55,7 @@ WaterMotion waterMotionAt(const Fluid& fluid, double gravity_mps2, const Vec3& p
     const Pace pace = paceOf(wave, gravity_mps2);
     const double depth = std::max(0.0, pace.wavenumber * (fluid.max.z() - p_W.z()));
     if (depth > kDeepest) continue;
-    const SineCosine at = phaseAt(wave, pace, p_W.head<2>(), t_s);
+    const SineCosine at = sineCosine(phaseAt(wave, pace, p_W.head<2>(), t_s));
     const double speed = wave.amplitude_m * pace.frequency * exponential(-depth);
     const Vec3 forwards(wave.direction.x(), wave.direction.y(), 0.0);
     motion.velocity += speed * (at.sine * forwards - at.cosine * Vec3::UnitZ());

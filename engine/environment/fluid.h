@@ -34,6 +34,9 @@ struct Fluid {
   double waveHeight() const;
 };
 
+/// k . p - omega t + phase, radians: its sine times the amplitude is what the wave adds to the height over p.
+double wavePhase(const Wave& wave, double gravity_mps2, const Vec2& p, double t_s);
+
 /// The surface over one point: the height and the way it leans.
 struct SurfacePoint {
   double height_m = 0.0;      ///< z in the world.

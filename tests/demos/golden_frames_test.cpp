@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
+#include "demos/drawn_water.h"
 #include "demos/scene_file.h"
 #include "demos/scene_world.h"
 #include "png_files.h"
@@ -93,7 +94,7 @@ class FirstFrame {
   const renderer::Camera& camera() const { return camera_; }
 
   renderer::Raster draw(const std::vector<renderer::Instance>& instances) {
-    const renderer::Image& image = pictures_.draw(instances, camera_);
+    const renderer::Image& image = pictures_.draw(instances, camera_, {}, drawnWater(scene_, 0.0));
     return {image.width, image.height, 3, 8, {image.rgb.begin(), image.rgb.end()}};
   }
 

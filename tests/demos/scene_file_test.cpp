@@ -141,7 +141,10 @@ const Refusal kRefusals[] = {
      ":3: bodies[0].dragCoefficient: -1 is out of range; accepted: 0 to 1000"},
     {"MisspeltFluidKey", fluidScene(", \"level\": 0, \"densty\": 1000"),
      ":2: fluids[0].densty: unknown key \"densty\"; did you mean \"density\"? accepted: name, box, level, "
-     "density, drag, linearDrag, flow, addedMass, waves"},
+     "density, drag, linearDrag, flow, addedMass, waves, color"},
+    {"MisspeltFluidColor", fluidScene(", \"level\": 0, \"colr\": \"#ffffff\""),
+     ":2: fluids[0].colr: unknown key \"colr\"; did you mean \"color\"? accepted: name, box, level, "
+     "density, drag, linearDrag, flow, addedMass, waves, color"},
     {"FluidWithoutSpace", fluidScene(""), ":2: fluids[0]: accepted: either \"box\" or \"level\""},
     {"FluidWithTwoSpaces", fluidScene(", \"level\": 0, \"box\": { \"min\": [0, 0, 0], \"max\": [1, 1, 1] }"),
      ":2: fluids[0]: accepted: either \"box\" or \"level\""},

@@ -137,7 +137,8 @@ TEST(ShippedScenes, HoldWhatTheMainJobPromises) {
   EXPECT_GE(frames, 600);
   for (const char* name : {"sliding", "resting", "multi-contact", "contact-vertex-vertex",
                            "contact-vertex-edge", "contact-edge-edge", "contact-vertex-face", "bouncing-ball",
-                           "imported-meshes", "drop-mesh", "fifty-bodies"})
+                           "imported-meshes", "drop-mesh", "fifty-bodies", "crates-in-a-pool", "boat",
+                           "ball-released-under-water", "falling-plates", "wind-tunnel", "stream"})
     EXPECT_NE(names.find(name), std::string::npos) << name;
 }
 
@@ -165,6 +166,7 @@ TEST(SceneSchema, RefusesWhatTheProgramRefuses) {
       fluid("\"level\": 0, \"box\": { \"min\": [0, 0, 0], \"max\": [1, 1, 1] }"),
       fluid("\"level\": 0, \"waves\": [ { \"amplitude\": 0.1 } ]"),
       fluid("\"level\": 0, \"deep\": true"),
+      fluid("\"level\": 0, \"color\": \"blue\""),
       body(box + ", \"dragCoefficient\": -1"),
       "{ \"format\": 2, \"bodies\": [] }",
       "{ \"format\": 1, \"bodies\": [] }",
