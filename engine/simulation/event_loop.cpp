@@ -228,6 +228,13 @@ class EventLoop {
   // again.
   void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
+    // What gravity was given for the rest of the step would be energy without a fall; what contacts have
+    // taken up of it already stays as it is.
+    if (body.travel == Travel::kCarried) {
+      const Vec3 unfallen = body.momentum_velocity.linear - planner_.gained(body).linear;
+      if (unfallen.squaredNorm() < body.momentum_velocity.linear.squaredNorm())
+        body.momentum_velocity.linear = unfallen;
+    }
     body.travel = Travel::kHeld;
     body.path.velocity.setZero();
     body.path.acceleration.setZero();

@@ -147,7 +147,9 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
     if (shapes[i].body != body) continue;
     const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
-    proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+    const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
+    proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
+    proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
     for (std::size_t j = 0; j < shapes.size(); ++j) {
       if (!canPair(proxies_[i], proxies_[j])) continue;
       const int low = static_cast<int>(std::min(i, j));

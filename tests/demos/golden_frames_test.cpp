@@ -107,7 +107,7 @@ class FirstFrame {
 };
 
 // Each body in turn a quarter of a pixel to the right of where it belongs. One that hides behind others is
-// not seen to move.
+// not seen to move, nor one of which a gap shows nothing but the middle of a face, even by pixels.
 TEST_P(GoldenFrames, FailWhenAnyBodyInSightMovesByAQuarterPixel) {
   FirstFrame frame(GetParam());
   const renderer::Raster golden = frame.draw(frame.instances());
@@ -122,9 +122,11 @@ TEST_P(GoldenFrames, FailWhenAnyBodyInSightMovesByAQuarterPixel) {
     if (seen.pixels_beyond < 30) continue;
     ++in_sight;
     const double depth_m = axes.forward.dot(moved[i].X_WB.position - frame.camera().eye);
-    moved[i].X_WB.position += 0.25 * depth_m / focal_px * axes.right;
-    EXPECT_GT(renderer::differenceOf(frame.draw(moved), golden, kTolerance).largest, kTolerance)
-        << frame.name(i);
+    const auto differsMovedBy = [&](double pixels) {
+      moved[i].X_WB.position = frame.instances()[i].X_WB.position + pixels * depth_m / focal_px * axes.right;
+      return renderer::differenceOf(frame.draw(moved), golden, kTolerance).largest > kTolerance;
+    };
+    EXPECT_TRUE(differsMovedBy(0.25) || !differsMovedBy(2.0)) << frame.name(i);
   }
   EXPECT_GT(in_sight, 0);
 }
