@@ -66,6 +66,8 @@ struct RenderOptions {
   std::string overlays;   ///< "closest,distance"; empty: none.
   std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
   bool portable = false;  ///< The same pixels on every CPU.
+  std::string gl = "osmesa";
+  int workers = 0;  ///< Processes that draw; 0: as many as are usual.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
 };
@@ -139,6 +141,7 @@ struct BudgetOptions {
   std::filesystem::path trace;
   std::filesystem::path baseline;
   double tolerance_percent = 10.0;
+  std::string gl = "osmesa";
   Telling telling;
 };
 ExitCode budget(const BudgetOptions& options);
@@ -150,6 +153,9 @@ struct FiguresOptions {
 };
 ExitCode figures(const FiguresOptions& options);
 
-ExitCode doctor();
+struct DoctorOptions {
+  std::string gl;  ///< What must draw; empty: OSMesa, and EGL is told of.
+};
+ExitCode doctor(const DoctorOptions& options);
 
 }  // namespace carom::demos

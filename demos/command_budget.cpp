@@ -91,7 +91,9 @@ ExitCode budget(const BudgetOptions& options) {
 
   BudgetSubject subject = subjectOf(options, scene, camera.name, frames);
   const SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
-  renderer::FrameRenderer pictures({options.width, options.height}, made.world.solids());
+  renderer::Settings settings{.width = options.width, .height = options.height};
+  settings.backend = renderer::backendOf(options.gl);
+  renderer::FrameRenderer pictures(settings, made.world.solids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   if (baseline) requireSameSubject(*baseline, subject);
 

@@ -35,18 +35,38 @@ bool drawsSomething(renderer::FrameRenderer& pictures) {
   return colors.size() > kBlankAtMost && !renderer::encodePng(image).empty();
 }
 
-/// Throws NoRenderer when GL is missing or draws nothing.
-void examineRenderer() {
+/// Throws NoRenderer when there is no context or it draws nothing.
+void drawWith(renderer::GlBackend backend) {
   const std::vector<Solid> solids = {Solid::box({20.0, 20.0, 1.0}), Solid::ball(0.8)};
+  renderer::Settings settings{.width = 160, .height = 90};
+  settings.backend = backend;
+  renderer::FrameRenderer pictures(settings, solids);
+  line("GL renderer", pictures.info().renderer);
+  line("GL version", pictures.info().version);
+  line("MSAA limit", std::to_string(pictures.info().max_samples) + " samples");
+  if (!drawsSomething(pictures)) throw renderer::NoRenderer("the test render is blank");
+  line("test render", "ok (160x90)");
+}
+
+/// The back end that must draw.
+void examineRenderer(renderer::GlBackend backend) {
+  const bool is_egl = backend == renderer::GlBackend::kEgl;
+  line("GL context", is_egl ? "EGL without a surface (--gl egl)" : "OSMesa (--gl osmesa)");
   try {
-    renderer::FrameRenderer pictures({160, 90}, solids);
-    line("GL renderer", pictures.info().renderer);
-    line("GL version", pictures.info().version);
-    line("MSAA limit", std::to_string(pictures.info().max_samples) + " samples");
-    if (!drawsSomething(pictures)) throw renderer::NoRenderer("the test render is blank");
-    line("test render", "ok (160x90)");
+    drawWith(backend);
   } catch (const renderer::NoRenderer& error) {
-    throw renderer::NoRenderer(std::string(error.what()) + "; get it with: apt-get install libosmesa6");
+    const std::string packages = is_egl ? "libegl1 libegl-mesa0 libgl1-mesa-dri" : "libosmesa6";
+    throw renderer::NoRenderer(std::string(error.what()) + "; get it with: apt-get install " + packages);
+  }
+}
+
+/// The one that nothing needs while OSMesa is there.
+void tellOfEgl() {
+  try {
+    renderer::createOffscreenContext(renderer::PixelPolicy::kFast, renderer::GlBackend::kEgl);
+    line("EGL", "there as well (doctor --gl egl tries it)");
+  } catch (const renderer::NoRenderer& error) {
+    line("EGL", std::string("not here, and not needed: ") + error.what());
   }
 }
 
@@ -62,12 +82,13 @@ void examineAssets() {
 
 }  // namespace
 
-ExitCode doctor() {
+ExitCode doctor(const DoctorOptions& options) {
   line("carom", programVersion() + " (" + buildName() + ")");
   line("CPU", cpuClass());
   for (const auto& [library, version] : libraryVersions()) line(library, version);
   examineAssets();
-  examineRenderer();
+  examineRenderer(options.gl.empty() ? renderer::GlBackend::kOsmesa : renderer::backendOf(options.gl));
+  if (options.gl.empty()) tellOfEgl();
   line("missing", "nothing");
   return ExitCode::kOk;
 }

@@ -16,6 +16,7 @@
 namespace carom::demos {
 namespace {
 
+constexpr int kMostWorkers = 64;
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
 constexpr double kLowestSpeed = 0.001, kHighestSpeed = 1000.0;
@@ -87,6 +88,11 @@ void addTellingOptions(CLI::App& command, Telling& telling) {
   command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
 }
 
+CLI::Option* addGlOption(CLI::App& command, std::string& gl) {
+  return command.add_option("--gl", gl, "Who makes the GL context: osmesa, or egl without a surface")
+      ->check(CLI::IsMember(renderer::backendNames()));
+}
+
 void addTrajectoryOptions(CLI::App& command, TrajectoryPaths& paths) {
   command.add_option("--csv", paths.csv, "One row a body and frame: poses, velocities, modes");
   command.add_option("--npy", paths.npy, "A folder of NumPy arrays: times, poses, velocities, modes, names");
@@ -104,6 +110,7 @@ struct CommandLine {
   CompareOptions compare_options;
   BudgetOptions budget_options;
   FiguresOptions figures_options;
+  DoctorOptions doctor_options;
   bool wants_manual = false;
   bool wants_completion = false;
   std::string size;
@@ -161,7 +168,8 @@ CommandLine::CommandLine() {
   addBudget();
   addFigures();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
-  doctor_command->footer("Example: carom doctor");
+  addGlOption(*doctor_command, doctor_options.gl);
+  doctor_command->footer("Example: carom doctor --gl egl");
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
   app.allow_extras();
   app.require_subcommand(0, 1);
@@ -184,6 +192,12 @@ void CommandLine::addRender() {
   addOverlayOptions();
   render_command->add_flag("--portable", render_options.portable,
                            "The same pixels on every CPU, a third slower: golden frames");
+  addGlOption(*render_command, render_options.gl)->capture_default_str();
+  render_command
+      ->add_option("--workers", render_options.workers,
+                   "Processes that draw (0: one for each processor); frames are the same for any number")
+      ->check(CLI::Range(0, kMostWorkers))
+      ->capture_default_str();
   addTellingOptions(*render_command, render_options.telling);
   render_command->add_flag("-v,--verbose", render_options.telling.verbose,
                            "Tell about scene and renderer first");
@@ -351,6 +365,7 @@ void CommandLine::addBudget() {
   budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
       ->capture_default_str();
   budget_command->add_option("--size", budget_size, "WIDTHxHEIGHT in pixels (1280x720)");
+  addGlOption(*budget_command, options.gl)->capture_default_str();
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
   budget_command->add_option("--json", options.json,
                              "All figures as JSON, to a file or - for standard output");
@@ -544,7 +559,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.compare_command->parsed()) return compare(line.compare_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
   if (line.figures_command->parsed()) return figures(line.figures_options);
-  return doctor();
+  return doctor(line.doctor_options);
 }
 
 }  // namespace carom::demos

@@ -1,11 +1,14 @@
-// `carom render`: the loop of the paper. The world steps to the next frame's time, the frame is drawn, and a
-// second thread encodes it meanwhile. Long jobs draw a part of the frames, keep those that are up to date, or
-// take the motion from a recording; a frame's bytes are the same on every one of these ways.
+// `carom render`: the loop of the paper. The world steps to the next frame's time and the frame is drawn:
+// here, while a second thread encodes the one before, or by worker processes that take the frames in turn.
+// Long jobs draw a part of the frames, keep those that are up to date, or take the motion from a recording; a
+// frame's bytes are the same on every one of these ways.
 #include "demos/command.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -23,6 +26,7 @@
 #include "demos/frame_selection.h"
 #include "demos/frame_source.h"
 #include "demos/frame_stream.h"
+#include "demos/frame_workers.h"
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
@@ -155,7 +159,7 @@ void drawOutputs(const Run& run, renderer::FrameRenderer& pictures, FrameToWrite
     frame.outputs[i].raster = outputRaster(run.plan.outputs[i], pictures.surfaces(), run.scale);
 }
 
-bool keepFrame(Run& run, FrameToWrite& frame) {
+bool keepFrame(const Run& run, FrameToWrite& frame) {
   if (!run.resume) return false;
   const FrameSize size{run.manifest.width, run.manifest.height};
   const std::optional<std::uint64_t> pixels = wantedFrame(frame.path, frame.text, size);
@@ -170,37 +174,74 @@ bool keepFrame(Run& run, FrameToWrite& frame) {
   frame.record.outputs = std::move(outputs);
   frame.record.pixel_hash = *pixels;
   frame.record.kept = true;
-  run.kept.push_back(frame.record);
   return true;
 }
 
-void drawFrames(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer, Progress& progress) {
+/// The frame without its pixels.
+FrameToWrite plannedFrame(const Run& run, const FrameJob& job) {
+  FrameToWrite next;
+  next.record.timings.physics_ms = job.physics_ms;
+  if (run.names != nullptr) next.path = run.names->file(job.frame);
+  next.record.frame = job.frame;
+  next.record.file = next.path.filename().string();
+  next.record.time_s = run.plan.clock.time(job.frame);
+  next.record.step = job.state.step;
+  next.record.state_hash = job.state.state_hash;
+  next.text = frameText(run.manifest, next.record);
+  next.outputs = plannedOutputs(run, next);
+  return next;
+}
+
+void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob& job, FrameToWrite& next) {
+  Stopwatch watch;
+  const renderer::Camera camera = run.camera.at(next.record.time_s, job.state.bodies);
+  next.image = run.overlays.draw(pictures, job.state, job.frame, camera,
+                                 drawnWater(run.plan.scene, next.record.time_s));
+  drawOutputs(run, pictures, next);
+  next.record.timings.draw_ms = watch.lap_ms();
+}
+
+FrameJob nextJob(Run& run, int frame) {
+  throwIfInterrupted();
+  Stopwatch watch;
+  const FrameState state = run.overlays.advance(run.source, frame);
+  return {frame, state, watch.lap_ms()};
+}
+
+/// Where frames go: each is encoded, by whoever drew it, and then delivered in its turn.
+struct Sink {
+  std::function<DrawnFrame(FrameToWrite)> encode;
+  std::function<void(std::span<const std::uint8_t>)> deliver;  ///< Null: encoding has written its files.
+};
+
+/// Who draws: workers, or this process itself.
+struct Artists {
+  std::optional<FrameWorkers>& workers;
+  std::optional<renderer::FrameRenderer>& here;
+};
+
+void drawHere(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer, Progress& progress) {
   int done = 0;
   for (const int frame : run.plan.frames) {
-    throwIfInterrupted();
-    Stopwatch watch;
-    FrameToWrite next;
-    const FrameState state = run.overlays.advance(run.source, frame);
-    next.record.timings.physics_ms = watch.lap_ms();
-    if (run.names != nullptr) next.path = run.names->file(frame);
-    next.record.frame = frame;
-    next.record.file = next.path.filename().string();
-    next.record.time_s = run.plan.clock.time(frame);
-    next.record.step = state.step;
-    next.record.state_hash = state.state_hash;
-    next.text = frameText(run.manifest, next.record);
-    next.outputs = plannedOutputs(run, next);
-    if (!keepFrame(run, next)) {
-      watch.lap_ms();
-      const renderer::Camera camera = run.camera.at(next.record.time_s, state.bodies);
-      next.image =
-          run.overlays.draw(pictures, state, frame, camera, drawnWater(run.plan.scene, next.record.time_s));
-      drawOutputs(run, pictures, next);
-      next.record.timings.draw_ms = watch.lap_ms();
+    const FrameJob job = nextJob(run, frame);
+    FrameToWrite next = plannedFrame(run, job);
+    if (keepFrame(run, next)) {
+      run.kept.push_back(next.record);
+    } else {
+      drawFrame(run, pictures, job, next);
       writer.submit(std::move(next));
     }
     progress.done(++done);
   }
+}
+
+/// What a worker does with a frame.
+DrawnFrame drawThere(const Run& run, renderer::FrameRenderer& pictures, const Sink& sink,
+                     const FrameJob& job) {
+  FrameToWrite next = plannedFrame(run, job);
+  if (keepFrame(run, next)) return {next.record, {}};
+  drawFrame(run, pictures, job, next);
+  return sink.encode(std::move(next));
 }
 
 void tellStart(const Run& run) {
@@ -259,26 +300,72 @@ void removeLeftOvers(const Run& run, const std::string& manifest_name) {
   removeAbandoned(run.names->folder(), names);
 }
 
-/// Draws what is planned; a run that ends early still finishes the frames it has drawn and tells which they
-/// are in its manifest.
-void drawPlanned(Run& run, renderer::FrameRenderer& pictures, const FrameWriter::Write& write,
-                 const Telling& telling, const std::filesystem::path& manifest_file, double started_s) {
-  FrameWriter writer(write);
-  std::exception_ptr ended_early;
+/// The records of the frames that this process has drawn, as far as it got; `ended_early` says why no
+/// farther.
+std::vector<FrameRecord> drawnHere(Run& run, renderer::FrameRenderer& pictures, const Sink& sink,
+                                   Progress& progress, std::exception_ptr& ended_early) {
+  FrameWriter writer([&sink](FrameToWrite frame) -> std::optional<FrameRecord> {
+    const DrawnFrame drawn = sink.encode(std::move(frame));
+    if (!sink.deliver) return drawn.record;
+    sink.deliver(drawn.bytes);
+    return std::nullopt;
+  });
   try {
-    const ProgressStyle style = telling.quiet ? ProgressStyle::kNone : progressStyle(telling.progress);
-    Progress progress({"frame", run.manifest.frames_planned}, style, std::cerr, steadySeconds);
-    drawFrames(run, pictures, writer, progress);
+    drawHere(run, pictures, writer, progress);
   } catch (const std::exception&) {
     ended_early = std::current_exception();
   }
+  return writer.finish();
+}
+
+/// The same of its workers. One that cannot write ends the run without a manifest, as this process would.
+std::vector<FrameRecord> drawnByWorkers(Run& run, FrameWorkers& workers, const Sink& sink, Progress& progress,
+                                        std::exception_ptr& ended_early) {
+  std::vector<FrameRecord> written;
+  int done = 0;
+  const auto keep = [&](const DrawnFrame& drawn) {
+    if (run.names != nullptr) (drawn.record.kept ? run.kept : written).push_back(drawn.record);
+  };
+  const auto collect = [&](const DrawnFrame& drawn) {
+    if (sink.deliver) sink.deliver(drawn.bytes);
+    keep(drawn);
+    progress.done(++done);
+  };
+  try {
+    for (const int frame : run.plan.frames) workers.submit(nextJob(run, frame), collect);
+    workers.finish(collect);
+  } catch (const std::exception&) {
+    ended_early = std::current_exception();
+    workers.giveUp(keep);
+  }
+  run.manifest.gl = workers.knownGl();
+  return written;
+}
+
+/// Whether a run that ended so leaves no manifest: one that could not write, or had no renderer.
+bool leavesNoManifest(const std::exception_ptr& ended_early) {
+  if (!ended_early) return false;
+  const int code = failureOf(ended_early).code;
+  return code == static_cast<int>(ExitCode::kCannotWrite) || code == static_cast<int>(ExitCode::kNoRenderer);
+}
+
+/// Draws what is planned; a run that ends early still finishes the frames it has drawn and tells which they
+/// are in its manifest.
+void drawPlanned(Run& run, const Artists& artists, const Sink& sink, const Telling& telling,
+                 const std::filesystem::path& manifest_file, double started_s) {
+  std::exception_ptr ended_early;
   std::vector<FrameRecord>& frames = run.manifest.frames;
-  frames = writer.finish();
+  {
+    const ProgressStyle style = telling.quiet ? ProgressStyle::kNone : progressStyle(telling.progress);
+    Progress progress({"frame", run.manifest.frames_planned}, style, std::cerr, steadySeconds);
+    frames = artists.workers ? drawnByWorkers(run, *artists.workers, sink, progress, ended_early)
+                             : drawnHere(run, *artists.here, sink, progress, ended_early);
+  }
   frames.insert(frames.end(), run.kept.begin(), run.kept.end());
   std::sort(frames.begin(), frames.end(),
             [](const FrameRecord& a, const FrameRecord& b) { return a.frame < b.frame; });
   run.manifest.wall_s = steadySeconds() - started_s;
-  if (run.names != nullptr) writeManifest(run.manifest, manifest_file);
+  if (run.names != nullptr && !leavesNoManifest(ended_early)) writeManifest(run.manifest, manifest_file);
   if (ended_early) std::rethrow_exception(ended_early);
 }
 
@@ -287,38 +374,56 @@ std::string stillManifestName(const FrameNames& names) {
   return names.file(0).stem().string() + ".manifest.json";
 }
 
-void renderFiles(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+void renderFiles(Run& run, const Artists& artists, const RenderOptions& options, const Sink& sink,
                  const RunFacts& facts, double started_s) {
   const std::string manifest_name =
       options.at_s ? stillManifestName(*run.names) : manifestName(options.frames, options.shard);
   if (run.resume) removeLeftOvers(run, manifest_name);
-  drawPlanned(run, pictures, writeFrameFile, options.telling, run.names->folder() / manifest_name, started_s);
+  try {
+    drawPlanned(run, artists, sink, options.telling, run.names->folder() / manifest_name, started_s);
+  } catch (const ProcessFailure&) {
+    removeLeftOvers(run, manifest_name);  // a worker that was killed could not
+    throw;
+  }
   if (!options.telling.quiet && !options.at_s) noteOlderFrames(*run.names, run.plan.frame_count);
   std::cout << filesReport(run, facts) << '\n';
 }
 
-void renderStream(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+void renderStream(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
                   double started_s) {
-  const StreamFormat format = streamFormat(options.stream);
   PipeWriter out(STDOUT_FILENO, "standard output");
-  const auto write = [&](const FrameToWrite& frame) -> std::optional<FrameRecord> {
-    out.write(streamedFrame(format, frame));
-    return std::nullopt;
-  };
-  drawPlanned(run, pictures, write, options.telling, {}, started_s);
+  sink.deliver = [&out](std::span<const std::uint8_t> bytes) { out.write(bytes); };
+  drawPlanned(run, artists, sink, options.telling, {}, started_s);
   if (!options.telling.quiet) std::cerr << pipedReport(run) << '\n';
 }
 
-void renderVideo(Run& run, renderer::FrameRenderer& pictures, const RenderOptions& options,
+void renderVideo(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
                  double started_s) {
   FfmpegVideo video(options.ffmpeg, {options.width, options.height, run.manifest.fps});
-  const auto write = [&](const FrameToWrite& frame) -> std::optional<FrameRecord> {
-    video.write(frame.image.rgb);
-    return std::nullopt;
-  };
-  drawPlanned(run, pictures, write, options.telling, {}, started_s);
+  sink.deliver = [&video](std::span<const std::uint8_t> bytes) { video.write(bytes); };
+  drawPlanned(run, artists, sink, options.telling, {}, started_s);
   video.commit();
   std::cout << options.ffmpeg.string() << "  " << pipedReport(run) << '\n';
+}
+
+/// How a frame is encoded for where it goes.
+Sink sinkOf(const RenderOptions& options) {
+  if (!options.ffmpeg.empty())
+    return {[](FrameToWrite frame) { return DrawnFrame{frame.record, std::move(frame.image.rgb)}; }, {}};
+  if (options.stream.empty())
+    return {[](FrameToWrite frame) { return DrawnFrame{*writeFrameFile(std::move(frame)), {}}; }, {}};
+  const StreamFormat format = streamFormat(options.stream);
+  return {[format](FrameToWrite frame) {
+            return DrawnFrame{frame.record, streamedFrame(format, frame)};
+          },
+          {}};
+}
+
+/// Overlays need the engine itself, and so does a still.
+int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& overlays) {
+  const int frames = static_cast<int>(plan.frames.size());
+  if (overlays.any() || options.at_s || frames < 2) return 1;
+  return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
 /// None where the frames go into a stream or a video.
@@ -354,8 +459,13 @@ ExitCode render(const RenderOptions& options) {
   settings.preset = plan.preset;
   settings.style = plan.style;
   if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
-  renderer::FrameRenderer pictures(settings, made.world.solids());
-  manifest.gl = pictures.info();
+  settings.backend = renderer::backendOf(options.gl);
+  const int workers_wanted = workersOf(options, plan, overlays);
+  std::optional<renderer::FrameRenderer> here;
+  if (workers_wanted == 1) {
+    here.emplace(settings, made.world.solids());
+    manifest.gl = here->info();
+  }
   RunFacts facts;
   std::optional<FrameSource> source;
   if (recording)
@@ -364,15 +474,29 @@ ExitCode render(const RenderOptions& options) {
     source.emplace(made, plan.clock, facts, overlays.phases());
   Run run{plan, names ? &*names : nullptr, options.resume, made, *source, camera, scale, overlays, manifest,
           {}};
-  if (options.telling.verbose) tellStart(run);
+  const Sink sink = sinkOf(options);
 
   catchInterrupts();
+  std::optional<FrameWorkers> workers;
+  if (workers_wanted > 1) {
+    settings.gl_threads = 1;
+    workers.emplace(workers_wanted, [&](renderer::ContextInfo& gl) -> FrameWorkers::Draw {
+      const auto pictures = std::make_shared<renderer::FrameRenderer>(settings, made.world.solids());
+      gl = manifest.gl = pictures->info();
+      return [&, pictures](const FrameJob& job) { return drawThere(run, *pictures, sink, job); };
+    });
+  }
+  if (options.telling.verbose) {
+    if (workers) manifest.gl = workers->gl();
+    tellStart(run);
+  }
+  const Artists artists{workers, here};
   if (run.names != nullptr)
-    renderFiles(run, pictures, options, facts, started_s);
+    renderFiles(run, artists, options, sink, facts, started_s);
   else if (!options.stream.empty())
-    renderStream(run, pictures, options, started_s);
+    renderStream(run, artists, options, sink, started_s);
   else
-    renderVideo(run, pictures, options, started_s);
+    renderVideo(run, artists, options, sink, started_s);
   return ExitCode::kOk;
 }
 

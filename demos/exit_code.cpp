@@ -27,6 +27,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
     return failure(ExitCode::kInvalid, error.what());
   } catch (const renderer::NoRenderer& error) {
     return failure(ExitCode::kNoRenderer, error.what());
+  } catch (const ProcessFailure& error) {
+    return error.failure;
   } catch (const PipeClosed& error) {
     return {static_cast<int>(ExitCode::kSignal) + SIGPIPE, error.what(), false};
   } catch (const Interrupted& interrupted) {

@@ -60,4 +60,11 @@ struct Failure {
 };
 Failure failureOf(const std::exception_ptr& thrown);
 
+/// A failure of another process that worked for this one, which is this one's now.
+class ProcessFailure : public std::runtime_error {
+ public:
+  explicit ProcessFailure(const Failure& of) : std::runtime_error(of.line), failure(of) {}
+  Failure failure;
+};
+
 }  // namespace carom::demos

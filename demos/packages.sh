@@ -1,8 +1,10 @@
 # What the build needs on Debian 12, in one place: sourced by demos/run.sh, tests/run.sh and tests/bench/run.sh.
 # install_missing_packages [PACKAGE...] installs what is missing (root or sudo); without the right to, one line says what is missing.
 
-carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libassimp-dev libpng-dev libqhull-dev
+carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libegl-dev libassimp-dev libpng-dev libqhull-dev
   libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev)
+# ISA-L packs frames five times as fast as zlib; it is for these processors, and the build does without.
+case "$(uname -m)" in x86_64 | aarch64) carom_packages+=(libisal-dev) ;; esac
 # What the benchmarks compare with; each can be missing.
 benchmark_peers=(libfcl-dev libccd-dev libbullet-dev libode-dev)
 

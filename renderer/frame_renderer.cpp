@@ -94,7 +94,7 @@ struct FrameRenderer::Impl {
         quality(qualityOf(settings.preset, settings.style)),
         samples(samplesOf(quality, settings.to_light.normalized())),
         solids(given.begin(), given.end()),
-        context(createOffscreenContext(settings.pixels)),
+        context(createOffscreenContext(settings.pixels, settings.backend, settings.gl_threads)),
         gl(context->gl()),
         geometry(gl, solids),
         filter(settings.width, settings.height),

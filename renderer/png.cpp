@@ -12,6 +12,7 @@
 #include <iterator>
 
 #include "engine/foundation/contract.h"
+#include "renderer/quick_deflate.h"
 
 namespace carom::renderer {
 namespace {
@@ -89,44 +90,83 @@ void takeBytes(png_structp png, png_bytep bytes, png_size_t count) {
   source->at += count;
 }
 
-// Level 1, the sub filter and run lengths are what plain libpng does fastest: a fifth of its default time for
-// a quarter more bytes.
-bool writeImage(png_structp png, png_infop info, const Image& image, png_textp text, int text_count) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_compression_level(png, 1);
-  png_set_compression_strategy(png, Z_RLE);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+// A file's rows as they lie in the file before they are filtered, and what the header says of them.
+struct Rows {
+  int width = 0;
+  int height = 0;
+  int bits = 8;
+  int color_type = PNG_COLOR_TYPE_RGB;
+  std::size_t pixel_bytes = 3;
+  bool srgb = true;
+  const std::uint8_t* data = nullptr;
+  std::size_t rowBytes() const { return pixel_bytes * static_cast<std::size_t>(width); }
+  const std::uint8_t* row(int y) const { return data + rowBytes() * static_cast<std::size_t>(y); }
+};
+
+enum class Filter : std::uint8_t { kSub = 1, kUp = 2 };
+
+// How libpng packs rows; quick files with a deflate of our own hand it chunks instead.
+enum class Zlib { kSmall, kSub, kUp };
+
+void writeHead(png_structp png, png_infop info, const Rows& rows, png_textp text, int text_count) {
+  png_set_IHDR(png, info, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
+               rows.bits, rows.color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  if (rows.srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   if (text_count > 0) png_set_text(png, info, text, text_count);
   png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, image.pixel(0, y));
+}
+
+// Small: every filter is tried and deflate takes its time, for reports, which hold many images. Level 1, the
+// sub filter and run lengths are what plain libpng does fastest to a picture: a fifth of its default time for
+// a quarter more bytes. Depths and ids vary along both axes, and what differs from the row above is short.
+bool writeRows(png_structp png, png_infop info, const Rows& rows, png_textp text, int text_count, Zlib zlib) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  if (zlib != Zlib::kSmall) {
+    png_set_compression_level(png, 1);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, zlib == Zlib::kSub ? PNG_FILTER_SUB : PNG_FILTER_UP);
+  }
+  if (zlib == Zlib::kSub) png_set_compression_strategy(png, Z_RLE);
+  writeHead(png, info, rows, text, text_count);
+  for (int y = 0; y < rows.height; ++y) png_write_row(png, rows.row(y));
   png_write_end(png, info);
   return true;
 }
 
-// Small: every filter is tried and deflate takes its time, for reports, which hold many images. Quick: depths
-// and ids vary along both axes, and what differs from the row above is short.
-bool writeRaster(png_structp png, png_infop info, const Raster& raster, const std::uint8_t* bytes,
-                 png_textp text, int text_count, PngPacking packing) {
+constexpr std::size_t kChunkBytes = 1u << 20;
+
+bool writePacked(png_structp png, png_infop info, const Rows& rows, png_textp text, int text_count,
+                 const std::uint8_t* packed, std::size_t size) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  if (packing == PngPacking::kQuick) {
-    png_set_compression_level(png, 1);
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-  }
-  constexpr std::array<int, 4> kColorTypes = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
-                                              PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
-  png_set_IHDR(png, info, static_cast<png_uint_32>(raster.width), static_cast<png_uint_32>(raster.height),
-               raster.bits, kColorTypes[static_cast<std::size_t>(raster.channels - 1)], PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (raster.bits == 8) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  if (text_count > 0) png_set_text(png, info, text, text_count);
-  png_write_info(png, info);
-  const std::size_t stride = png_get_rowbytes(png, info);
-  for (int y = 0; y < raster.height; ++y) png_write_row(png, bytes + stride * static_cast<std::size_t>(y));
-  png_write_end(png, info);
+  constexpr std::array<png_byte, 5> kData = {'I', 'D', 'A', 'T', 0}, kEnd = {'I', 'E', 'N', 'D', 0};
+  writeHead(png, info, rows, text, text_count);
+  for (std::size_t at = 0; at < size; at += kChunkBytes)
+    png_write_chunk(png, kData.data(), packed + at, std::min(kChunkBytes, size - at));
+  png_write_chunk(png, kEnd.data(), nullptr, 0);
   return true;
+}
+
+// Each row after the byte that names its filter (PNG 1.2, section 6): what differs from the pixel to the
+// left, or from the one above; outside the image is 0.
+std::vector<std::uint8_t> filtered(const Rows& rows, Filter filter) {
+  const std::size_t row_bytes = rows.rowBytes();
+  std::vector<std::uint8_t> bytes((row_bytes + 1) * static_cast<std::size_t>(rows.height));
+  std::uint8_t* out = bytes.data();
+  for (int y = 0; y < rows.height; ++y, out += row_bytes) {
+    const std::uint8_t* row = rows.row(y);
+    *out++ = static_cast<std::uint8_t>(filter);
+    if (filter == Filter::kSub) {
+      std::copy_n(row, rows.pixel_bytes, out);
+      for (std::size_t i = rows.pixel_bytes; i < row_bytes; ++i)
+        out[i] = static_cast<std::uint8_t>(row[i] - row[i - rows.pixel_bytes]);
+    } else if (y == 0) {
+      std::copy_n(row, row_bytes, out);
+    } else {
+      const std::uint8_t* above = rows.row(y - 1);
+      for (std::size_t i = 0; i < row_bytes; ++i) out[i] = static_cast<std::uint8_t>(row[i] - above[i]);
+    }
+  }
+  return bytes;
 }
 
 struct Header {
@@ -260,39 +300,63 @@ std::vector<std::uint16_t> samplesOf(const std::vector<std::uint8_t>& bytes, int
   return samples;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text) {
-  REQUIRE(image.width > 0 && image.height > 0, image.width, image.height);
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  REQUIRE(image.rgb.size() == 3 * pixels, image.rgb.size(), image.width, image.height);
+std::vector<std::uint8_t> zlibFile(const Rows& rows, Zlib zlib, const PngText& text) {
   std::vector<png_text> chunks = textChunks(text);
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(pixels / 2 + 4096);
+  bytes.reserve(rows.rowBytes() * static_cast<std::size_t>(rows.height) / 6 + 4096);
   ErrorText error;
   const Writer writer(error);
   png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
-  if (!writeImage(writer.png, writer.info, image, chunks.data(), static_cast<int>(chunks.size())))
+  if (!writeRows(writer.png, writer.info, rows, chunks.data(), static_cast<int>(chunks.size()), zlib))
     throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
   return bytes;
 }
 
-std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing) {
+std::vector<std::uint8_t> quickFile(const Rows& rows, Filter filter, const PngText& text) {
+  std::vector<png_text> chunks = textChunks(text);
+  const std::vector<std::uint8_t> packed = quickDeflate(filtered(rows, filter));
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(packed.size() + 4096);
+  ErrorText error;
+  const Writer writer(error);
+  png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
+  if (!writePacked(writer.png, writer.info, rows, chunks.data(), static_cast<int>(chunks.size()),
+                   packed.data(), packed.size()))
+    throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text, PngDeflate deflate) {
+  REQUIRE(image.width > 0 && image.height > 0, image.width, image.height);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  REQUIRE(image.rgb.size() == 3 * pixels, image.rgb.size(), image.width, image.height);
+  const Rows rows{.width = image.width, .height = image.height, .data = image.rgb.data()};
+  if (deflate == PngDeflate::kBest && hasQuickDeflate()) return quickFile(rows, Filter::kSub, text);
+  return zlibFile(rows, Zlib::kSub, text);
+}
+
+std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing,
+                                    PngDeflate deflate) {
   REQUIRE(raster.width > 0 && raster.height > 0, raster.width, raster.height);
   REQUIRE(raster.channels >= 1 && raster.channels <= 4, raster.channels);
   REQUIRE(raster.bits == 8 || raster.bits == 16, raster.bits);
   const std::size_t pixels = static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
   REQUIRE(raster.samples.size() == pixels * static_cast<std::size_t>(raster.channels), raster.samples.size());
-  std::vector<png_text> chunks = textChunks(text);
-  const std::vector<std::uint8_t> rows = bytesOf(raster);
-  std::vector<std::uint8_t> bytes;
-  ErrorText error;
-  const Writer writer(error);
-  png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
-  if (!writeRaster(writer.png, writer.info, raster, rows.data(), chunks.data(),
-                   static_cast<int>(chunks.size()), packing))
-    throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
-  return bytes;
+  const std::vector<std::uint8_t> bytes = bytesOf(raster);
+  constexpr std::array<int, 4> kColorTypes = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                              PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+  const Rows rows{.width = raster.width,
+                  .height = raster.height,
+                  .bits = raster.bits,
+                  .color_type = kColorTypes[static_cast<std::size_t>(raster.channels - 1)],
+                  .pixel_bytes = static_cast<std::size_t>(raster.channels * raster.bits / 8),
+                  .srgb = raster.bits == 8,
+                  .data = bytes.data()};
+  if (packing == PngPacking::kSmall) return zlibFile(rows, Zlib::kSmall, text);
+  if (deflate == PngDeflate::kBest && hasQuickDeflate()) return quickFile(rows, Filter::kUp, text);
+  return zlibFile(rows, Zlib::kUp, text);
 }
 
 DecodedPng readPng(const std::filesystem::path& path) {

@@ -18,15 +18,20 @@ inline constexpr int kMaxPngSide = 16384;
 /// (keyword, text) pairs for the file's text chunks.
 using PngText = std::vector<std::pair<std::string, std::string>>;
 
+/// What packs the quick files: quick_deflate.h where the build has it, else zlib.
+enum class PngDeflate { kBest, kZlib };
+
 /// The image as the bytes of a PNG file: 8-bit RGB, tagged sRGB, packed for speed rather than size. A keyword
 /// is 1 to 79 ASCII characters; a text may be UTF-8.
-std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {});
+std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {},
+                                    PngDeflate deflate = PngDeflate::kBest);
 
 enum class PngPacking { kSmall, kQuick };
 
 /// The raster's own channels and bits, packed for size or for speed; tagged sRGB when it has 8 bits.
 std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text = {},
-                                    PngPacking packing = PngPacking::kSmall);
+                                    PngPacking packing = PngPacking::kSmall,
+                                    PngDeflate deflate = PngDeflate::kBest);
 
 struct DecodedPng {
   Image image;

@@ -33,7 +33,9 @@ struct Library {
 
 inline const std::vector<Library>& guardedLibraries() {
   static const std::vector<Library> libraries{
-      {"OSMesa", "GL/osmesa", {"renderer/offscreen_context.cpp", "renderer/offscreen_context.h"}},
+      {"OSMesa", "GL/osmesa", {"renderer/osmesa_context.cpp"}},
+      {"EGL", "EGL/", {"renderer/egl_context.cpp"}},
+      {"ISA-L", "isa-l", {"renderer/quick_deflate.cpp"}},
       {"libpng", "png", {"renderer/png.cpp"}},
       {"Cairo", "cairo", {"renderer/canvas.cpp"}},
       {"assimp", "assimp/", {"demos/mesh_import.cpp"}},

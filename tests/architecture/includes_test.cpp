@@ -95,8 +95,12 @@ TEST(IncludeRules, JudgeEachArrow) {
 
 TEST(IncludeRules, JudgeEachLibrary) {
   const Case cases[] = {
-      {"renderer/offscreen_context.cpp", "#include <GL/osmesa.h>", ""},
-      {"renderer/offscreen_context.h", "#include <GL/osmesa.h>", ""},
+      {"renderer/osmesa_context.cpp", "#include <GL/osmesa.h>", ""},
+      {"renderer/egl_context.cpp", "#include <EGL/egl.h>", ""},
+      {"renderer/egl_context.cpp", "#include <GL/osmesa.h>", "may name OSMesa"},
+      {"renderer/osmesa_context.cpp", "#include <EGL/egl.h>", "may name EGL"},
+      {"renderer/quick_deflate.cpp", "#include <isa-l/igzip_lib.h>", ""},
+      {"renderer/png.cpp", "#include <isa-l/igzip_lib.h>", "may name ISA-L"},
       {"renderer/frame_renderer.cpp", "#include <GL/osmesa.h>", "may name OSMesa"},
       {"renderer/png.cpp", "#include <png.h>", ""},
       {"demos/main.cpp", "#include <png.h>", "may name libpng"},

@@ -1,5 +1,5 @@
-// Loaded into the program by LD_PRELOAD: writing the rows of a PNG takes longer, by the share that
-// CAROM_SLOWDOWN names (0.2: a fifth), as a slower libpng would. For tests/demos/budget_slowdown_test.cpp.
+// Loaded into the program by LD_PRELOAD: packing the rows of a PNG takes longer, by the share that
+// CAROM_SLOWDOWN names (0.2: a fifth), as a slower libpng or ISA-L would. For tests/demos/budget_slowdown_test.cpp.
 #include <chrono>
 #include <cstdlib>
 
@@ -43,4 +43,12 @@ extern "C" void png_write_row(png_structrp png, png_const_bytep row) {
 extern "C" void png_write_end(png_structrp png, png_inforp info) {
   static auto* const original = next<void(png_structrp, png_inforp)>("png_write_end");
   slowly([&] { original(png, info); });
+}
+
+struct isal_zstream;
+extern "C" int isal_deflate(isal_zstream* stream) {
+  static auto* const original = next<int(isal_zstream*)>("isal_deflate");
+  int outcome = 0;
+  slowly([&] { outcome = original(stream); });
+  return outcome;
 }

@@ -29,23 +29,45 @@ TEST(OffscreenContext, TwoContextsKeepTheirOwnState) {
   EXPECT_EQ(alignment, 1);
 }
 
+/// Ends with 6 when no renderer is had with this driver, and why in one line that holds `part`; else with 0.
+void refuse(const char* driver, const char* part) {
+  setenv("GALLIUM_DRIVER", driver, 1);
+  try {
+    createOffscreenContext(PixelPolicy::kFast);
+  } catch (const NoRenderer& error) {
+    const std::string message = error.what();
+    std::exit(message.find(part) != std::string::npos && message.find('\n') == std::string::npos ? 6 : 1);
+  }
+  std::exit(0);
+}
+
 // Mesa chooses its driver once a process, so the choice is made in a process of its own.
 TEST(OffscreenContextDeathTest, SoftpipeIsRefusedInOneLine) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(
-      {
-        setenv("GALLIUM_DRIVER", "softpipe", 1);
-        try {
-          createOffscreenContext(PixelPolicy::kFast);
-        } catch (const NoRenderer& error) {
-          const std::string message = error.what();
-          std::exit(message.find("softpipe") != std::string::npos && message.find('\n') == std::string::npos
-                        ? 6
-                        : 1);
-        }
-        std::exit(0);
-      },
-      testing::ExitedWithCode(6), "");
+  EXPECT_EXIT(refuse("softpipe", "softpipe"), testing::ExitedWithCode(6), "");
+}
+
+// Mesa itself would crash.
+TEST(OffscreenContextDeathTest, AnUnknownDriverIsRefusedInOneLine) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(refuse("nonsense", "GALLIUM_DRIVER=nonsense"), testing::ExitedWithCode(6), "");
+}
+
+TEST(OffscreenContextDeathTest, AnEmptyDriverIsNone) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(refuse("", ""), testing::ExitedWithCode(0), "");
+}
+
+TEST(OffscreenContext, EglIsTheSameRenderer) {
+  std::unique_ptr<OffscreenContext> egl;
+  try {
+    egl = createOffscreenContext(PixelPolicy::kFast, GlBackend::kEgl);
+  } catch (const NoRenderer& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::unique_ptr<OffscreenContext> osmesa = createOffscreenContext(PixelPolicy::kFast);
+  EXPECT_EQ(egl->info().renderer, osmesa->info().renderer);
+  EXPECT_EQ(egl->info().max_samples, osmesa->info().max_samples);
 }
 
 }  // namespace

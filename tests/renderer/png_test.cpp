@@ -60,6 +60,42 @@ TEST_F(PngFile, PixelsSurviveTheRoundTrip) {
   }
 }
 
+/// What frames are like: flat stretches, slopes and edges; and more than one chunk's worth of it.
+Image slopes(int width, int height) {
+  Image image{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (const int c : {x / 3 + y, (x * y) >> 6, x > y ? 200 : y * 7})
+        image.rgb.push_back(static_cast<std::uint8_t>(c));
+  return image;
+}
+
+// libpng inflates with zlib, so that each deflate is judged by another.
+TEST_F(PngFile, EitherDeflateHoldsTheSamePixelsAndText) {
+  const PngText text = {{"Software", "carom 0.1.0"}};
+  for (const Image& image : {slopes(640, 360), noise(900, 700), slopes(1, 1), slopes(2, 300)}) {
+    for (const PngDeflate deflate : {PngDeflate::kBest, PngDeflate::kZlib}) {
+      const DecodedPng decoded = readPng(write(encodePng(image, text, deflate)));
+      EXPECT_TRUE(decoded.image.rgb == image.rgb) << image.width << " x " << image.height;
+      EXPECT_EQ(decoded.text, text);
+    }
+  }
+}
+
+TEST_F(PngFile, EitherDeflateHoldsTheSameSamplesOfARaster) {
+  std::mt19937 random(5);
+  for (int channels = 1; channels <= 4; ++channels)
+    for (const int bits : {8, 16}) {
+      Raster raster{57, 41, channels, bits, {}};
+      for (int i = 0; i < 57 * 41 * channels; ++i)
+        raster.samples.push_back(static_cast<std::uint16_t>(random() & ((1u << bits) - 1)));
+      for (const PngDeflate deflate : {PngDeflate::kBest, PngDeflate::kZlib}) {
+        const auto bytes = encodePng(raster, {}, PngPacking::kQuick, deflate);
+        EXPECT_EQ(readPngRaster(write(bytes)).raster.samples, raster.samples) << channels << " x " << bits;
+      }
+    }
+}
+
 TEST_F(PngFile, TextSurvivesTheRoundTrip) {
   const PngText text = {
       {"Software", "carom 0.1.0"}, {"Scene", "Klötzchen auf Rampe"}, {"Empty", ""}, {"Scene", "twice"}};

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Frames a second of `carom render`, end to end (physics, drawing, PNG files), for 1, 2, ... workers beside each other:
+#   bash tests/bench/frames.sh [carom program] [most workers] [runs]
+# Prints the best of the runs of each case with the program's own report: wall-clock milliseconds a frame by phase;
+# those of drawing and encoding are of the one worker that did it. For a quiet machine.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+carom=${1:-$root/build/release/demos/carom}
+most=${2:-2}
+runs=${3:-3}
+work=$(mktemp -d)
+trap 'wait; rm -rf "$work"' EXIT
+
+# scene NAME SHAPE COLUMNS ROWS STEP EYE: bodies a little above a floor, where they soon rest.
+scene() {
+  cat >"$work/$1.json" <<JSON
+{ "format": 1, "rate": 120, "duration": 3,
+  "bodies": [
+    { "name": "floor", "shape": { "box": [60, 60, 1] }, "position": [0, 0, -0.5], "static": true,
+      "material": { "color": "#d6d3cc", "checker": true } },
+    { "name": "body", "shape": $2, "position": [$(awk "BEGIN { print -$5 * ($3 - 1) / 2 }"),
+      $(awk "BEGIN { print -$5 * ($4 - 1) / 2 }"), 0.36],
+      "color": ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#56b4e9", "#cc79a7", "#f0e442"],
+      "repeat": { "count": [$3, $4, 1], "step": [$5, $5, 0] } } ],
+  "cameras": { "main": { "eye": $6, "target": [0, 0, 0.3], "fovDegrees": 36 } } }
+JSON
+}
+scene boxes-200 '{ "box": [0.6, 0.6, 0.6] }' 20 10 0.8 '[7, -13, 8]'
+scene polyhedra-200 "{ \"hull\": { \"file\": \"$root/assets/meshes/dodecahedron.ply\", \"scale\": 0.7 } }" 20 10 0.8 '[7, -13, 8]'
+scene boxes-1000 '{ "box": [0.6, 0.6, 0.6] }' 40 25 0.8 '[14, -26, 16]'
+
+for case in boxes-200:1280x720 polyhedra-200:1280x720 boxes-1000:1280x720 boxes-200:1920x1080; do
+  for workers in $(seq 1 "$most"); do
+    for _ in $(seq 1 "$runs"); do
+      "$carom" render "$work/${case%:*}.json" --size "${case#*:}" --fps 60 --workers "$workers" -q \
+        -o "$work/out/f_%04d.png"
+    done | sed 's/.*png  //; s/  smallest gap.*//' |
+      awk -v what="$case, $workers worker(s)" '{ fps = $5 + 0; for (i = 1; i < NF; ++i) if ($(i + 1) == "fps") fps = $i
+        if (fps > best) { best = fps; line = $0 } } END { printf "%-40s %s\n", what ":", line }'
+  done
+done
