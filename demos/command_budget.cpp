@@ -104,8 +104,7 @@ ExitCode budget(const BudgetOptions& options) {
   const MachineLoad load;
   std::vector<Replay> replays;
   {
-    const ProgressStyle style =
-        options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+    const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);
     Progress progress({"frame", frames * options.replays}, style, std::cerr, steadySeconds);
     replays = runReplays(plan, pictures, [&progress](int done) { progress.done(done); });
   }

@@ -38,8 +38,7 @@ void checkOptions(const CompareOptions& options) {
 
 std::vector<Comparison> compareAll(const CompareOptions& options, const Gate& gate) {
   const std::vector<ImagePair> pairs = imagePairs({options.actual, options.golden, options.update});
-  const ProgressStyle style =
-      options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+  const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);
   Progress progress({"pair", static_cast<int>(pairs.size())}, style, std::cerr, steadySeconds);
   return comparedPairs(pairs, gate, [&progress](int count) { progress.done(count); });
 }

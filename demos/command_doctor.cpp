@@ -54,6 +54,8 @@ void examineRenderer(renderer::GlBackend backend) {
   line("GL context", is_egl ? "EGL without a surface (--gl egl)" : "OSMesa (--gl osmesa)");
   try {
     drawWith(backend);
+  } catch (const renderer::WrongDriver&) {
+    throw;
   } catch (const renderer::NoRenderer& error) {
     const std::string packages = is_egl ? "libegl1 libegl-mesa0 libgl1-mesa-dri" : "libosmesa6";
     throw renderer::NoRenderer(std::string(error.what()) + "; get it with: apt-get install " + packages);

@@ -113,7 +113,7 @@ ExitCode exportMotion(const ExportOptions& options) {
   TrajectoryFiles trajectory(options.trajectory, made.names, plan.frames);
   {
     const Telling& telling = options.telling;
-    const ProgressStyle style = telling.quiet ? ProgressStyle::kNone : progressStyle(telling.progress);
+    const ProgressStyle style = progressStyle(telling.progress, telling.quiet);
     Progress progress({"frame", plan.frames}, style, std::cerr, steadySeconds);
     for (int frame = 0; frame < plan.frames; ++frame) {
       const FrameState state = source->at(frame);

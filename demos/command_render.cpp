@@ -356,7 +356,7 @@ void drawPlanned(Run& run, const Artists& artists, const Sink& sink, const Telli
   std::exception_ptr ended_early;
   std::vector<FrameRecord>& frames = run.manifest.frames;
   {
-    const ProgressStyle style = telling.quiet ? ProgressStyle::kNone : progressStyle(telling.progress);
+    const ProgressStyle style = progressStyle(telling.progress, telling.quiet);
     Progress progress({"frame", run.manifest.frames_planned}, style, std::cerr, steadySeconds);
     frames = artists.workers ? drawnByWorkers(run, *artists.workers, sink, progress, ended_early)
                              : drawnHere(run, *artists.here, sink, progress, ended_early);

@@ -96,8 +96,7 @@ ExitCode simulate(const SimulateOptions& options) {
   std::optional<RecordingWriter> recording;
   if (!options.output.empty()) recording.emplace(options.output, recordingHeader(options, scene, made));
   RunFacts facts;
-  const ProgressStyle style =
-      options.telling.quiet ? ProgressStyle::kNone : progressStyle(options.telling.progress);
+  const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);
   {
     Progress progress({"step", steps}, style, std::cerr, steadySeconds);
     FrameStates states(made.world, clock, [&](const World& world) {

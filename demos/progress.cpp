@@ -28,9 +28,9 @@ Pace paceOf(int count, int total, double elapsed_s) {
 
 }  // namespace
 
-ProgressStyle progressStyle(const std::string& name) {
+ProgressStyle progressStyle(const std::string& name, bool quiet) {
+  if (quiet || name == "none") return ProgressStyle::kNone;
   if (name == "json") return ProgressStyle::kJson;
-  if (name == "none") return ProgressStyle::kNone;
   return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::kTerminal : ProgressStyle::kLines;
 }
 

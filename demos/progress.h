@@ -11,8 +11,8 @@ namespace carom::demos {
 
 enum class ProgressStyle { kTerminal, kLines, kJson, kNone };
 
-/// auto, json or none; auto looks at stderr.
-ProgressStyle progressStyle(const std::string& name);
+/// auto, json or none; auto looks at stderr. None when `quiet`.
+ProgressStyle progressStyle(const std::string& name, bool quiet);
 
 class Progress {
  public:

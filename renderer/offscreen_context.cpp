@@ -21,8 +21,8 @@ void checkDriver() {
   if (name.empty())
     unsetenv("GALLIUM_DRIVER");
   else if (name != "llvmpipe" && name != "softpipe")
-    throw NoRenderer("GALLIUM_DRIVER=" + name +
-                     " is no driver that draws here; accepted: llvmpipe, or unset it");
+    throw WrongDriver("GALLIUM_DRIVER=" + name +
+                      " is no driver that draws here; accepted: llvmpipe, or unset it");
 }
 
 // Mesa keeps compiled shaders on disk keyed neither by CPU nor by vector width, so that a home shared between
@@ -69,7 +69,7 @@ void OffscreenContext::examine(const std::string& maker, FindFunction find) {
   if (info_.renderer.empty())
     throw NoRenderer(maker + "'s context does not answer (another GL library in its place?)");
   if (info_.renderer.find("softpipe") != std::string::npos)
-    throw NoRenderer(
+    throw WrongDriver(
         maker + " draws with softpipe, which is far too slow; llvmpipe is needed (unset GALLIUM_DRIVER)");
   GLint major = 0, minor = 0;
   gl_.GetIntegerv(GL_MAJOR_VERSION, &major);

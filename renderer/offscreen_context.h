@@ -25,6 +25,12 @@ class NoRenderer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The environment names a driver that cannot serve; the message says what to do, and no package helps.
+class WrongDriver : public NoRenderer {
+ public:
+  using NoRenderer::NoRenderer;
+};
+
 /// How Mesa generates its code. It reads this once a process, so the first context of a process decides.
 enum class PixelPolicy {
   kFast,      ///< The widest vectors that work here. Other CPUs may differ by 1/255 in a few pixels.

@@ -8,16 +8,15 @@
 namespace carom {
 namespace {
 
-constexpr double kTurnShare = 0.07;  // of the slip: what one step of the integration changes it by
-constexpr double kStableShare =
-    1.0;                             // of the slip over the stiffness: Runge-Kutta steps are stable below 2.7
-constexpr double kStraight = 1e-10;  // sine of the angle at which a slip changes: it goes straight on
+constexpr double kTurnShare = 0.07;   // of the slip: what one step of the integration changes it by
+constexpr double kStableShare = 1.0;  // of slip over stiffness: Runge-Kutta steps are stable below 2.7
+constexpr double kStraight = 1e-10;   // sine of the angle at which a slip changes: it goes straight on
 constexpr double kUnnoticed = 1e-7;  // of the velocity before: a slip that ends and turns by less does so too
 constexpr double kStopped = 1e-12;   // of the velocity before: slower is no slip
 constexpr int kMostSteps = 2000;     // a slip that turns for longer has found where it neither grows nor ends
 constexpr int kLengthRounds = 8;     // that fit a step to where a phase ends within it, ...
 constexpr double kFit = 1e-12;       // ... to this share of its length and of the impulse
-constexpr int kHalvings = 40;
+constexpr int kHalvings = 40;        // of a step that cannot be fitted
 constexpr int kDepartureRounds = 60;  // of Newton's method
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
@@ -220,7 +219,8 @@ Vec3 pointCollisionImpulse(const PointCollision& collision) {
   Course course(collision);
   Slip(collision).follow(course);
   if (course.phase() != Phase::kEnded) {
-    const Vec3 xi = impulseWithoutSlip(collision);
+    const Vec3 xi =
+        impulseWithoutSlip(collision);  // separates from the first: each phase is gone through once
     while (course.phase() != Phase::kEnded) course.advance(xi, kForever);
   }
   return withoutGain(collision, course.impulse());

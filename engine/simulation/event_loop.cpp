@@ -152,8 +152,7 @@ class EventLoop {
     for (Body& body : bodies_) {
       if (!body.resting || body.rest_island != island) continue;
       wake(body);
-      body.travel =
-          Travel::kCarried;  // it lies on others or floats; gravity takes part again from the next step
+      body.travel = Travel::kCarried;  // held up by others or afloat: gravity takes part from the next step
     }
   }
 

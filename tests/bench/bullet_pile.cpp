@@ -3,7 +3,6 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <chrono>
 #include <memory>
 
 #include "tests/bench/pile_step.h"
@@ -77,13 +76,7 @@ class BulletHeap {
 
 std::vector<double> bulletStepTimes(const PlainPile& pile, int steps) {
   BulletHeap heap(pile);
-  std::vector<double> ms;
-  for (int i = 0; i < steps; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    heap.step(pile.step_s);
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-  }
-  return ms;
+  return timedSteps(steps, [&] { heap.step(pile.step_s); });
 }
 
 }  // namespace carom::bench

@@ -3,7 +3,6 @@
 
 #include <ode/ode.h>
 
-#include <chrono>
 #include <cmath>
 #include <deque>
 
@@ -136,13 +135,7 @@ class OdeHeap {
 
 std::vector<double> odeStepTimes(const PlainPile& pile, int steps) {
   OdeHeap heap(pile);
-  std::vector<double> ms;
-  for (int i = 0; i < steps; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    heap.step(pile.step_s);
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-  }
-  return ms;
+  return timedSteps(steps, [&] { heap.step(pile.step_s); });
 }
 
 }  // namespace carom::bench

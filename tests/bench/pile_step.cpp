@@ -1,7 +1,5 @@
 #include "tests/bench/pile_step.h"
 
-#include <chrono>
-
 #include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
 #include "tests/bench/carom_query.h"
@@ -43,13 +41,7 @@ std::vector<double> caromStepTimes(const PlainPile& pile, int steps) {
                    {pile.friction, pile.friction, 0.0, 1000.0},
                    body.is_static});
   REQUIRE(world.start().empty());
-  std::vector<double> ms;
-  for (int i = 0; i < steps; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    world.step();
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-  }
-  return ms;
+  return timedSteps(steps, [&] { world.step(); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // ours left them, nothing is allowed to sleep. Each library is one file, as with the queries (library.h).
 
 #include <array>
+#include <chrono>
 #include <vector>
 
 #include "tests/bench/library.h"
@@ -33,6 +34,18 @@ struct PlainPile {
   double step_s = 1.0 / 60.0;
   double gravity = 9.81;  ///< Along -z.
 };
+
+/// Milliseconds of each of `steps` calls.
+template <typename Step>
+std::vector<double> timedSteps(int steps, const Step& step) {
+  std::vector<double> ms;
+  for (int i = 0; i < steps; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    step();
+    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return ms;
+}
 
 /// The bodies of a world as they stand; all of one material.
 PlainPile plainPile(const World& world);

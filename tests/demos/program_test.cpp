@@ -130,6 +130,13 @@ TEST(Program, NoRendererEndsWith6AndSaysHowToGetOne) {
   expectOneLine(end, "apt-get install libosmesa6");
 }
 
+TEST(Program, AnUnknownDriverEndsWith6AndNoPackageIsBlamed) {
+  const ProgramEnd end = runCarom({"doctor"}, {"GALLIUM_DRIVER=nonsense"});
+  EXPECT_EQ(end.code, 6);
+  expectOneLine(end, "GALLIUM_DRIVER=nonsense is no driver that draws here");
+  EXPECT_EQ(end.err.find("apt-get"), std::string::npos) << end.err;
+}
+
 TEST(Program, DoctorFindsThisMachineFit) {
   const ProgramEnd end = runCarom({"doctor"});
   EXPECT_EQ(end.code, 0) << end.err;
