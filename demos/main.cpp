@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include "demos/command_line.h"
@@ -24,6 +25,16 @@ void occupyStandardDescriptors() {
   }
 }
 
+/// What one frame frees serves the next: given back to the system, its pages would be fetched and cleared
+/// again for every frame, a tenth of the time of drawing it.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  constexpr int kLargestFromHeap = 64 << 20, kMostKept = 256 << 20;  // Bytes.
+  ::mallopt(M_MMAP_THRESHOLD, kLargestFromHeap);
+  ::mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
+}
+
 int run(int argc, char** argv) {
   const ExitCode code = runCommandLine(argc, argv);
   if (!std::cout.flush()) throw CannotWrite("cannot write to standard output");
@@ -41,6 +52,7 @@ void tell(const std::string& message) {
 
 int main(int argc, char** argv) {
   occupyStandardDescriptors();
+  keepFreedMemory();
   try {
     return run(argc, argv);
   } catch (...) {

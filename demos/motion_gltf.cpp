@@ -128,7 +128,8 @@ std::map<MaterialKey, int> addMaterials(tinygltf::Model& model, const SceneWorld
 
 /// The triangles of a solid in its own frame; edges are sharp, as in the simulation.
 tinygltf::Primitive solidPrimitive(Accessors& accessors, const Solid& solid) {
-  const renderer::TriangleMesh mesh = renderer::buildMesh(solid, {0.0, kRoundSegments});
+  const renderer::TriangleMesh mesh =
+      renderer::buildMesh(solid, {renderer::Edges::kSharp, 0.0, kRoundSegments});
   std::vector<float> positions, normals;
   for (const renderer::MeshVertex& v : mesh.vertices) {
     positions.insert(positions.end(), v.position, v.position + kXyz);

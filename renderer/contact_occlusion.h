@@ -15,10 +15,11 @@ namespace carom::renderer {
 struct OcclusionVertex {
   float p_E[3];
   float p_R[3];
-  float n_R[3];   ///< The face's normal.
-  float half[3];  ///< Of the rounded box.
-  float radius;   ///< Of the rounded box, metres.
-  float reach;    ///< Distance at which the darkening ends, metres.
+  float n_R[3];    ///< The face's normal.
+  float half[3];   ///< Of the rounded box.
+  float radius;    ///< Of the rounded box, metres.
+  float reach;     ///< Distance at which the darkening ends, metres.
+  float strength;  ///< Of the light, what is lost where the box touches from straight above.
 };
 
 /// A body as seen by this pass.
@@ -31,8 +32,8 @@ struct OcclusionBody {
 };
 
 /// Triangles (three vertices each) to draw over the scene. Only faces turned to the eye count, and only
-/// effects that are larger than a pixel at `focal_px`. Cost: bodies sorted along x, then pairs that overlap
-/// there.
+/// effects that are larger than a pixel at `focal_px`, or than some pixels between bodies. Cost: bodies
+/// sorted along x, then pairs that overlap there.
 std::vector<OcclusionVertex> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px);
 
 }  // namespace carom::renderer

@@ -11,6 +11,7 @@ namespace {
 constexpr double kLevelTop = 0.9999;         // Cosine between a ground's own axis and the vertical.
 constexpr double kFarOverDistance = 4000.0;  // Far plane over the distance from eye to target.
 constexpr double kMinNearOverDistance = 1e-3;
+constexpr double kNearsPerDoubling = 2.0;
 constexpr double kGroundDarkening = 0.7;  // Of a body's half height: how near the ground darkens it.
 
 // An instance placed relative to the eye.
@@ -20,6 +21,7 @@ struct Placed {
   double radius_m = 0.0;
   double depth_m = 0.0;  // Of the centre, along the view.
   int level = 0;
+  BodyShader shader = BodyShader::kShadowed;
 };
 
 Placed place(int index, const Instance& instance, const SolidGeometry& solid, const Camera& camera,
@@ -43,15 +45,12 @@ bool inView(const Placed& placed, const CameraAxes& axes, double half_width, dou
          up - half_height * placed.depth_m <= placed.radius_m * std::hypot(1.0, half_height);
 }
 
-// Appends groups of instances that share solid and level, nearest instance of a group first.
-std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instance> instances,
-                             const Camera& camera, const SceneGeometry& geometry,
-                             std::vector<InstanceRecord>& records) {
-  const auto solidOf = [&](const Placed& p) { return instances[static_cast<std::size_t>(p.index)].solid; };
-  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
-    return std::tuple(solidOf(a), a.level, a.depth_m, a.index) <
-           std::tuple(solidOf(b), b.level, b.depth_m, b.index);
-  });
+using Meshes = std::array<MeshRange, kDetailLevels> SolidGeometry::*;
+
+// Groups of neighbours in `placed` (whose records begin with number `first`) that share mesh and shader, the
+// group with the nearest instance first.
+std::vector<DrawGroup> group(const std::vector<Placed>& placed, Meshes meshes,
+                             std::span<const Instance> instances, const SceneGeometry& geometry, int first) {
   struct Ordered {
     double nearest_m;
     DrawGroup group;
@@ -59,14 +58,11 @@ std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instanc
   std::vector<Ordered> ordered;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const Placed& p = placed[i];
-    const bool starts = i == 0 || solidOf(p) != solidOf(placed[i - 1]) || p.level != placed[i - 1].level;
-    if (starts)
-      ordered.push_back({p.depth_m - p.radius_m,
-                         {geometry.solid(solidOf(p)).levels[static_cast<std::size_t>(p.level)],
-                          static_cast<int>(records.size()), 0}});
+    const SolidGeometry& solid = geometry.solid(instances[static_cast<std::size_t>(p.index)].solid);
+    const MeshRange& range = (solid.*meshes)[static_cast<std::size_t>(p.level)];
+    if (ordered.empty() || ordered.back().group.shader != p.shader || !(ordered.back().group.range == range))
+      ordered.push_back({p.depth_m - p.radius_m, {range, p.shader, first + static_cast<int>(i), 0}});
     ++ordered.back().group.count;
-    records.push_back(
-        instanceRecord(instances[static_cast<std::size_t>(p.index)], geometry.solid(solidOf(p)), camera));
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Ordered& a, const Ordered& b) { return a.nearest_m < b.nearest_m; });
@@ -75,7 +71,8 @@ std::vector<DrawGroup> group(std::vector<Placed> placed, std::span<const Instanc
   return groups;
 }
 
-// As far away as nothing visible allows, since precision in depth is lost in proportion to far over near.
+// As far away as nothing visible allows, since precision in depth is lost in proportion to far over near; in
+// steps, so that a view stays the same while bodies move through it.
 DepthRange depthRange(const std::vector<Placed>& visible, double distance_m, const DrawList& list) {
   double near = distance_m, far = kFarOverDistance * distance_m;
   for (const Placed& p : visible) {
@@ -83,7 +80,8 @@ DepthRange depthRange(const std::vector<Placed>& visible, double distance_m, con
     far = std::max(far, 1.1 * (p.depth_m + p.radius_m));
   }
   if (list.ground) near = std::min(near, 0.3 * std::abs(list.ground_z_E));
-  return {std::max(near, kMinNearOverDistance * distance_m), far};
+  near = std::max(near, kMinNearOverDistance * distance_m);
+  return {std::exp2(std::floor(std::log2(near) * kNearsPerDoubling) / kNearsPerDoubling), far};
 }
 
 }  // namespace
@@ -124,7 +122,7 @@ std::optional<int> findGround(std::span<const Instance> instances, const SceneGe
 }
 
 DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
-                       const SceneGeometry& geometry) {
+                       const SceneGeometry& geometry, std::span<const std::uint8_t> lone) {
   DrawList list;
   const CameraAxes axes = cameraAxes(camera);
   const double focal = focalLengthPixels(camera, settings.height);
@@ -138,14 +136,32 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const int index = static_cast<int>(i);
     if (list.ground == index) continue;
-    const SolidGeometry& solid = geometry.solid(instances[i].solid);
-    const Placed placed = place(index, instances[i], solid, camera, axes, focal);
+    Placed placed = place(index, instances[i], geometry.solid(instances[i].solid), camera, axes, focal);
+    placed.shader = instances[i].checker ? BodyShader::kChecker
+                    : lone[i] != 0       ? BodyShader::kSunlit
+                                         : BodyShader::kShadowed;
     if (inView(placed, axes, half_width, half_height)) visible.push_back(placed);
     casting.push_back(placed);
   }
+  const auto byMesh = [&](const Placed& a, const Placed& b) {
+    const auto key = [&](const Placed& p) {
+      return std::tuple(instances[static_cast<std::size_t>(p.index)].solid, p.level, p.shader, p.depth_m,
+                        p.index);
+    };
+    return key(a) < key(b);
+  };
+  for (std::vector<Placed>* placed : {&visible, &casting}) {
+    std::sort(placed->begin(), placed->end(), byMesh);
+    for (const Placed& p : *placed) {
+      const Instance& instance = instances[static_cast<std::size_t>(p.index)];
+      list.records.push_back(instanceRecord(instance, geometry.solid(instance.solid), camera));
+    }
+  }
   list.depth = depthRange(visible, (camera.target - camera.eye).norm(), list);
-  list.visible = group(std::move(visible), instances, camera, geometry, list.records);
-  list.casting = group(std::move(casting), instances, camera, geometry, list.records);
+  const int seen = static_cast<int>(visible.size());
+  list.visible = group(visible, &SolidGeometry::levels, instances, geometry, 0);
+  list.casting = group(casting, &SolidGeometry::casting, instances, geometry, seen);
+  list.mirrored = group(casting, &SolidGeometry::levels, instances, geometry, seen);
   return list;
 }
 

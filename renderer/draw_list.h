@@ -1,8 +1,9 @@
 #pragma once
 // What a frame draws, decided on the CPU: which instances the camera or the shadow map can see, at which
-// level of detail, in which order, which one is the endless ground, and how deep the view is. Tested in
-// tests/renderer/draw_list_test.cpp.
+// level of detail, by which shader, in which order, which one is the endless ground, and how deep the view
+// is. Tested in tests/renderer/draw_list_test.cpp.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,9 +13,18 @@
 
 namespace carom::renderer {
 
-/// Consecutive instance records that share a mesh.
+/// Which variant of the body shader an instance needs.
+enum class BodyShader {
+  kSunlit,    ///< Nothing else can darken it.
+  kShadowed,  ///< Shadows are looked up.
+  kChecker,   ///< So they are, and level faces show a checker board.
+};
+inline constexpr int kBodyShaders = 3;
+
+/// Consecutive instance records that share a mesh and a shader.
 struct DrawGroup {
   MeshRange range;
+  BodyShader shader = BodyShader::kShadowed;
   int first = 0;
   int count = 0;
 };
@@ -22,9 +32,10 @@ struct DrawGroup {
 struct DrawList {
   std::vector<InstanceRecord> records;  ///< First those of `visible`, then those of `casting`.
   std::vector<DrawGroup> visible;       ///< Nearest group first.
-  std::vector<DrawGroup> casting;
-  std::optional<int> ground;  ///< The instance drawn as an endless plane.
-  double ground_z_E = 0.0;    ///< Height of that plane above the eye.
+  std::vector<DrawGroup> casting;       ///< All but the ground, as the shadow map needs them.
+  std::vector<DrawGroup> mirrored;      ///< The same instances as the camera would see them.
+  std::optional<int> ground;            ///< The instance drawn as an endless plane.
+  double ground_z_E = 0.0;              ///< Height of that plane above the eye.
   DepthRange depth;
 };
 
@@ -36,7 +47,8 @@ double topHeight(const Instance& instance, const SolidGeometry& solid);
 /// Where and in which colour an instance is drawn.
 InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& solid, const Camera& camera);
 
+/// `lone`, by instance, says where nothing stands between the sun and it.
 DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
-                       const SceneGeometry& geometry);
+                       const SceneGeometry& geometry, std::span<const std::uint8_t> lone);
 
 }  // namespace carom::renderer

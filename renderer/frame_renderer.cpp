@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "engine/foundation/contract.h"
+#include "renderer/backdrop.h"
 #include "renderer/contact_occlusion.h"
 #include "renderer/draw_list.h"
 #include "renderer/edge_filter.h"
@@ -15,6 +18,7 @@
 #include "renderer/scene_geometry.h"
 #include "renderer/shader_program.h"
 #include "renderer/shaders.h"
+#include "renderer/shadow_cells.h"
 #include "renderer/shadow_fit.h"
 #include "renderer/surface_pass.h"
 #include "renderer/water_pass.h"
@@ -26,6 +30,7 @@ constexpr double kShadowLift = 2.2;  // Texels along a grazed surface's normal: 
 constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
 constexpr double kHorizonOverDistance =
     2000.0;  // Of the same distance: where the ground ends, long since all air.
+constexpr double kShadowsOverHorizon = 0.5;  // How far off the ground shows shadows.
 constexpr float kNoGround = -1e30f;
 
 Settings checked(const Settings& settings) {
@@ -48,24 +53,6 @@ double checkerSquare(double distance_m) {
   while (distance_m < kSmallest * square && square > 1e-6) square *= 0.1;
   while (distance_m > kLargest * square && square < 1e6) square *= 10.0;
   return square;
-}
-
-// The part of the ground that is drawn with shadows. Without a shadow map, and for a light so low that the
-// part would reach towards the horizon, a small square stands in for it.
-void placeShadowedGround(FrameBlock& block, const ShadowView& shadow, double ground_z_E, double horizon_m) {
-  std::array<Vec2, 4> corners = {Vec2(-1.0, -1.0), Vec2(1.0, -1.0), Vec2(1.0, 1.0), Vec2(-1.0, 1.0)};
-  if (shadow.texel_m > 0.0) {
-    const std::array<Vec2, 4> covered = coveredGround(shadow, ground_z_E);
-    const auto near = [&](const Vec2& p) { return p.allFinite() && p.norm() < 0.5 * horizon_m; };
-    if (std::all_of(covered.begin(), covered.end(), near)) corners = covered;
-  }
-  double shortest = horizon_m;
-  for (std::size_t i = 0; i < 4; ++i) {
-    shortest = std::min(shortest, (corners[i] - corners[(i + 1) % 4]).norm());
-    block.shadowed[i][0] = static_cast<float>(corners[i].x());
-    block.shadowed[i][1] = static_cast<float>(corners[i].y());
-  }
-  block.shadowed[0][2] = static_cast<float>(4.0 * horizon_m / shortest);
 }
 
 // Moves the image by `shift_px`, right and up.
@@ -110,17 +97,19 @@ struct FrameRenderer::Impl {
 
   std::string shaderVariant() const;
   void linkPrograms();
+  GLuint linkBodies(const char* name, const std::string& lines) const;
+  GLuint bodyProgram(BodyShader shader);
   void createTargets();
   void createMirrorTarget();
   void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
                     const std::function<void()>& drawn, std::span<const WaterVolume> water);
   void expose(const Sample& sample);
-  ShadowView shadowView(const Vec3& to_light) const;
-  void uploadFrame(const ShadowView& shadow, const Sample& sample) const;
-  void drawShadows(const ShadowView& shadow) const;
+  ShadowCells castShadows(const Vec3& to_light);
+  FrameBlock uploadFrame(const ShadowView& shadow, const Sample& sample) const;
+  void drawShadows() const;
   void drawMirrored() const;
-  void drawScene(const Vec3& to_light) const;
+  void drawScene(const FrameBlock& block, const ShadowCells& shadows);
   void bindTextures() const;
   std::vector<OcclusionVertex> occlusionTriangles() const;
   void drawOcclusion() const;
@@ -131,6 +120,8 @@ struct FrameRenderer::Impl {
   struct View {
     std::vector<Instance> instances;
     Camera camera;
+    std::optional<int> ground;
+    ShadowView shadow;
     DrawList list;
     std::vector<OcclusionVertex> occlusion;
     std::vector<WaterVolume> water;
@@ -147,7 +138,8 @@ struct FrameRenderer::Impl {
   MultipleExposure exposure;
   SurfacePass surface_pass;
   std::unique_ptr<WaterPass> water_pass;
-  GLuint body_program = 0, shadowed_ground_program = 0, open_ground_program = 0, sky_program = 0;
+  std::unique_ptr<Backdrop> backdrop;
+  std::array<GLuint, kBodyShaders> body_programs{};  // Linked when first needed.
   GLuint shadow_program = 0, occlusion_program = 0, mirrored_program = 0;
   GLuint scene_target = 0, shadow_target = 0, mirror_target = 0, shadow_map = 0, mirror_texture = 0;
   int mirror_width = 0, mirror_height = 0;
@@ -168,23 +160,25 @@ std::string FrameRenderer::Impl::shaderVariant() const {
 }
 
 void FrameRenderer::Impl::linkPrograms() {
-  const std::string variant = shaderVariant();
-  const auto link = [&](const char* name, const std::string& lines, const char* vertex, const char* light,
-                        const char* common, const char* fragment) {
-    return linkProgram(
-        gl, {name, {kGlslHead, lines.c_str(), vertex}, {kGlslHead, lines.c_str(), light, common, fragment}});
-  };
-  body_program = link("body", variant, kBodyVertex, kGlslLight, "", kBodyFragment);
-  shadowed_ground_program =
-      link("shadowed ground", variant, kGroundVertex, kGlslLight, kGroundCommon, kGroundShadowedFragment);
-  open_ground_program =
-      link("open ground", variant, kGroundVertex, kGlslLight, kGroundCommon, kGroundOpenFragment);
-  sky_program = link("sky", variant, kSkyVertex, kGlslLight, "", kSkyFragment);
-  shadow_program = link("shadow", "", kShadowVertex, "", "", kShadowFragment);
-  occlusion_program = link("occlusion", "", kOcclusionVertex, "", "", kOcclusionFragment);
-  if (quality.mirror)
-    mirrored_program =
-        link("mirrored body", variant + "#define MIRROR\n", kBodyVertex, kGlslLight, "", kBodyFragment);
+  shadow_program = linkProgram(gl, {"shadow", {kGlslHead, kShadowVertex}, {kGlslHead, kShadowFragment}});
+  occlusion_program =
+      linkProgram(gl, {"occlusion", {kGlslHead, kOcclusionVertex}, {kGlslHead, kOcclusionFragment}});
+  if (quality.mirror) mirrored_program = linkBodies("mirrored body", "#define MIRROR\n#define CHECKER\n");
+}
+
+GLuint FrameRenderer::Impl::linkBodies(const char* name, const std::string& lines) const {
+  const std::string variant = shaderVariant() + lines;
+  return linkProgram(gl, {name,
+                          {kGlslHead, variant.c_str(), kBodyVertex},
+                          {kGlslHead, variant.c_str(), kGlslLight, kBodyFragment}});
+}
+
+GLuint FrameRenderer::Impl::bodyProgram(BodyShader shader) {
+  static constexpr std::array<const char*, kBodyShaders> lines = {"#define SUNLIT\n", "",
+                                                                  "#define CHECKER\n"};
+  const auto i = static_cast<std::size_t>(shader);
+  if (body_programs[i] == 0) body_programs[i] = linkBodies("body", lines[i]);
+  return body_programs[i];
 }
 
 void FrameRenderer::Impl::createTargets() {
@@ -205,6 +199,8 @@ void FrameRenderer::Impl::createTargets() {
   const bool scene_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   water_pass = std::make_unique<WaterPass>(
       gl, WaterPass::Scene{color, depth, settings.width, settings.height}, shaderVariant());
+  backdrop = std::make_unique<Backdrop>(
+      gl, Backdrop::Request{settings.width, settings.height, shaderVariant(), quality.mirror});
 
   gl.GenTextures(1, &shadow_map);
   gl.BindTexture(GL_TEXTURE_2D, shadow_map);
@@ -233,7 +229,7 @@ void FrameRenderer::Impl::createOcclusionBuffer() {
   gl.GenVertexArrays(1, &occlusion_array);
   gl.BindVertexArray(occlusion_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
-  const GLint sizes[] = {3, 3, 3, 3, 2};
+  const GLint sizes[] = {3, 3, 3, 3, 3};
   std::size_t at = 0;
   for (GLuint i = 0; i < 5; ++i) {
     gl.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex),
@@ -281,7 +277,7 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
             geometry.solidCount());
   view.instances.assign(instances.begin(), instances.end());
   view.camera = camera;
-  view.list = buildDrawList(instances, camera, settings, geometry);
+  view.ground = findGround(instances, geometry);
   view.occlusion = occlusionTriangles();
   view.water.assign(water.begin(), water.end());
   surfaces_known = false;
@@ -299,34 +295,43 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   return image;
 }
 
-// The passes: shadow map, mirrored bodies, bodies, ground, sky, contact shadows, water.
+// The passes: shadow map, mirrored bodies, sky and ground, bodies, the ground's shadows, contact shadows,
+// water.
 void FrameRenderer::Impl::expose(const Sample& sample) {
-  const ShadowView shadow = shadowView(sample.to_light);
-  uploadFrame(shadow, sample);
+  const ShadowCells shadows = castShadows(sample.to_light);
+  const FrameBlock block = uploadFrame(view.shadow, sample);
   geometry.uploadInstances(gl, view.list.records);
-  drawShadows(shadow);
+  drawShadows();
   if (quality.mirror) drawMirrored();
-  drawScene(sample.to_light);
+  drawScene(block, shadows);
   drawOcclusion();
   water_pass->draw(view.water, view.camera, view.list.depth);
 }
 
-ShadowView FrameRenderer::Impl::shadowView(const Vec3& to_light) const {
-  const std::vector<Instance>& instances = view.instances;
+// Decides what the shadow map shows, and with it which bodies are drawn how.
+ShadowCells FrameRenderer::Impl::castShadows(const Vec3& to_light) {
   const Camera& camera = view.camera;
   std::vector<ShadowCaster> casters;
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (view.list.ground == static_cast<int>(i)) continue;
-    const Extent& extent = geometry.solid(instances[i].solid).extent;
-    const Pose X_EB{instances[i].X_WB.rotation, instances[i].X_WB * extent.center - camera.eye};
-    casters.push_back({X_EB, extent.half});
+  for (std::size_t i = 0; i < view.instances.size(); ++i) {
+    if (view.ground == static_cast<int>(i)) continue;
+    const Instance& instance = view.instances[i];
+    const Extent& extent = geometry.solid(instance.solid).extent;
+    casters.push_back({{instance.X_WB.rotation, instance.X_WB * extent.center - camera.eye}, extent.half});
   }
-  return fitShadow(
+  view.shadow = fitShadow(
       {camera, static_cast<double>(settings.width) / settings.height, to_light, quality.shadow_texels},
       casters);
+  ShadowCells cells(view.shadow, casters);
+  // A body of one convex part has no shadow of its own but its dark side.
+  std::vector<std::uint8_t> lone(view.instances.size(), 0);
+  for (std::size_t i = 0, caster = 0; i < view.instances.size(); ++i)
+    if (view.ground != static_cast<int>(i) && cells.alone(caster++))
+      lone[i] = solids[static_cast<std::size_t>(view.instances[i].solid)].parts().size() == 1 ? 1 : 0;
+  view.list = buildDrawList(view.instances, camera, settings, geometry, lone);
+  return cells;
 }
 
-void FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sample) const {
+FrameBlock FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sample) const {
   const Camera& camera = view.camera;
   const DrawList& list = view.list;
   const CameraAxes axes = cameraAxes(camera);
@@ -355,14 +360,15 @@ void FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sa
   for (int i = 0; i < 2; ++i) block.mirror[i] = static_cast<float>(sample.mirror_shear[i]);
   block.mirror[2] = 1.0f / static_cast<float>(settings.width);
   block.mirror[3] = 1.0f / static_cast<float>(settings.height);
-  placeShadowedGround(block, shadow, list.ground_z_E, kHorizonOverDistance * distance);
+  block.reach[0] = static_cast<float>(kHorizonOverDistance * distance / (1 << (4 * kGroundRings)));
   gl.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
+  return block;
 }
 
-void FrameRenderer::Impl::drawShadows(const ShadowView& shadow) const {
-  if (shadow.texel_m == 0.0) return;
+void FrameRenderer::Impl::drawShadows() const {
+  if (view.shadow.texel_m == 0.0) return;
   gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
   gl.Viewport(0, 0, quality.shadow_texels, quality.shadow_texels);
   gl.Enable(GL_DEPTH_TEST);
@@ -393,7 +399,7 @@ void FrameRenderer::Impl::drawMirrored() const {
   gl.Enable(GL_CULL_FACE);
   gl.FrontFace(GL_CW);
   gl.UseProgram(mirrored_program);
-  for (const DrawGroup& group : view.list.casting) geometry.draw(gl, group.range, group.first, group.count);
+  for (const DrawGroup& group : view.list.mirrored) geometry.draw(gl, group.range, group.first, group.count);
   gl.FrontFace(GL_CCW);
 }
 
@@ -404,30 +410,28 @@ void FrameRenderer::Impl::bindTextures() const {
   gl.BindTexture(GL_TEXTURE_2D, shadow_map);
 }
 
-void FrameRenderer::Impl::drawScene(const Vec3& to_light) const {
+void FrameRenderer::Impl::drawScene(const FrameBlock& block, const ShadowCells& shadows) {
   const DrawList& list = view.list;
-  gl.BindFramebuffer(GL_FRAMEBUFFER, scene_target);
+  const bool ground_seen = list.ground && list.ground_z_E < 0.0;
+  bindTextures();
+  backdrop->copyTo(scene_target, block, ground_seen);
   gl.Viewport(0, 0, settings.width, settings.height);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Enable(GL_DEPTH_TEST);
   gl.Disable(GL_BLEND);
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_LEQUAL);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
   gl.Enable(GL_CULL_FACE);
-  gl.UseProgram(body_program);
-  for (const DrawGroup& group : list.visible) geometry.draw(gl, group.range, group.first, group.count);
-  gl.Disable(GL_CULL_FACE);
-  gl.BindVertexArray(no_attributes);
-  if (list.ground && list.ground_z_E < 0.0) {
-    gl.UseProgram(to_light.z() > 0.0 ? shadowed_ground_program : open_ground_program);
-    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    gl.UseProgram(open_ground_program);
-    gl.DrawArrays(GL_TRIANGLE_STRIP, 4, 10);
+  for (const DrawGroup& group : list.visible) {
+    gl.UseProgram(bodyProgram(group.shader));
+    geometry.draw(gl, group.range, group.first, group.count);
   }
+  gl.Disable(GL_CULL_FACE);
   gl.DepthMask(GL_FALSE);
-  gl.UseProgram(sky_program);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  if (ground_seen && block.to_light[2] > 0.0f) {
+    const double horizon_m = kHorizonOverDistance * (view.camera.target - view.camera.eye).norm();
+    backdrop->drawShadows(shadows.groundTriangles(list.ground_z_E, kShadowsOverHorizon * horizon_m));
+  }
 }
 
 std::vector<OcclusionVertex> FrameRenderer::Impl::occlusionTriangles() const {
@@ -437,7 +441,7 @@ std::vector<OcclusionVertex> FrameRenderer::Impl::occlusionTriangles() const {
     const Solid& solid = solids[static_cast<std::size_t>(instance.solid)];
     const Pose X_EB{instance.X_WB.rotation, instance.X_WB.position - view.camera.eye};
     bodies.push_back({&solid, geometry.solid(instance.solid).boxes, X_EB, solid.radius(),
-                      view.list.ground == static_cast<int>(i)});
+                      view.ground == static_cast<int>(i)});
   }
   return contactOcclusion(bodies, focalLengthPixels(view.camera, settings.height));
 }

@@ -44,7 +44,8 @@ struct Settings {
   Preset preset = Preset::kRealtime;
   Style style = Style::kDaylight;
   GlBackend backend = GlBackend::kOsmesa;
-  int gl_threads = 0;  ///< That fill pixels; 0: as many as Mesa likes. The first renderer of a process decides.
+  int gl_threads =
+      0;  ///< That fill pixels; 0: as many as Mesa likes. The first renderer of a process decides.
 };
 
 class FrameRenderer {

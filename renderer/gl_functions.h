@@ -17,6 +17,7 @@ namespace carom::renderer {
   X(BindTexture, PFNGLBINDTEXTUREPROC)                                                                 \
   X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                                                         \
   X(BlendFunc, PFNGLBLENDFUNCPROC)                                                                     \
+  X(BlitFramebuffer, PFNGLBLITFRAMEBUFFERPROC)                                                         \
   X(BufferData, PFNGLBUFFERDATAPROC)                                                                   \
   X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                                           \
   X(Clear, PFNGLCLEARPROC)                                                                             \

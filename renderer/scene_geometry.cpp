@@ -11,13 +11,14 @@ namespace {
 struct Level {
   double max_radius_px;  // Used up to this radius on the image.
   int segments;          // Around balls and capsules.
-  bool bevelled;
+  Edges edges;
 };
-constexpr std::array<Level, kDetailLevels> kLevels = {{{14.0, 12, false},
-                                                       {40.0, 20, true},
-                                                       {90.0, 32, true},
-                                                       {350.0, 64, true},
-                                                       {std::numeric_limits<double>::infinity(), 128, true}}};
+constexpr std::array<Level, kDetailLevels> kLevels = {
+    {{14.0, 12, Edges::kSharp},
+     {40.0, 20, Edges::kShaded},
+     {120.0, 36, Edges::kShaded},
+     {350.0, 64, Edges::kBevelled},
+     {std::numeric_limits<double>::infinity(), 128, Edges::kBevelled}}};
 
 constexpr double kBevelCapFraction =
     0.05;  // Of the typical solid's width: large grounds get no wider bevels.
@@ -64,10 +65,15 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   geometry.flat_parts = pool.add(buildFlatMesh(solid));
   const double bevel = bevelWidth(solid, bevel_cap_m);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
-    const bool same = i > 1 && !geometry.is_round;
-    geometry.levels[i] =
-        same ? geometry.levels[i - 1]
-             : pool.add(buildMesh(solid, {kLevels[i].bevelled ? bevel : 0.0, kLevels[i].segments}));
+    const auto& [radius, segments, edges] = kLevels[i];
+    const bool sized = geometry.is_round;  // Without round parts, levels with the same edges are the same.
+    const bool same = i > 0 && !sized && edges == kLevels[i - 1].edges;
+    geometry.levels[i] = same ? geometry.levels[i - 1] : pool.add(buildMesh(solid, {edges, bevel, segments}));
+    if (edges != Edges::kShaded)
+      geometry.casting[i] = geometry.levels[i];
+    else
+      geometry.casting[i] =
+          sized ? pool.add(buildMesh(solid, {Edges::kSharp, 0.0, segments})) : geometry.levels[0];
   }
   return geometry;
 }
@@ -99,6 +105,7 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
                          offset(offsetof(MeshVertex, position)));
   gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, normal)));
+  gl.VertexAttribPointer(6, 4, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, bend)));
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(pool.indices.size() * sizeof(std::uint32_t)),
                 pool.indices.data(), GL_STATIC_DRAW);
@@ -109,7 +116,7 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                            offset(4 * sizeof(float) * i));
     gl.VertexAttribDivisor(2 + i, 1);
   }
-  for (GLuint i = 0; i < 6; ++i) gl.EnableVertexAttribArray(i);
+  for (GLuint i = 0; i < 7; ++i) gl.EnableVertexAttribArray(i);
 }
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {

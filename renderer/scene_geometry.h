@@ -24,11 +24,13 @@ struct MeshRange {
   std::size_t first_byte = 0;
   GLsizei count = 0;
   GLint base_vertex = 0;
+  bool operator==(const MeshRange&) const = default;
 };
 
 struct SolidGeometry {
   std::array<MeshRange, kDetailLevels> levels;
-  MeshRange flat_parts;  ///< The parts without rounding, unbevelled.
+  std::array<MeshRange, kDetailLevels> casting;  ///< What casts the shadow of each level.
+  MeshRange flat_parts;                          ///< The parts without rounding, unbevelled.
   Extent extent;
   std::vector<RoundedBox> boxes;  ///< One a part.
   bool is_round = false;          ///< Has a ball or capsule among its parts.

@@ -2,7 +2,8 @@
 // The GLSL of all passes, and the block of values they share. Frame E: the world's axes, origin at the eye;
 // light is linear until the sRGB framebuffer encodes it. Variants are chosen by lines between the head and
 // the rest: PRINT (white surroundings), SMALL_SHADOWS (2x2 texels), MIRROR (bodies as the ground mirrors
-// them), POLISHED (the ground shows what it mirrors).
+// them), POLISHED (the ground shows what it mirrors), SUNLIT (bodies that no other can darken), CHECKER
+// (bodies whose level faces are checker boards).
 
 namespace carom::renderer {
 
@@ -15,10 +16,9 @@ struct FrameBlock {
   float ray_x[4];       ///< Added per pixel to the right; w: texels along a side of the shadow map.
   float ray_y[4];       ///< Added per pixel upwards.
   float ground[4];      ///< x: z of the ground; y: 1 / checker square; zw: the eye's xy in squares, modulo 2.
-  float shadowed[4][4];  ///< xy: corners, in order, of the ground's part that the shadow map covers; z of the
-                         ///< first: how many times as large the whole ground is.
-  float mirror[4];       ///< xy: how mirrored things are sheared, over their height above the ground; zw: 1 /
-                         ///< pixels.
+  float reach[4];       ///< x: half the side of the ground's innermost square.
+  float mirror[4];      ///< xy: how mirrored things are sheared, over their height above the ground; zw: 1 /
+                        ///< pixels.
 };
 
 inline constexpr const char* kGlslHead = R"(#version 420 core
@@ -30,7 +30,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 ray_x;
   vec4 ray_y;
   vec4 ground;
-  vec4 shadowed[4];
+  vec4 reach;
   vec4 mirror;
 };
 // Texture coordinates in the shadow map of a point with normal n, lifted out of the reach of its own shadow.
@@ -124,15 +124,25 @@ layout(location = 2) in vec4 row0;
 layout(location = 3) in vec4 row1;
 layout(location = 4) in vec4 row2;
 layout(location = 5) in vec4 color;
+layout(location = 6) in vec4 bend_and_nearness;
 out vec3 p_E;
 out vec3 n_E;
+flat out vec3 bend;
+out float nearness;
+#ifndef SUNLIT
 out vec3 shadow;
+#endif
 flat out vec4 albedo;
 void main() {
   vec4 p = vec4(p_B, 1.0);
   p_E = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
   n_E = vec3(dot(row0.xyz, n_B), dot(row1.xyz, n_B), dot(row2.xyz, n_B));
+#ifndef SUNLIT
   shadow = shadowCoordinates(p_E, n_E);
+#endif
+  bend = vec3(dot(row0.xyz, bend_and_nearness.xyz), dot(row1.xyz, bend_and_nearness.xyz),
+              dot(row2.xyz, bend_and_nearness.xyz));
+  nearness = bend_and_nearness.w;
   albedo = color;
 #ifdef MIRROR
   float height = p_E.z - ground.x;
@@ -147,7 +157,11 @@ void main() {
 inline constexpr const char* kBodyFragment = R"(
 in vec3 p_E;
 in vec3 n_E;
+flat in vec3 bend;
+in float nearness;
+#ifndef SUNLIT
 in vec3 shadow;
+#endif
 flat in vec4 albedo;
 out vec4 pixel;
 void main() {
@@ -160,12 +174,18 @@ void main() {
   float distance_m = length(p_E);
   vec3 v = p_E / -distance_m;
 #endif
-  vec3 n = normalize(n_E);
+  vec3 n = normalize(n_E + clamp(nearness, 0.0, 1.0) * bend);
   vec3 base = albedo.rgb;
+#ifdef CHECKER
   if (albedo.w < 0.0 && n.z > 0.5)
     base = mix(kDarkSquare, kLightSquare, checker(p_E.xy * ground.y + ground.zw));
+#endif
   float towards = dot(n, to_light.xyz);
+#ifdef SUNLIT
+  float sun = towards > 0.0 ? 1.0 : 0.0;
+#else
   float sun = towards > 0.0 ? lit(shadow) : 0.0;
+#endif
 
   float near_ground = clamp(1.0 - (p_E.z - ground.x) / max(abs(albedo.w), 1e-6), 0.0, 1.0);
   float open_below = 1.0 - 0.85 * near_ground * near_ground;
@@ -187,16 +207,26 @@ void main() {
 }
 )";
 
-// Four vertices: the shadowed part of the ground. Ten more: the ring from there to beyond the horizon, which
-// shares the part's sides to the bit, so that no gap shows, and is spared the shadow look-up.
+// Four vertices: the square around the point below the eye. Ten more: the ring from there to a square sixteen
+// times as large, and so on to beyond the horizon. Rings share their corners to the bit, so that no gap
+// shows; one square of that size would have depths of no precision near the eye.
+inline constexpr int kGroundRings = 3;
 inline constexpr const char* kGroundVertex = R"(
 void main() {
-  bool inner = gl_VertexID < 4 || (gl_VertexID & 1) == 0;
-  int corner = gl_VertexID < 4 ? gl_VertexID ^ (gl_VertexID >> 1) : ((gl_VertexID - 4) >> 1) & 3;
-  vec2 p = shadowed[corner].xy;
-  vec2 middle = 0.5 * (shadowed[0].xy + shadowed[2].xy);
-  if (!inner) p = middle + (p - middle) * shadowed[0].z;
+  int rings = gl_VertexID < 4 ? 0 : (gl_VertexID - 4) / 10;
+  int in_ring = (gl_VertexID - 4) % 10;
+  int corner = gl_VertexID < 4 ? gl_VertexID ^ (gl_VertexID >> 1) : (in_ring >> 1) & 3;
+  if (gl_VertexID >= 4) rings += in_ring & 1;
+  vec2 p = vec2(((corner + 1) & 2) - 1, (corner & 2) - 1) * (reach.x * float(1 << (4 * rings)));
   gl_Position = clip_from_E * vec4(p, ground.x, 1.0);
+}
+)";
+
+// The part of the ground where shadows may fall.
+inline constexpr const char* kGroundCellVertex = R"(
+layout(location = 0) in vec2 p_E;
+void main() {
+  gl_Position = clip_from_E * vec4(p_E, ground.x, 1.0);
 }
 )";
 
@@ -319,18 +349,19 @@ layout(location = 0) in vec3 p_E;
 layout(location = 1) in vec3 p_R_in;
 layout(location = 2) in vec3 n_R_in;
 layout(location = 3) in vec3 half_in;
-layout(location = 4) in vec2 radius_reach;
+layout(location = 4) in vec3 radius_reach_strength;
 out vec3 p_R;
-out float distance_m;
+out float strength;
 flat out vec3 n_R;
 flat out vec3 half_R;
-flat out vec2 radius_and_reach;
+flat out vec2 fall;  // Nearness is the first less the second times the distance from the box.
 void main() {
   p_R = p_R_in;
   n_R = n_R_in;
   half_R = half_in;
-  radius_and_reach = radius_reach;
-  distance_m = length(p_E);
+  fall = vec2(radius_reach_strength.x + radius_reach_strength.y, 1.0) / radius_reach_strength.y;
+  float q = length(p_E) * ray_corner.w;
+  strength = radius_reach_strength.z * exp(-q * q);
   gl_Position = clip_from_E * vec4(p_E, 1.0);
 }
 )";
@@ -339,19 +370,18 @@ void main() {
 // stands on it.
 inline constexpr const char* kOcclusionFragment = R"(
 in vec3 p_R;
-in float distance_m;
+in float strength;
 flat in vec3 n_R;
 flat in vec3 half_R;
-flat in vec2 radius_and_reach;
+flat in vec2 fall;
 out vec4 pixel;
 void main() {
   vec3 out_of_box = p_R - clamp(p_R, -half_R, half_R);
-  float d = length(out_of_box);
-  float nearness = clamp(1.0 - (d - radius_and_reach.x) / radius_and_reach.y, 0.0, 1.0);
-  float above = clamp(-dot(out_of_box, n_R) / max(d, 1e-6), 0.0, 1.0);
-  float q = distance_m * ray_corner.w;
-  float dark = 0.62 * (0.5 + 0.5 * above) * nearness * nearness * exp(-q * q);
-  pixel = vec4(vec3(1.0 - dark), 1.0);
+  float square = max(dot(out_of_box, out_of_box), 1e-12);
+  float inverse = inversesqrt(square);
+  float nearness = clamp(fall.x - fall.y * square * inverse, 0.0, 1.0);
+  float above = clamp(-dot(out_of_box, n_R) * inverse, 0.0, 1.0);
+  pixel = vec4(vec3(1.0 - strength * (0.5 + 0.5 * above) * nearness * nearness), 1.0);
 }
 )";
 

@@ -17,7 +17,7 @@ constexpr int kMaxBevelledFaces = 400;   // A part with more faces is round by i
 
 std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n) {
   const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-  mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}});
+  mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f});
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
@@ -71,6 +71,35 @@ double faceBevel(const ConvexPolyhedron& core, const std::vector<Corner>& corner
     if (taken > 0.0) width = std::min(width, kUsableEdge * core.edge(tail.after).length_m / taken);
   }
   return width;
+}
+
+std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n, const Vec3& bend, double nearness) {
+  const std::uint32_t index = append(mesh, p, n);
+  MeshVertex& vertex = mesh.vertices[index];
+  for (int i = 0; i < 3; ++i) vertex.bend[i] = static_cast<float>(bend[i]);
+  vertex.nearness = static_cast<float>(nearness);
+  return index;
+}
+
+// A triangle from each edge to the middle of the face, across which the nearness of that edge is linear.
+void addShadedFace(TriangleMesh& mesh, const ConvexPolyhedron& core, int f, double bevel_m) {
+  const std::vector<Corner> corners = faceCorners(core, f);
+  const Vec3& n = core.plane(f).normal;
+  Vec3 middle = Vec3::Zero();
+  for (const Corner& c : corners) middle += core.vertex(c.vertex) / static_cast<double>(corners.size());
+  const auto toEdge = [&](const Corner& c) {
+    return core.intoFace(c.after, f).dot(middle - core.vertex(c.vertex));
+  };
+  double width = faceBevel(core, corners, bevel_m);
+  for (const Corner& c : corners) width = std::min(width, toEdge(c));
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner& tail = corners[i];
+    const Edge& edge = core.edge(tail.after);
+    const Vec3 bend = (core.plane(edge.left).normal + core.plane(edge.right).normal).normalized() - n;
+    const std::uint32_t a = append(mesh, core.vertex(tail.vertex), n, bend, 1.0);
+    const std::uint32_t b = append(mesh, core.vertex(corners[(i + 1) % corners.size()].vertex), n, bend, 1.0);
+    addTriangle(mesh, a, b, append(mesh, middle, n, bend, 1.0 - toEdge(tail) / width));
+  }
 }
 
 // Builds the bevelled surface of one polyhedral part: shrunken faces, two strips an edge that meet in a ridge
@@ -201,10 +230,12 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
   const ConvexPolyhedron& core = part.core;
   if (core.faceCount() == 0)
     addRoundPart(mesh, core.vertex(0), core.vertex(core.vertexCount() - 1), part.radius_m, detail.segments);
-  else if (detail.bevel_m > 0.0 && core.faceCount() <= kMaxBevelledFaces)
+  else if (detail.edges == Edges::kSharp || core.faceCount() > kMaxBevelledFaces)
+    addSharpPart(mesh, core);
+  else if (detail.edges == Edges::kBevelled)
     BevelledPart(mesh, core, detail.bevel_m);
   else
-    addSharpPart(mesh, core);
+    for (int f = 0; f < core.faceCount(); ++f) addShadedFace(mesh, core, f, detail.bevel_m);
 }
 
 }  // namespace

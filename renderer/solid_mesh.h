@@ -1,8 +1,9 @@
 #pragma once
-// Triangles of a solid. Flat faces keep flat normals; edges and vertices become narrow bands and patches
-// whose normals turn from face to face, so that they catch the light. The band recedes from the sharp edge by
-// less than a hundredth of the solid's width: what touches in the simulation touches in the picture. Balls
-// and capsules are smooth. Tested in tests/renderer/solid_mesh_test.cpp.
+// Triangles of a solid. Flat faces keep flat normals; along edges they turn from face to face, so that edges
+// catch the light: seen from near in narrow bands and patches that recede from the sharp edge by less than a
+// hundredth of the solid's width (what touches in the simulation touches in the picture), from farther away
+// on sharp faces, pixel by pixel. Balls and capsules are smooth. Tested in
+// tests/renderer/solid_mesh_test.cpp.
 
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,8 @@ namespace carom::renderer {
 struct MeshVertex {
   float position[3];  ///< Body frame, metres.
   float normal[3];    ///< Unit, outwards.
+  float bend[3];      ///< What is added to the normal at the edge, before it is made a unit again.
+  float nearness;     ///< How much of it a pixel adds: 1 at the edge, 0 or less from a bevel's width on.
 };
 
 struct TriangleMesh {
@@ -21,10 +24,17 @@ struct TriangleMesh {
   std::vector<std::uint32_t> indices;  ///< Three a triangle, counter-clockwise seen from outside.
 };
 
+/// How an edge between flat faces looks.
+enum class Edges {
+  kSharp,
+  kShaded,    ///< A bevel in its normals, on the sharp face: a quarter of the triangles.
+  kBevelled,  ///< A bevel of its own triangles, rounded on the outline too.
+};
+
 struct MeshDetail {
-  double bevel_m =
-      0.0;  ///< Width of the rounded band on either side of an edge; less where faces are small. 0: none.
-  int segments = 32;  ///< Around a ball or capsule; even.
+  Edges edges = Edges::kSharp;
+  double bevel_m = 0.0;  ///< Width of the bevel on either side of an edge; less where faces are small.
+  int segments = 32;     ///< Around a ball or capsule; even.
 };
 
 /// All parts of the solid in one mesh, in the solid's frame.

@@ -111,7 +111,8 @@ void expectStillPoseOf(const Exported& file, std::size_t body) {
 void expectTrianglesOf(const Exported& file, std::size_t body) {
   ASSERT_EQ(file.node(body).mNumMeshes, 1u) << file.made.names[body];
   const aiMesh& mesh = *file.read->mMeshes[file.node(body).mMeshes[0]];
-  const renderer::TriangleMesh built = renderer::buildMesh(file.solid(body), {0.0, 48});
+  const renderer::TriangleMesh built =
+      renderer::buildMesh(file.solid(body), {renderer::Edges::kSharp, 0.0, 48});
   ASSERT_EQ(mesh.mNumVertices, built.vertices.size());
   ASSERT_EQ(mesh.mNumFaces, built.indices.size() / 3);
   double volume = 0.0;

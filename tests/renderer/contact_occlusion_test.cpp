@@ -1,5 +1,6 @@
 #include "renderer/contact_occlusion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,33 @@ TEST(ContactOcclusion, DistantAndHiddenNeighboursChangeNothing) {
   high.add(Solid::box(Vec3(20.0, 20.0, 1.0)), at(0, 0, -0.5), true);
   high.add(Solid::ball(0.5), at(0, 0, 5.0));
   EXPECT_TRUE(high.occlusion().empty());
+}
+
+TEST(ContactOcclusion, BetweenBodiesThatDoNotTouchItFadesAwayWithDistance) {
+  float last = 1.0f;
+  bool seen_faded = false;
+  for (double away = 10.0; away < 500.0; away *= 1.2) {
+    Stage stage;
+    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 0.5));
+    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 1.6));
+    float strength = 0.0f;
+    for (const OcclusionVertex& v : stage.occlusion()) strength = std::max(strength, v.strength);
+    Stage touching;
+    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 0.5));
+    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 1.501));
+    for (const OcclusionVertex& v : touching.occlusion()) EXPECT_GT(v.strength, 0.6f);
+    EXPECT_EQ(touching.occlusion().empty(), away > 430.0);  // A reach of 1.5 pixels.
+    EXPECT_LE(strength, last) << away;
+    seen_faded = seen_faded || (strength > 0.0f && strength < 0.5f);
+    last = strength;
+    Stage on_ground;
+    on_ground.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5), true);
+    on_ground.add(Solid::ball(0.5), at(0.0, away, 0.5));
+    EXPECT_FALSE(on_ground.occlusion().empty());
+    for (const OcclusionVertex& v : on_ground.occlusion()) EXPECT_GT(v.strength, 0.6f);
+  }
+  EXPECT_EQ(last, 0.0f);
+  EXPECT_TRUE(seen_faded);
 }
 
 TEST(ContactOcclusion, NeitherTheOrderOfBodiesNorTheirSideMatters) {

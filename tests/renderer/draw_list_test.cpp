@@ -1,5 +1,8 @@
 #include "renderer/draw_list.h"
 
+#include <cstdint>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace carom::renderer {
@@ -18,8 +21,9 @@ class DrawListTest : public testing::Test {
       : context_(createOffscreenContext(PixelPolicy::kFast)),
         geometry_(context_->gl(), std::vector<Solid>{Solid::box(Vec3(40.0, 40.0, 1.0)), Solid::ball(0.5),
                                                      Solid::box(Vec3(1.0, 1.0, 1.0))}) {}
-  DrawList list(const std::vector<Instance>& instances) const {
-    return buildDrawList(instances, kCamera, Settings{}, geometry_);
+  DrawList list(const std::vector<Instance>& instances, std::vector<std::uint8_t> lone = {}) const {
+    lone.resize(instances.size(), 0);
+    return buildDrawList(instances, kCamera, Settings{}, geometry_, lone);
   }
   static int count(const std::vector<DrawGroup>& groups) {
     int sum = 0;
@@ -52,8 +56,40 @@ TEST_F(DrawListTest, NearAndFarEncloseEveryVisibleBody) {
   const Vec3 near = kCamera.eye + 1.2 * axes.forward, far = kCamera.eye + 1e6 * axes.forward;
   const DrawList drawn = list({{kBall, {Quat::Identity(), near}, {}}, {kBall, {Quat::Identity(), far}, {}}});
   EXPECT_LT(drawn.depth.near_m, 0.7);
-  EXPECT_GT(drawn.depth.near_m, 0.3);
+  EXPECT_GT(drawn.depth.near_m, 0.2);
   EXPECT_GT(drawn.depth.far_m, 1e6 + 0.5);
+}
+
+TEST_F(DrawListTest, TheDepthsStayTheSameWhileTheNearestBodyMovesALittle) {
+  const CameraAxes axes = cameraAxes(kCamera);
+  int changes = 0;
+  double last = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 p = kCamera.eye + (2.0 + 0.01 * i) * axes.forward;
+    const double near_m = list({{kBall, {Quat::Identity(), p}, {}}}).depth.near_m;
+    EXPECT_LT(near_m, 1.5 + 0.01 * i);
+    if (near_m != last) ++changes;
+    last = near_m;
+  }
+  EXPECT_LE(changes, 3);
+}
+
+TEST_F(DrawListTest, LoneBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
+  const DrawList drawn = list({{kBox, at(0, 0, 0.5), {}},
+                               {kBox, at(1.5, 0, 0.5), {}},
+                               {kBox, at(-1.5, 0, 0.5), {}, true},
+                               {kFloor, at(0, 0, -0.5), {}, true}},
+                              {1, 0, 1, 1});
+  ASSERT_EQ(drawn.visible.size(), 3u);
+  for (const DrawGroup& group : drawn.visible) {
+    ASSERT_EQ(group.count, 1);
+    const float x =
+        drawn.records[static_cast<std::size_t>(group.first)].rows[0][3] + static_cast<float>(kCamera.eye.x());
+    const BodyShader expected = x < -1.0f  ? BodyShader::kChecker
+                                : x < 1.0f ? BodyShader::kSunlit
+                                           : BodyShader::kShadowed;
+    EXPECT_EQ(group.shader, expected) << x;
+  }
 }
 
 TEST_F(DrawListTest, TheLowestLevelCheckerIsTheGround) {

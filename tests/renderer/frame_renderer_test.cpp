@@ -197,6 +197,30 @@ TEST_F(Frame, TheSameFrameTwiceIsTheSameBytesWhateverWasDrawnBetween) {
   EXPECT_EQ(fresh.draw(scene, kCamera).rgb, first.rgb);
 }
 
+// Sky and ground are kept while the camera stands still.
+TEST_F(Frame, AKeptBackgroundIsTheOneThatANewRendererDraws) {
+  const std::vector<Instance> before = {ground(), {kBall, at(0.6, 0.3, 1.4), kRed}};
+  const std::vector<Instance> after = {
+      ground(), {kBall, at(-0.6, 0.4, 1.0), kRed}, {kBox, at(1.0, 1.0, 0.5), kBlue}};
+  const std::vector<Instance> lower = {{kGround, at(0.0, 0.0, -0.6), {}, true}};
+  const std::vector<Instance> none = {{kBall, at(0.6, 0.3, 1.4), kRed}};
+  for (const std::vector<Instance>& next : {after, lower, none}) {
+    draw(before);
+    FrameRenderer fresh(Settings{kWidth, kHeight}, solids());
+    EXPECT_EQ(draw(next).rgb, fresh.draw(next, kCamera).rgb);
+  }
+}
+
+TEST_F(Frame, AShadowFallsOnABodyUnderAnother) {
+  const Vec3 top(0.0, 0.0, 1.0);
+  const auto light = Vec3(0.50, -0.50, 0.85).normalized();
+  const Vec3 above = top + 1.5 * light;
+  const Image shaded =
+      draw({ground(), {kBox, at(0, 0, 0.5), kRed}, {kBall, {Quat::Identity(), above}, kBlue}});
+  const Image open = draw({ground(), {kBox, at(0, 0, 0.5), kRed}, {kBall, at(-3.0, 4.0, 0.5), kBlue}});
+  EXPECT_LT(seenAt(shaded, top).sum(), 0.85 * seenAt(open, top).sum());
+}
+
 TEST_F(Frame, AnotherThreadDrawsTheSameBytes) {
   const std::vector<Instance> scene = {ground(), {kBox, at(0.2, 0.0, 0.5), kRed}};
   const Image here = draw(scene);

@@ -56,7 +56,7 @@ TEST(SolidMesh, SharpMeshesHaveTheSolidsVolume) {
   std::mt19937 random(5);
   for (const int points : {4, 6, 12, 60}) {
     const Solid solid = randomHull(random, points);
-    const TriangleMesh mesh = buildMesh(solid, {0.0, 16});
+    const TriangleMesh mesh = buildMesh(solid, {Edges::kSharp, 0.0, 16});
     EXPECT_NEAR(volume(mesh) / solid.volume(), 1.0, 1e-5) << points;
     EXPECT_TRUE(closed(mesh)) << points;
   }
@@ -67,7 +67,7 @@ TEST(SolidMesh, BevelledMeshesAreClosedAndStayJustInsideTheSolid) {
   for (int i = 0; i < 30; ++i) {
     const Solid solid = randomHull(random, 4 + i);
     const double bevel = bevelWidth(solid, 1e9);
-    const TriangleMesh mesh = buildMesh(solid, {bevel, 16});
+    const TriangleMesh mesh = buildMesh(solid, {Edges::kBevelled, bevel, 16});
     EXPECT_TRUE(closed(mesh)) << i;
     EXPECT_LT(volume(mesh), solid.volume()) << i;
     EXPECT_GT(volume(mesh), 0.98 * solid.volume()) << i;
@@ -81,7 +81,7 @@ TEST(SolidMesh, BevelledMeshesAreClosedAndStayJustInsideTheSolid) {
 TEST(SolidMesh, VerticesOfABoxRecedeByLessThanAHundredthOfItsWidth) {
   const Solid box = Solid::box(Vec3(2.0, 2.0, 2.0));
   double farthest = 0.0;
-  for (const MeshVertex& v : buildMesh(box, {bevelWidth(box, 1e9), 16}).vertices)
+  for (const MeshVertex& v : buildMesh(box, {Edges::kBevelled, bevelWidth(box, 1e9), 16}).vertices)
     farthest = std::max<double>(farthest, std::hypot(v.position[0], v.position[1], v.position[2]));
   EXPECT_LT(farthest, std::sqrt(3.0));
   EXPECT_GT(farthest, std::sqrt(3.0) - 0.02);
@@ -90,17 +90,52 @@ TEST(SolidMesh, VerticesOfABoxRecedeByLessThanAHundredthOfItsWidth) {
 TEST(SolidMesh, NormalsAreUnitAndFlatFacesKeepTheirs) {
   const Solid box = Solid::box(Vec3(1.0, 2.0, 3.0));
   int flat = 0;
-  for (const MeshVertex& v : buildMesh(box, {0.05, 16}).vertices) {
+  for (const MeshVertex& v : buildMesh(box, {Edges::kBevelled, 0.05, 16}).vertices) {
     EXPECT_NEAR(std::hypot(v.normal[0], v.normal[1], v.normal[2]), 1.0, 1e-6);
     if (std::max({std::abs(v.normal[0]), std::abs(v.normal[1]), std::abs(v.normal[2])}) > 0.999999f) ++flat;
   }
   EXPECT_EQ(flat, 24);
 }
 
+// Nearness is 1 on the edge that a triangle belongs to, and 0 at a bevel's width from it in its face.
+TEST(SolidMesh, ShadedEdgesAreSharpAndTurnToTheMeanNormalOfTheirFaces) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 30; ++i) {
+    const Solid solid = randomHull(random, 4 + i);
+    const double bevel = 1e-3 * solid.radius();
+    const TriangleMesh mesh = buildMesh(solid, {Edges::kShaded, bevel, 16});
+    EXPECT_TRUE(closed(mesh)) << i;
+    EXPECT_NEAR(volume(mesh) / solid.volume(), 1.0, 1e-5) << i;
+    const auto vector = [](const float(&v)[3]) { return Vec3(v[0], v[1], v[2]); };
+    for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
+      const MeshVertex &a = mesh.vertices[mesh.indices[k]], &middle = mesh.vertices[mesh.indices[k + 2]];
+      ASSERT_FLOAT_EQ(a.nearness, 1.0f);
+      ASSERT_FLOAT_EQ(mesh.vertices[mesh.indices[k + 1]].nearness, 1.0f);
+      const Vec3 along = (position(mesh, k + 1) - position(mesh, k)).normalized();
+      const Vec3 across = position(mesh, k + 2) - position(mesh, k);
+      const double height = (across - across.dot(along) * along).norm();
+      EXPECT_NEAR(1.0 - height / (1.0 - middle.nearness) / bevel, 0.0, height < 2.0 * bevel ? 1.0 : 1e-3);
+      const Vec3 n = vector(a.normal), bent = n + vector(a.bend);
+      EXPECT_NEAR(bent.norm(), 1.0, 1e-6);
+      EXPECT_NEAR(bent.dot(along), 0.0, 1e-5);
+      int faces = 0;  // The two that meet in the edge, to which the bent normal leans alike.
+      for (int f = 0; f < solid.parts()[0].core.faceCount(); ++f) {
+        const Plane& plane = solid.parts()[0].core.plane(f);
+        if (std::abs(plane.signedDistance(position(mesh, k))) > 1e-6 * solid.radius() ||
+            std::abs(plane.signedDistance(position(mesh, k + 1))) > 1e-6 * solid.radius())
+          continue;
+        ++faces;
+        EXPECT_NEAR(plane.normal.dot(bent), n.dot(bent), 1e-5);
+      }
+      EXPECT_EQ(faces, 2);
+    }
+  }
+}
+
 TEST(SolidMesh, BallsAndCapsulesAreClosedWithTheVolumeOfTheRealOnes) {
   const double pi = std::numbers::pi;
-  const TriangleMesh ball = buildMesh(Solid::ball(0.7), {0.0, 64});
-  const TriangleMesh capsule = buildMesh(Solid::capsule(0.3, 0.8), {0.0, 64});
+  const TriangleMesh ball = buildMesh(Solid::ball(0.7), {Edges::kSharp, 0.0, 64});
+  const TriangleMesh capsule = buildMesh(Solid::capsule(0.3, 0.8), {Edges::kSharp, 0.0, 64});
   EXPECT_TRUE(closed(ball));
   EXPECT_TRUE(closed(capsule));
   EXPECT_NEAR(volume(ball) / (4.0 / 3.0 * pi * 0.343), 1.0, 0.005);

@@ -1,0 +1,96 @@
+#include "renderer/shadow_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::renderer {
+namespace {
+
+// Texels around a caster within which a look-up may meet it: the tent of the filter reaches two, the lift
+// above a grazed surface two more.
+constexpr double kLookUpReach = 5.0;
+constexpr double kOverlap = 0.02;  // Of a cell.
+
+}  // namespace
+
+ShadowCells::ShadowCells(const ShadowView& view, std::span<const ShadowCaster> casters_given) : view_(view) {
+  if (view_.texel_m == 0.0) {
+    blocks_.resize(casters_given.size());
+    return;
+  }
+  for (const ShadowCaster& caster : casters_given) {
+    const Block& block = blocks_.emplace_back(blockOf(caster));
+    for (int y = block.y_begin; y < block.y_end; ++y)
+      for (int x = block.x_begin; x < block.x_end; ++x)
+        casters(x, y) = static_cast<std::uint16_t>(std::min(casters(x, y) + 1, 2));
+  }
+}
+
+// The cells that the caster's bounds on the map touch.
+ShadowCells::Block ShadowCells::blockOf(const ShadowCaster& caster) const {
+  int begin[2], end[2];
+  for (int i = 0; i < 2; ++i) {
+    const Vec3 axis = view_.rows.block<1, 3>(i, 0).transpose();
+    const double middle = axis.dot(caster.X_EB.position) + view_.rows(i, 3);
+    const double half = (caster.X_EB.rotation.conjugate() * axis).cwiseAbs().dot(caster.half) +
+                        kLookUpReach * view_.texel_m * axis.norm();
+    const auto cell = [](double t) { return static_cast<int>(std::floor(std::clamp(t, -1.0, 2.0) * kSide)); };
+    begin[i] = std::clamp(cell(middle - half), 0, kSide);
+    end[i] = std::clamp(cell(middle + half) + 1, 0, kSide);
+  }
+  return {begin[0], end[0], begin[1], end[1]};
+}
+
+bool ShadowCells::alone(std::size_t caster) const {
+  const Block& block = blocks_[caster];
+  for (int y = block.y_begin; y < block.y_end; ++y)
+    for (int x = block.x_begin; x < block.x_end; ++x)
+      if (casters(x, y) > 1) return false;
+  return true;
+}
+
+// Runs of cells with casters along the rows, joined with the same run of the row before.
+std::vector<ShadowCells::Block> ShadowCells::coveredBlocks() const {
+  std::vector<Block> blocks;
+  std::size_t before = 0;  // Where those begin that end at this row.
+  for (int y = 0; y < kSide; ++y) {
+    const std::size_t row = blocks.size();
+    std::vector<Block> runs;
+    for (int x = 0; x < kSide; ++x) {
+      if (casters(x, y) == 0) continue;
+      if (runs.empty() || runs.back().x_end != x) runs.push_back({x, x, y, y + 1});
+      runs.back().x_end = x + 1;
+    }
+    for (Block& run : runs)
+      for (std::size_t i = before; i < row; ++i)
+        if (blocks[i].y_end == y && blocks[i].x_begin == run.x_begin && blocks[i].x_end == run.x_end) {
+          run.y_begin = blocks[i].y_begin;
+          blocks[i].y_end = blocks[i].y_begin;  // Empty: the joined one stands for it.
+        }
+    before = row;
+    blocks.insert(blocks.end(), runs.begin(), runs.end());
+  }
+  std::erase_if(blocks, [](const Block& b) { return b.y_end == b.y_begin; });
+  return blocks;
+}
+
+std::vector<std::array<float, 2>> ShadowCells::groundTriangles(double ground_z_E, double reach_m) const {
+  std::vector<std::array<float, 2>> triangles;
+  if (view_.texel_m == 0.0) return triangles;
+  const std::array<Vec2, 4> map = coveredGround(view_, ground_z_E);
+  const auto corner = [&](double x, double y) {
+    return Vec2(map[0] + (x / kSide) * (map[1] - map[0]) + (y / kSide) * (map[3] - map[0]));
+  };
+  for (const Block& block : coveredBlocks()) {
+    const double left = block.x_begin - kOverlap, right = block.x_end + kOverlap;
+    const double low = block.y_begin - kOverlap, high = block.y_end + kOverlap;
+    const std::array<Vec2, 4> at = {corner(left, low), corner(right, low), corner(right, high),
+                                    corner(left, high)};
+    if (!std::all_of(at.begin(), at.end(), [&](const Vec2& p) { return p.norm() < reach_m; })) continue;
+    for (const std::size_t i : {0u, 1u, 2u, 0u, 2u, 3u})
+      triangles.push_back({static_cast<float>(at[i].x()), static_cast<float>(at[i].y())});
+  }
+  return triangles;
+}
+
+}  // namespace carom::renderer
