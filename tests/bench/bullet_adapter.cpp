@@ -1,5 +1,5 @@
 // Bullet: convex hull shapes without margin, GJK with EPA for the depth. Built in double precision where the
-// package has it. Only this file and bullet_pile.cpp name Bullet.
+// package has it. Only the bullet_*.cpp of this folder name Bullet.
 
 #include <cmath>
 

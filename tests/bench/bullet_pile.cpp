@@ -1,5 +1,5 @@
 // Bullet's step of a heap: its discrete world with default settings, one step a call, nothing deactivated.
-// Only this file and bullet_adapter.cpp name Bullet.
+// Only the bullet_*.cpp of this folder name Bullet.
 
 #include <btBulletDynamicsCommon.h>
 

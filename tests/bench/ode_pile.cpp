@@ -1,5 +1,5 @@
 // ODE's step of a heap: hash space, up to eight contacts a pair, quick step with its default iterations,
-// nothing disabled. Only this file and ode_adapter.cpp name ODE.
+// nothing disabled. Only the ode_*.cpp of this folder name ODE.
 
 #include <ode/ode.h>
 

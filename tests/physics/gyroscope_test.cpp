@@ -2,26 +2,11 @@
 // energy are kept, and the time between two flips is the closed form of Euler's equations (Landau, Lifshitz:
 // Mechanics, §37): half the period 4 K(k) / rate of the Jacobi elliptic functions.
 
+#include "tests/physics/experiments/gyroscope.h"
 #include "tests/physics/small_world.h"
 
 namespace carom::physics {
 namespace {
-
-struct Top {
-  Vec3 moments;  ///< Rising.
-  double energy = 0.0;
-  double momentum_squared = 0.0;
-};
-
-// Where L^2 < 2 E I2 the axes of the least and largest moment change places.
-double closedFormFlipPeriod(const Top& top) {
-  double low = top.moments[0], high = top.moments[2];
-  const double middle = top.moments[1];
-  if (top.momentum_squared < 2.0 * top.energy * middle) std::swap(low, high);
-  const double slow = (high - middle) * (top.momentum_squared - 2.0 * top.energy * low);
-  const double fast = (middle - low) * (2.0 * top.energy * high - top.momentum_squared);
-  return 2.0 * std::comp_ellint_1(std::sqrt(fast / slow)) * std::sqrt(low * middle * high / slow);
-}
 
 // A box of sides a > b > c: x has the least moment, z the largest, so y is the middle axis.
 constexpr double kSides[3] = {0.9, 0.6, 0.2};

@@ -11,10 +11,9 @@
 #include "engine/foundation/tolerances.h"
 #include "engine/simulation/world.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/physics/experiments/experiment.h"
 
 namespace carom::physics {
-
-inline constexpr double kGravity = 9.81;
 
 struct Placement {
   Solid solid = Solid::box(Vec3::Ones());
@@ -28,10 +27,6 @@ struct Placement {
 /// Equal static and dynamic friction.
 inline Material rubbing(double friction, double restitution = 0.0) {
   return {friction, friction, restitution, 1000.0};
-}
-
-inline double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
 }
 
 class SmallWorld {
@@ -76,10 +71,6 @@ class SmallWorld {
   World world_;
 };
 
-/// The gap at which a part of this width is held over a large one.
-inline double restGap(double width_m) {
-  return tolerance::kRestGap * std::min(width_m, tolerance::kWindowLargestScale);
-}
 /// The widest gap at which such a part can be struck.
 inline double windowCeiling(double width_m) {
   return tolerance::kWindowCeiling * std::min(width_m, tolerance::kWindowLargestScale);
