@@ -1,5 +1,6 @@
 // ODE: convex geoms and dCollide. It tells touching from apart and gives contacts with depths; of parts that
-// are apart it gives no distance, so it does less than the others. Only the ode_*.cpp of this folder name ODE.
+// are apart it gives no distance, so it does less than the others. Only the ode_*.cpp of this folder name
+// ODE.
 
 #include <algorithm>
 #include <cmath>
