@@ -235,7 +235,8 @@ TEST_F(Failures, ASignalEndsEveryLongCommandWith128MoreAndLeavesNothingPartial) 
     for (const int number : {SIGINT, SIGTERM}) {
       SCOPED_TRACE(words[0]);
       const Program program(words);
-      std::this_thread::sleep_for(std::chrono::milliseconds(400));
+      program.awaitHandler(number);
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
       program.signal(number);
       expectOneLine(program.wait(), 128 + number, "interrupted");
       EXPECT_TRUE(fs::is_empty(program.folder()));

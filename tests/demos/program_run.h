@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -43,6 +44,18 @@ class Program {
 
   const std::filesystem::path& folder() const { return folder_.path(); }
   void signal(int number) const { kill(child_, number); }
+  /// Returns once the program catches that signal, however slowly it starts; throws after a minute without.
+  void awaitHandler(int number) const {
+    const std::string status = "/proc/" + std::to_string(child_) + "/status";
+    for (int turn = 0; turn < 6000; ++turn) {
+      std::ifstream lines(status);
+      for (std::string word; lines >> word;)
+        if (word == "SigCgt:" && lines >> word && (std::stoull(word, nullptr, 16) >> (number - 1) & 1u) != 0)
+          return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    throw std::runtime_error("the program does not catch the signal");
+  }
   pid_t id() const { return child_; }
 
   ProgramEnd wait() const {
