@@ -25,6 +25,8 @@ BudgetSubject readSubject(const Json& json) {
   s.fps = json.at("fps").asNumber();
   s.frames = count(json.at("frames"));
   s.camera = json.at("camera").asString();
+  const Json* preset = json.find("preset");  // older files name none
+  s.preset = preset != nullptr ? preset->asString() : "realtime";
   s.machine = json.at("machine").asString();
   s.renderer = json.at("renderer").asString();
   s.build = json.at("build").asString();
@@ -101,6 +103,7 @@ void requireSameSubject(const Baseline& baseline, const BudgetSubject& subject) 
   require("size", size(was), size(subject));
   require("length", length(was), length(subject));
   require("camera", was.camera, subject.camera);
+  require("preset", was.preset, subject.preset);
   require("machine", was.machine, subject.machine);
   require("renderer", was.renderer, subject.renderer);
   require("build", was.build, subject.build);

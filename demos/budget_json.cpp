@@ -32,6 +32,7 @@ Json subjectJson(const BudgetSubject& s) {
                        {"fps", s.fps},
                        {"frames", s.frames},
                        {"camera", s.camera},
+                       {"preset", s.preset},
                        {"machine", s.machine},
                        {"renderer", s.renderer},
                        {"build", s.build}});

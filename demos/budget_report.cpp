@@ -25,9 +25,9 @@ constexpr std::size_t kSlowest = 5;
 
 std::string headText(const BudgetResult& result) {
   const BudgetSubject& s = result.subject;
-  std::string text = format("%s: %d frames at %g fps, %dx%d, %zu replays, all ending in state %s\n",
-                            s.scene.c_str(), s.frames, s.fps, s.width, s.height, result.replays.size(),
-                            hexText(result.least.back().state_hash).c_str());
+  std::string text = format("%s: %d frames at %g fps, %dx%d, %s, %zu replays, all ending in state %s\n",
+                            s.scene.c_str(), s.frames, s.fps, s.width, s.height, s.preset.c_str(),
+                            result.replays.size(), hexText(result.least.back().state_hash).c_str());
   text += s.machine + "; " + s.renderer + "; " + s.build;
   if (result.outside_load) text += format("; others used %.0f %% of the CPU", 100.0 * *result.outside_load);
   return text + "\n";

@@ -20,6 +20,7 @@ struct BudgetSubject {
   double fps = 0.0;
   int frames = 0;
   std::string camera;
+  std::string preset;
   std::string machine;   ///< CPU and cores.
   std::string renderer;  ///< What draws.
   std::string build;

@@ -136,6 +136,7 @@ struct BudgetOptions {
   int width = 1280;
   int height = 720;
   std::string camera;
+  std::string preset = "realtime";
   std::string json;  ///< A file, "-" for standard output, or empty; so is `csv`.
   std::string csv;
   std::filesystem::path trace;

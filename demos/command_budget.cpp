@@ -41,6 +41,7 @@ BudgetSubject subjectOf(const BudgetOptions& options, const Scene& scene, const 
   subject.fps = options.fps;
   subject.frames = frames;
   subject.camera = camera;
+  subject.preset = options.preset;
   subject.machine = machineName();
   subject.build = buildName();
   return subject;
@@ -93,6 +94,7 @@ ExitCode budget(const BudgetOptions& options) {
   const SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
   renderer::Settings settings{.width = options.width, .height = options.height};
   settings.backend = renderer::backendOf(options.gl);
+  settings.preset = renderer::presetOf(options.preset);
   renderer::FrameRenderer pictures(settings, made.world.solids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   if (baseline) requireSameSubject(*baseline, subject);

@@ -93,6 +93,12 @@ CLI::Option* addGlOption(CLI::App& command, std::string& gl) {
       ->check(CLI::IsMember(renderer::backendNames()));
 }
 
+void addPresetOption(CLI::App& command, std::string& preset) {
+  command.add_option("--preset", preset, "How much a frame may cost")
+      ->check(CLI::IsMember(renderer::presetNames()))
+      ->capture_default_str();
+}
+
 void addTrajectoryOptions(CLI::App& command, TrajectoryPaths& paths) {
   command.add_option("--csv", paths.csv, "One row a body and frame: poses, velocities, modes");
   command.add_option("--npy", paths.npy, "A folder of NumPy arrays: times, poses, velocities, modes, names");
@@ -208,9 +214,7 @@ void CommandLine::addRender() {
 void CommandLine::addLookOptions() {
   RenderOptions& options = render_options;
   CLI::App& render = *render_command;
-  render.add_option("--preset", options.preset, "How much a frame may cost")
-      ->check(CLI::IsMember(renderer::presetNames()))
-      ->capture_default_str();
+  addPresetOption(render, options.preset);
   render.add_option("--style", options.style, "print: white background and ground, for paper")
       ->check(CLI::IsMember(renderer::styleNames()))
       ->capture_default_str();
@@ -367,6 +371,7 @@ void CommandLine::addBudget() {
   budget_command->add_option("--size", budget_size, "WIDTHxHEIGHT in pixels (1280x720)");
   addGlOption(*budget_command, options.gl)->capture_default_str();
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
+  addPresetOption(*budget_command, options.preset);
   budget_command->add_option("--json", options.json,
                              "All figures as JSON, to a file or - for standard output");
   budget_command->add_option("--csv", options.csv, "One row a frame, to a file or - for standard output");

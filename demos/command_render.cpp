@@ -58,14 +58,6 @@ struct Plan {
   std::vector<int> frames;  ///< Those chosen.
 };
 
-/// The place of a word that the command line has checked.
-template <typename Enumeration>
-Enumeration chosen(const std::string& word, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), word);
-  REQUIRE(found != names.end(), word);
-  return static_cast<Enumeration>(found - names.begin());
-}
-
 Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
   SceneChoice choice = options.choice;
   if (recording) choice = recordedChoice({options.from, recording->header()}, choice, "render SCENE --from");
@@ -79,8 +71,8 @@ Plan planned(const RenderOptions& options, const std::optional<RecordingReader>&
   Plan plan{.choice = choice,
             .scene = scene,
             .camera = chosenCamera(scene, options.camera),
-            .preset = chosen<renderer::Preset>(options.preset, renderer::presetNames()),
-            .style = chosen<renderer::Style>(options.style, renderer::styleNames()),
+            .preset = renderer::presetOf(options.preset),
+            .style = renderer::styleOf(options.style),
             .outputs = readOutputs(options.aov),
             .clock = clock,
             .fps = recording ? scene_fps * options.speed : options.fps,

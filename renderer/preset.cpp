@@ -1,8 +1,10 @@
 #include "renderer/preset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
+#include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
 
 namespace carom::renderer {
@@ -24,6 +26,12 @@ Vec2 onDisc(int i, int count) {
   return {radius * turn.cosine, radius * turn.sine};
 }
 
+std::ptrdiff_t placeOf(const std::string& name, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  REQUIRE(found != names.end(), name);
+  return found - names.begin();
+}
+
 }  // namespace
 
 const std::vector<std::string>& presetNames() {
@@ -42,6 +50,14 @@ const std::string& nameOf(Preset preset) {
 
 const std::string& nameOf(Style style) {
   return styleNames()[static_cast<std::size_t>(style)];
+}
+
+Preset presetOf(const std::string& name) {
+  return static_cast<Preset>(placeOf(name, presetNames()));
+}
+
+Style styleOf(const std::string& name) {
+  return static_cast<Style>(placeOf(name, styleNames()));
 }
 
 Quality qualityOf(Preset preset, Style style) {

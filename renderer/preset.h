@@ -27,6 +27,9 @@ const std::vector<std::string>& presetNames();
 const std::vector<std::string>& styleNames();
 const std::string& nameOf(Preset preset);
 const std::string& nameOf(Style style);
+/// The one of that name, which must be one of them.
+Preset presetOf(const std::string& name);
+Style styleOf(const std::string& name);
 
 /// What a preset means.
 struct Quality {

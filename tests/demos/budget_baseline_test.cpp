@@ -94,6 +94,7 @@ TEST(BudgetBaseline, AnotherSceneSizeLengthMachineOrBuildIsRefusedByName) {
       {"length: 120 frames at 60 fps, not 121 frames at 60 fps;", [](BudgetSubject& s) { s.frames += 1; }},
       {"length: 120 frames at 60 fps, not 120 frames at 30 fps;", [](BudgetSubject& s) { s.fps = 30.0; }},
       {"camera: main, not top;", [](BudgetSubject& s) { s.camera = "top"; }},
+      {"preset: realtime, not fast;", [](BudgetSubject& s) { s.preset = "fast"; }},
       {"machine: a CPU, 2 cores, not a CPU, 4 cores;",
        [](BudgetSubject& s) { s.machine = "a CPU, 4 cores"; }},
       {"renderer: a renderer, not softpipe;", [](BudgetSubject& s) { s.renderer = "softpipe"; }},

@@ -62,7 +62,8 @@ TEST(Budget, AGenerousBudgetEndsWith0AndTheReportEndsWithTheVerdict) {
   EXPECT_EQ(end.code, 0) << end.err;
   EXPECT_EQ(end.err, "");
   EXPECT_NE(end.out.find("\nwithin: p50 "), std::string::npos) << end.out;
-  EXPECT_EQ(end.out.rfind("bouncing-ball: 20 frames at 60 fps, 64x48, 2 replays", 0), 0u) << end.out;
+  EXPECT_EQ(end.out.rfind("bouncing-ball: 20 frames at 60 fps, 64x48, realtime, 2 replays", 0), 0u)
+      << end.out;
 }
 
 TEST(Budget, ABudgetThatNothingCouldKeepEndsWith1) {
@@ -120,12 +121,14 @@ TEST(Budget, WrongValuesEndWith2InOneLine) {
 }
 
 TEST(Budget, JsonCsvAndTraceAreWholeAndSayTheSame) {
-  const Program program(quick({"--budget", "100000", "--json", "-", "--csv", "f.csv", "--trace", "t.json"}));
+  const Program program(quick(
+      {"--budget", "100000", "--preset", "fast", "--json", "-", "--csv", "f.csv", "--trace", "t.json"}));
   const ProgramEnd end = program.wait();
   ASSERT_EQ(end.code, 0) << end.err;
   const Json json = Json::parse(end.out, "stdout");
   EXPECT_EQ(json.at("verdict").asString(), "within");
   EXPECT_EQ(json.at("subject").at("frames").asNumber(), 20.0);
+  EXPECT_EQ(json.at("subject").at("preset").asString(), "fast");
   const std::string csv = readTextFile(program.folder() / "f.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 21);
   EXPECT_NE(csv.find("," + json.at("finalState").asString() + "\n"), std::string::npos);
