@@ -12,8 +12,9 @@ constexpr int kAdvances = 1000;        // proven intervals per search
 constexpr int kProposals = 80;         // tries per interval, each shorter than the last
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
-    1e-10;                            // of the searched interval: less progress than this is standing still
-constexpr double kFloorSlack = 0.02;  // of the floor: a slow approach is stopped this near to it
+    1e-10;                              // of the searched interval: less progress than this is standing still
+constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an impact there has landed
+constexpr double kFloorSlack = 0.02;    // of the floor: a slow approach is stopped this near to it
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
 // derivative is at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
@@ -49,6 +50,15 @@ class Look {
            a_.part->radius_m - b_.part->radius_m;
   }
 
+  // How fast the two vertices that `gapAlong` found last part along n.
+  double supportSpeed(const Vec3& n, double t) const {
+    const auto speedOf = [&](const MovingPart& moving, int vertex) {
+      const Vec3 r = poseOf(moving, t).rotation * moving.part->core.vertex(vertex);
+      return n.dot(Velocity{moving.path->velocityAt(t), moving.path->angularVelocityAt(t)}.at(r));
+    };
+    return speedOf(b_, support_b_) - speedOf(a_, support_a_);
+  }
+
   double curvatureBound(const Vec3& n) const {
     return std::abs(n.dot(b_.path->acceleration - a_.path->acceleration)) +
            a_.path->turningAcceleration() * a_.reach_m + b_.path->turningAcceleration() * b_.reach_m;
@@ -70,14 +80,27 @@ class Look {
                         int& newton_steps) {
     const double curvature = curvatureBound(n);
     // Aim between floor and gap when already low, else at the landing gap.
-    const double aim = std::max(floor + 0.25 * (gap - floor),
-                                std::min(search_.window.landing, floor + 0.75 * (gap - floor)));
+    const double landing = search_.window.landing;
+    const double low = floor + 0.75 * (gap - floor);
+    const double near =
+        search_.lands && gap > (1.0 + kLandingSlack) * landing ? landing : std::min(landing, low);
+    const double aim = std::max(floor + 0.25 * (gap - floor), near);
     double interval = search_.end_s - begin;
     // Far apart for their speeds: clear without a look at the end.
-    if (gap + (slowestSpeed(begin, n) - 0.5 * curvature * interval) * interval >= floor) return interval;
+    const double target = std::min(aim, landing);
+    const double clear = search_.lands ? std::max(floor, target) : floor;
+    if (gap + (slowestSpeed(begin, n) - 0.5 * curvature * interval) * interval >= clear) return interval;
     for (int i = 0; i < kProposals; ++i) {
       const double end_gap = gapAlong(n, begin + interval);
-      if (lowerBound(gap, end_gap, 0.5 * curvature * interval * interval) >= floor) return interval;
+      if (lowerBound(gap, end_gap, 0.5 * curvature * interval * interval) >= floor) {
+        // Safe; but what ends deep in the window and fast has passed its landing.
+        if (!search_.lands || end_gap >= (1.0 - kLandingSlack) * target) return interval;
+        const double end_speed = supportSpeed(n, begin + interval);
+        if (end_speed >= -search_.collision_speed_mps) return interval;
+        ++newton_steps;
+        interval -= std::min(0.5 * interval, (end_gap - target) / end_speed);
+        continue;
+      }
       ++newton_steps;
       double proposal = kLinearShrink * interval;
       if (end_gap < aim)
@@ -120,7 +143,9 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   Look look(a, b, search);
   const double gap = found.closest.distance_m;
   const double speed = look.separatingSpeedAt(found.time_s, found.closest);
-  if (gap <= search.window.ceiling && speed < -search.collision_speed_mps) {
+  const bool fast = speed < -search.collision_speed_mps;
+  const double highest = search.lands ? (1.0 + kLandingSlack) * search.window.landing : search.window.ceiling;
+  if (fast && gap <= highest) {
     found.outcome = TimeOfImpact::Outcome::kImpact;
     return;
   }
@@ -132,7 +157,10 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   if ((speed < 0.0 && gap < (1.0 + kFloorSlack) * found.floor) || found.looks > kAdvances) return;
   const double interval =
       look.provenInterval(found.time_s, gap, speed, found.closest.n_W, found.floor, found.newton_steps);
-  if (interval <= kSmallestShare * (search.end_s - search.begin_s)) return;
+  if (interval <= kSmallestShare * (search.end_s - search.begin_s)) {
+    if (fast && gap <= search.window.ceiling) found.outcome = TimeOfImpact::Outcome::kImpact;
+    return;
+  }
   const bool last = found.time_s + interval >= search.end_s;
   found.time_s = last ? search.end_s : found.time_s + interval;
   found.outcome = last ? TimeOfImpact::Outcome::kClear : TimeOfImpact::Outcome::kPending;

@@ -29,6 +29,9 @@ struct ImpactSearch {
   double collision_speed_mps = 0.0;  ///< In the window, an approach faster than this is a collision.
   double begin_s = 0.0;
   double end_s = 0.0;
+  /// The contact will last: it is struck at the landing gap, where it is then held, not anywhere in the
+  /// window.
+  bool lands = false;
 };
 
 struct TimeOfImpact {

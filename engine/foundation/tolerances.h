@@ -10,7 +10,7 @@ inline constexpr double kWindowFloor = 2.0e-4;  // epsilon1: no pair is ever clo
 inline constexpr double kRestGap = 1.0e-3;      // lasting contact is held here: 0.8 mm of slack for residuals
 inline constexpr double kRestBand =
     0.1;  // of the rest gap, either way: gaps in this band are held as they are
-inline constexpr double kLandingGap = 1.5e-3;  // where a time of impact aims: between rest gap and ceiling
+inline constexpr double kLandingGap = 1.1e-3;  // where a time of impact aims: held as it is when it lasts
 inline constexpr double kWindowCeiling =
     2.0e-3;  // epsilon2: closer than this, a collision is solved directly
 inline constexpr double kWindowLargestScale = 1.0;  // metres; larger bodies keep the window of a metre
@@ -25,6 +25,7 @@ inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speed
 inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...
 inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps; where that is more, ...
 inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough
+inline constexpr int kSolverMostVisits = 50000;          // ... and so many where that is not reached
 inline constexpr double kGapGain = 0.2;                  // share of the missing gap reopened in a step
 inline constexpr double kGapSpeed = 0.1;                 // m/s at most while reopening
 
@@ -46,6 +47,6 @@ inline constexpr double kRestSpeed = 0.02;         // m/s of any point: slower c
 inline constexpr double kRestTime = 0.25;          // s of lying still before the test
 inline constexpr double kRestAcceleration = 1e-4;  // of gravity: forces balanced better than this hold a body
 inline constexpr int kRestSweeps = 400;            // of the solver in that test, at most, and ...
-inline constexpr int kRestRowVisits = 1000000;     // ... more while these last
+inline constexpr int kRestRowVisits = 3000000;     // ... more while these last
 
 }  // namespace carom::tolerance

@@ -54,6 +54,20 @@ double fastest(std::span<const ImpulseBody> bodies, std::span<const double> radi
   return speed;
 }
 
+// Whether impulses come to balance what the bodies have been given, within a bound of sweeps.
+bool comesToBalance(const RestQuestion& q, std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+  const double allowed = tolerance::kRestAcceleration * q.gravity.norm() * q.step_s;
+  const double converged = kConvergedShare * allowed;
+  const auto most =
+      std::max(tolerance::kRestSweeps, tolerance::kRestRowVisits / static_cast<int>(rows.size() + 1));
+  for (int sweeps = 0; sweeps < most; sweeps += kSweepsARound) {
+    const SolverReport report = solveContactsFinely(rows, bodies, {kSweepsARound, converged, true});
+    if (fastest(bodies, q.radii) <= allowed) return true;
+    if (report.residual_mps <= converged) return false;
+  }
+  return false;
+}
+
 // Whether impulses within the friction cones take all that gravity, air and water give in a step. Contacts
 // that press now hold at the gap they have.
 bool conesBalanceGravity(const RestQuestion& q) {
@@ -65,19 +79,13 @@ bool conesBalanceGravity(const RestQuestion& q) {
     bodies[i].velocity = q.pushes.empty() ? Velocity{q.step_s * q.gravity, Vec3::Zero()} : q.pushes[i];
   }
   for (ContactRow& row : rows) {
+    row.still_slip.setZero();
     if (row.impulse.x() > 0.0) row.lowest_speed = 0.0;
     applyToRow(row, row.impulse, bodies);
   }
-  const double allowed = tolerance::kRestAcceleration * q.gravity.norm() * q.step_s;
-  const double converged = kConvergedShare * allowed;
-  const auto most =
-      std::max(tolerance::kRestSweeps, tolerance::kRestRowVisits / static_cast<int>(rows.size() + 1));
-  for (int sweeps = 0; sweeps < most; sweeps += kSweepsARound) {
-    const SolverReport report = solveContactsFinely(rows, bodies, {kSweepsARound, converged, true});
-    if (fastest(bodies, q.radii) <= allowed) return true;
-    if (report.residual_mps <= converged) return false;
-  }
-  return false;
+  const bool balanced = comesToBalance(q, rows, bodies);
+  for (std::size_t i = 0; i < q.balance.size(); ++i) q.balance[i] = rows[i].impulse;
+  return balanced;
 }
 
 }  // namespace

@@ -25,6 +25,8 @@ struct RestQuestion {
   /// What gravity, air and water give each body in a step from standstill; empty: gravity alone. Where more
   /// than gravity may push, (2) alone decides.
   std::span<const Velocity> pushes = {};
+  /// Where given, one a row, (2) leaves its impulses here, also when they do not balance yet: a better guess.
+  std::span<Vec3> balance = {};
 };
 
 /// (1) and (2) above. Cost: a converged contact solve; ask rarely.

@@ -5,7 +5,8 @@
 namespace carom {
 
 double slidingSpeed(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  return row.impulse.x() > 0.0 ? rowVelocity(row, bodies).tail<2>().norm() : 0.0;
+  if (!(row.impulse.x() > 0.0)) return 0.0;
+  return (rowVelocity(row, bodies).tail<2>() - row.still_slip).norm();
 }
 
 bool slides(const ContactRow& row, std::span<const ImpulseBody> bodies) {

@@ -52,6 +52,7 @@ struct RowChange {
 RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
   Vec3 miss = rowVelocity(row, bodies);
   miss.x() -= row.lowest_speed;
+  miss.tail<2>() -= row.still_slip;
   Vec3 impulse = row.impulse;
   double change = 0.0;
   bool settled = true;
@@ -208,7 +209,9 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
     sweep(rows, bodies, settings.friction, true, kVisitAll, report);
     sweep(rows, bodies, settings.friction, false, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
-    if (report.residual_mps <= settings.residual_mps || report.sweeps >= settings.sweeps) break;
+    const bool careful = report.sweeps < settings.careful_sweeps;
+    const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
+    if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep(rows, before);
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth
     continueAlong(rows, bodies, involved, before, shrinks ? squared / last_squared : 0.0, direction);

@@ -22,8 +22,9 @@ struct ContactRow {
   Vec3 r_a = Vec3::Zero();
   Vec3 r_b = Vec3::Zero();
   Friction friction;
-  double lowest_speed = 0.0;    ///< m/s: the separating speed must not be below this.
-  Vec3 impulse = Vec3::Zero();  ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
+  double lowest_speed = 0.0;       ///< m/s: the separating speed must not be below this.
+  Vec2 still_slip = Vec2::Zero();  ///< m/s along (t1, t2): the velocity that counts as not sliding.
+  Vec3 impulse = Vec3::Zero();     ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
 
   // Filled by `prepareRow`.
   Vec3 t1 = Vec3::UnitX();
@@ -75,8 +76,7 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
                            const SolverSettings& settings);
 
 /// The same by nonsmooth nonlinear conjugate gradients on those sweeps, there and back at a time (Silcowitz,
-/// Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other. `settings` without the
-/// coarse residual.
+/// Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other.
 SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                  const SolverSettings& settings);
 

@@ -14,7 +14,7 @@ namespace carom {
 enum class Travel : std::uint8_t {
   kStill,      ///< Static or resting.
   kBallistic,  ///< Free flight: gravity and what else surrounds the body act along the path.
-  kCarried,    ///< In lasting contact: their impulse was given at the start of the step (paper §2.4).
+  kCarried,    ///< In lasting contact, whose forces act evenly over the step (paper §2.4).
   kHeld        ///< Stopped at its last safe time for the rest of the step.
 };
 
@@ -39,12 +39,13 @@ struct Body {
   std::optional<Vec3> kept_angular_momentum;
 
   // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They
-  // differ in lasting contact, where the path also reopens gaps without giving the body energy.
+  // differ in lasting contact, where the path also reopens gaps without giving the body energy. Forces act
+  // evenly in time, so that a body struck within the step has what they have given it until then.
   Travel travel = Travel::kStill;
   Trajectory path;
   Velocity momentum_velocity;        ///< At path.start_s.
-  Vec3 acceleration = Vec3::Zero();  ///< In flight: of the momentum velocity; the environment's mean force.
-  Vec3 torque = Vec3::Zero();        ///< In flight: its mean torque, N m, world frame.
+  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
+  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
   int events = 0;
   bool collided = false;
 
@@ -58,9 +59,8 @@ struct Body {
   /// The velocity impulses act on, at a time not before path.start_s.
   Velocity velocityAt(double t_s) const {
     Velocity v = momentum_velocity;
-    const bool flies = travel == Travel::kBallistic;
-    if (flies) v.linear += (t_s - path.start_s) * acceleration;
-    const bool turned = flies && !torque.isZero(0.0);
+    if (travel != Travel::kStill) v.linear += (t_s - path.start_s) * acceleration;
+    const bool turned = travel != Travel::kStill && !torque.isZero(0.0);
     if (!turned && v.angular.isZero(0.0)) return v;
     Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular);
     if (turned) momentum += (t_s - path.start_s) * torque;

@@ -2,21 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/response/collision.h"
+#include "engine/simulation/carried_path.h"
 
 namespace carom {
 namespace {
 
-constexpr int kSweepsARound = 4;  // between two looks at whom the impulses have reached
-constexpr int kMostSweeps = 80;   // of one solve
+// What lies between bodies a thousand times as heavy converges slowly; where rows are few, that is waited
+// for.
+constexpr std::size_t kFewRows = 32;
+constexpr long kFewRowsVisits = 20000;
+constexpr double kFewRowsShare = 1e-3;  // of what is safe
+constexpr int kSweepsARound = 4;        // between two looks at whom the impulses have reached
+constexpr int kFineSweeps = 20;         // at least, when they have reached all
+constexpr int kMostSweeps = 80;         // of one solve
 // Small clusters are solved to this share of the approach; when so many rows have been visited, and for
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
-constexpr double kGapShare = 0.4;  // of the rest gap
+constexpr double kPathShare = 0.01;  // of that, for small clusters
+constexpr double kGapShare = 0.4;    // of the rest gap
 // Approaches of one instant that differ by a smaller share are one collision: what is symmetric stays so.
 constexpr double kSameApproach = 1e-6;
+constexpr double kWakingShare = 0.1;  // of the resting mode's speed: forces that do less wake nobody
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
 std::size_t at(int i) {
@@ -30,11 +40,16 @@ void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time
   body_joined_.resize(bodies_.size(), 0);
   body_member_.resize(bodies_.size(), 0);
   pair_joined_.resize(table_.pairs().size(), 0);
+  pair_released_.resize(table_.pairs().size(), 0);
   time_s_ = time_s;
   event_pair_ = pair;
   stage_ = Stage::kMomentum;
   members_.clear();
   momentum_.clear();
+  ends_.clear();
+  planned_ends_.clear();
+  pressed_.clear();
+  bends_.clear();
   paths_.clear();
   solve_before_.clear();
   sources_.clear();
@@ -52,7 +67,8 @@ int ContactCluster::join(int index) {
   member.expanded = body.is_static;
   if (!body.is_static) {
     member.momentum_before = body.velocityAt(time_s_);
-    member.path_before = {body.path.velocityAt(time_s_), body.path.angularVelocityAt(time_s_)};
+    member.path_before = {body.path.velocityAt(time_s_) + 0.5 * restOfStep() * body.path.acceleration,
+                          body.path.angularVelocityAt(time_s_)};
   }
   members_.push_back(member);
   momentum_.push_back(body.impulseBody(body.path.at(time_s_), member.momentum_before));
@@ -62,13 +78,35 @@ int ContactCluster::join(int index) {
     paths_.back().inverse_mass = 0.0;
     paths_.back().inverse_tensor.setZero();
   }
+  ends_.push_back(momentum_.back());
+  const Velocity gain = gainedByForces(body);
+  ends_.back().velocity = {member.momentum_before.linear + gain.linear,
+                           member.momentum_before.angular + gain.angular};
+  planned_ends_.push_back(ends_.back().velocity);
+  pressed_.push_back(0);
+  bends_.push_back(0);
   solve_before_.push_back(stageBodies().back().velocity);
   return body_member_[at(index)];
 }
 
+Velocity ContactCluster::gainedByForces(const Body& body) const {
+  if (body.is_static) return {};
+  Velocity gain{restOfStep() * body.acceleration, Vec3::Zero()};
+  if (!body.torque.isZero(0.0))
+    gain.angular = angularVelocity(body.inertia, body.path.at(time_s_).rotation, restOfStep() * body.torque);
+  return gain;
+}
+
+bool ContactCluster::forcesChanged(std::size_t i) const {
+  const Body& body = bodies_[at(members_[i].body)];
+  const double change = (ends_[i].velocity.linear - planned_ends_[i].linear).norm() +
+                        (ends_[i].velocity.angular - planned_ends_[i].angular).norm() * body.radius_m;
+  return change > (body.resting ? kWakingShare * tolerance::kRestSpeed : 0.0);
+}
+
 double ContactCluster::lowestSpeed(const SourcedRow& sourced) const {
   const ShapePair& pair = table_.pairs()[at(sourced.pair)];
-  const GapSpeeds bounds = gapSpeeds(sourced.gap_m, pair.window, settings_.step_s - time_s_);
+  const GapSpeeds bounds = gapSpeeds(sourced.gap_m, pair, restOfStep());
   if (stage_ == Stage::kPath) return bounds.path;
   if (sourced.pair == event_pair_) return 0.0;
   const bool in_window = sourced.gap_m <= pair.window.ceiling;
@@ -82,8 +120,13 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   const int b = join(pair.body_b);
   if (!givesWay(a) && !givesWay(b)) return;
   const std::size_t first = sources_.size();
-  appendRows({index, a, b, &closest, bodies_[at(pair.body_a)].path.at(time_s_),
-              bodies_[at(pair.body_b)].path.at(time_s_)},
+  appendRows({.pair = index,
+              .row_a = a,
+              .row_b = b,
+              .closest = &closest,
+              .X_WA = bodies_[at(pair.body_a)].path.at(time_s_),
+              .X_WB = bodies_[at(pair.body_b)].path.at(time_s_),
+              .struck = index == event_pair_},
              pair, bodies_, shapes_, stageBodies(), sources_);
   const double highest =
       std::max(closest.distance_m, index == event_pair_ ? pair.window.ceiling : pair.window.manifold);
@@ -92,6 +135,7 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
     rows_.push_back(sources_[i].row);
     rows_.back().lowest_speed = lowestSpeed(sources_[i]);
   }
+  if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
 }
 
 void ContactCluster::expand(int body) {
@@ -152,6 +196,8 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
       if (closest.distance_m <= pair.window.ceiling &&
           std::abs(closest.n_W.dot(relative) - approach_mps) <= -kSameApproach * approach_mps)
         addPair(p, closest);
+      else
+        pair_joined_[at(p)] = 0;  // it may still join as a support
     }
   }
 }
@@ -160,20 +206,36 @@ double ContactCluster::safeResidual() const {
   return kGapShare * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
 }
 
+long ContactCluster::fewRowsVisits() const {
+  return rows_.size() <= kFewRows ? kFewRowsVisits : 0;
+}
+
 void ContactCluster::solveSpreading(double careful_mps) {
-  const bool friction = stage_ == Stage::kMomentum;
+  const bool friction = stage_ != Stage::kPath;
   const double safe = safeResidual();
   long visits = 0;
-  for (int sweeps = 0; visits < kCarefulVisits || sweeps < kMostSweeps;) {
-    const double enough = visits < kCarefulVisits ? std::min(careful_mps, safe) : safe;
-    const SolverReport report = solveContacts(
-        rows_, stageBodies(),
-        {.sweeps = kSweepsARound, .residual_mps = enough, .friction = friction, .resumes = sweeps > 0});
+  bool resumes = false;
+  bool reached = false;  // all whom the impulses reach have joined
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < kMostSweeps || visits < fewRowsVisits();) {
+    const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
+                          : visits < fewRowsVisits() ? kFewRowsShare * safe
+                                                     : safe;
+    const int fine_sweeps =
+        std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
+    const SolverSettings settings{.sweeps = reached ? fine_sweeps : kSweepsARound,
+                                  .residual_mps = enough,
+                                  .friction = friction,
+                                  .resumes = resumes};
+    const SolverReport report = reached ? solveContactsFinely(rows_, stageBodies(), settings)
+                                        : solveContacts(rows_, stageBodies(), settings);
+    resumes = !reached;
     sweeps += report.sweeps;
     visits += report.visits;
     visits_ += report.visits;
     const bool grew = !isExhausted() && expandMoved(safe);
     if (!grew && report.residual_mps <= enough) return;
+    reached = !grew;
+    resumes = resumes && !reached;
   }
 }
 
@@ -216,21 +278,169 @@ void ContactCluster::startAgain() {
   for (const SourcedRow& sourced : sources_) rows_.push_back(sourced.row);
 }
 
-void ContactCluster::boundPaths() {
+// Whether a point comes in so fast that it has its own time of impact; in the window, without restitution, it
+// is stopped with the others.
+bool ContactCluster::collidesLater(const ContactRow& row, const SourcedRow& sourced) const {
+  const ShapePair& pair = table_.pairs()[at(sourced.pair)];
+  if (rowVelocity(row, momentum_).x() >= -pair.collision_speed_mps) return false;
+  return pair.restitution > 0.0 || sourced.gap_m > pair.window.ceiling;
+}
+
+// Ends the forces between the bodies of a pair, both members.
+void ContactCluster::releaseForces(int index) {
+  pair_released_[at(index)] = number_;
+  const ShapePair& pair = table_.pairs()[at(index)];
+  const int member_a = join(pair.body_a);
+  const int member_b = join(pair.body_b);
+  ImpulseBody& a = ends_[at(member_a)];
+  ImpulseBody& b = ends_[at(member_b)];
+  for (int i = 0; i < pair.remembered_count; ++i) {
+    const RememberedImpulse& acting = pair.remembered[at(i)];
+    a.apply(restOfStep() * acting.force_W, acting.arm_a);
+    b.apply(-restOfStep() * acting.force_W, acting.arm_b);
+  }
+}
+
+// Pairs whose contact is over, but that still press each other.
+void ContactCluster::releaseDistant() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!members_[i].expanded || bodies_[at(members_[i].body)].is_static) continue;
+    for (int p : table_.pairsOf(members_[i].body)) {
+      ShapePair& pair = table_.pairs()[at(p)];
+      if (pair.remembered_count == 0 || pair_released_[at(p)] == number_) continue;
+      releaseForces(p);
+      pair.remembered_count = 0;
+    }
+  }
+}
+
+// The forces that act between the bodies of a pair, whose rows these are, become the rows' own; rows of fast
+// approaches, and of fast partings where restitution makes them bounce, give no support.
+void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  const ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+  releaseForces(sources_[first].pair);
+  for (std::size_t k = first; k < first + count; ++k) {
+    ContactRow& row = rows_[k];
+    row.impulse.setZero();
+    row.lowest_speed = -std::numeric_limits<double>::max();
+    if (collidesLater(row, sources_[k])) continue;
+    if (pair.restitution > 0.0 && rowVelocity(row, momentum_).x() > pair.collision_speed_mps) continue;
+    for (int i = 0; i < pair.remembered_count; ++i) {
+      const RememberedImpulse& acting = pair.remembered[at(i)];
+      if (acting.id != sources_[k].id) continue;
+      const Vec3 impulse = restOfStep() * acting.force_W;
+      row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
+    }
+    applyToRow(row, row.impulse, ends_);
+    row.lowest_speed = gapSpeeds(sources_[k].gap_m, pair, restOfStep(), row.impulse.x() > 0.0).momentum;
+  }
+}
+
+// Points of the event's pair that press, but that the manifold of this instant does not show (of five corners
+// it keeps four): else two corners struck in turn would each undo what holds the other.
+void ContactCluster::recallPoints() {
+  if (sources_.empty() || sources_.front().pair != event_pair_) return;
+  const ShapePair& pair = table_.pairs()[at(event_pair_)];
+  std::size_t shown = 0;
+  while (shown < sources_.size() && sources_[shown].pair == event_pair_) ++shown;
+  for (int i = 0; i < pair.remembered_count && shown < ContactManifold::kMaxPoints; ++i) {
+    const RememberedImpulse& acting = pair.remembered[at(i)];
+    const auto known = std::find_if(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(shown),
+                                    [&](const SourcedRow& s) { return s.id == acting.id; });
+    if (acting.force_W.isZero(0.0) || known != sources_.begin() + static_cast<std::ptrdiff_t>(shown))
+      continue;
+    SourcedRow recalled = sources_.front();
+    recalled.id = acting.id;
+    recalled.gap_m = pair.window.rest;  // held as it is
+    recalled.row.r_a = acting.arm_a;
+    recalled.row.r_b = acting.arm_b;
+    if (rowVelocity(recalled.row, momentum_).x() > pair.collision_speed_mps) continue;
+    sources_.insert(sources_.begin() + static_cast<std::ptrdiff_t>(shown++), recalled);
+  }
+}
+
+bool ContactCluster::meetsCarried() const {
+  return std::any_of(members_.begin(), members_.end(), [this](const Member& m) {
+    const Body& body = bodies_[at(m.body)];
+    return !body.is_static && body.travel != Travel::kBallistic;
+  });
+}
+
+void ContactCluster::support() {
+  stage_ = Stage::kSupport;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Velocity gain = gainedByForces(bodies_[at(members_[i].body)]);
+    ends_[i].velocity = {momentum_[i].velocity.linear + gain.linear,
+                         momentum_[i].velocity.angular + gain.angular};
+    solve_before_[i] = planned_ends_[i];
+  }
+  recallPoints();
+  rows_.clear();
+  for (const SourcedRow& sourced : sources_) {
+    rows_.push_back(sourced.row);
+    prepareRow(rows_.back(), ends_);
+  }
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;
+    takeOverForces(first, end - first);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (members_[i].expanded) continue;
+    members_[i].expanded = true;
+    expand(members_[i].body);
+  }
+  solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
+  releaseDistant();
+  keepForces();
+  findBends();
+}
+
+void ContactCluster::findBends() {
+  std::vector<Vec3> accelerations;
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    accelerations.push_back((ends_[i].velocity.linear - momentum_[i].velocity.linear) / restOfStep());
+  bends_.assign(members_.size(), 1);
+  for (const SourcedRow& sourced : sources_)
+    straightenDips(sourced, table_.pairs()[at(sourced.pair)].window, restOfStep(), accelerations, bends_);
+}
+
+// What the rows' forces are from now on.
+void ContactCluster::keepForces() {
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+    const auto known = pair.remembered;
+    const int known_count = pair.remembered_count;
+    pair.remembered_count = 0;
+    for (; end < sources_.size() && sources_[end].pair == sources_[first].pair; ++end) {
+      const ContactRow& row = rows_[end];
+      RememberedImpulse now{sources_[end].id, Vec3::Zero(), rowImpulse(row, row.impulse) / restOfStep(),
+                            row.r_a, row.r_b};
+      for (int i = 0; i < known_count; ++i)
+        if (known[at(i)].id == now.id) now.impulse_W = known[at(i)].impulse_W;
+      pair.remembered[at(pair.remembered_count++)] = now;
+      if (row.impulse.x() > 0.0) pressed_[at(row.a)] = pressed_[at(row.b)] = 1;
+    }
+  }
+}
+
+void ContactCluster::boundPaths(bool all) {
   stage_ = Stage::kPath;
   for (std::size_t i = 0; i < members_.size(); ++i) solve_before_[i] = paths_[i].velocity;
-  std::erase_if(sources_, [&](const SourcedRow& s) { return !givesWay(s.row.a) && !givesWay(s.row.b); });
+  std::erase_if(sources_, [&](const SourcedRow& s) {
+    return (!givesWay(s.row.a) && !givesWay(s.row.b)) || (!all && collidesLater(s.row, s));
+  });
   rows_.clear();
   for (const SourcedRow& sourced : sources_) {
     rows_.push_back(sourced.row);
     rows_.back().lowest_speed = lowestSpeed(sourced);
     prepareRow(rows_.back(), paths_);
   }
-  solveSpreading(safeResidual());
+  solveSpreading(kPathShare * safeResidual());
   const PathBounds bounds{bodies_, shapes_, table_.pairs(), time_s_, settings_.step_s - time_s_};
   for (int round = 0; round < kTurningRounds; ++round) {
     if (!raiseForTurning(bounds, sources_, paths_, rows_, counters_)) break;
-    solveSpreading(safeResidual());
+    solveSpreading(kPathShare * safeResidual());
   }
 }
 

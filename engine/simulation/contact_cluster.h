@@ -17,7 +17,7 @@ class ContactCluster {
     bool collided = false;  ///< Met another fast enough for restitution.
     bool expanded = false;  ///< All contacts of the body have joined.
     Velocity momentum_before;
-    Velocity path_before;
+    Velocity path_before;  ///< The mean over the rest of the step.
   };
 
   ContactCluster(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
@@ -33,10 +33,15 @@ class ContactCluster {
   void begin(int pair, const ClosestFeatures& closest, double time_s);
   /// The collision at the contacts, between the bodies of the event alone or with all that they press.
   void collide(bool spreads);
+  /// Whether forces of lasting contact act on some member.
+  bool meetsCarried() const;
+  /// The forces of lasting contact for the rest of the step, after the collision: those that act are taken
+  /// over, those of bodies that part end, new ones begin, also at bodies that these reach.
+  void support();
   /// Bounds the paths by the contacts: by the end of the step no gap is to close below the rest gap, and
   /// those that are lower reopen. Paths begin as what `path` was set to, those of bodies that join as they
-  /// are.
-  void boundPaths();
+  /// are. `all`: also by those that come in fast and have their own times of impact.
+  void boundPaths(bool all);
 
   /// So much has been solved in this step that impulses spread no further.
   bool isExhausted() const { return visits_ > most_visits_; }
@@ -49,17 +54,29 @@ class ContactCluster {
   const Member& member(std::size_t i) const { return members_[i]; }
   /// What impulses have made of member i; what its path is to be.
   const Velocity& momentum(std::size_t i) const { return momentum_[i].velocity; }
-  Velocity& path(std::size_t i) { return paths_[i].velocity; }
+  /// What forces make of it by the end of the step; and whether some lasting contact presses it.
+  const Velocity& end(std::size_t i) const { return ends_[i].velocity; }
+  bool pressed(std::size_t i) const { return pressed_[i] != 0; }
+  /// Whether the path may bend with the momentum (carried_path.h).
+  bool bends(std::size_t i) const { return bends_[i] != 0; }
+  void setPath(std::size_t i, const Velocity& mean) { paths_[i].velocity = members_[i].path_before = mean; }
+  const Velocity& path(std::size_t i) const { return paths_[i].velocity; }
   bool momentumChanged(std::size_t i) const { return differ(momentum(i), members_[i].momentum_before); }
+  /// Noticeably, by `support`.
+  bool forcesChanged(std::size_t i) const;
   bool pathChanged(std::size_t i) const { return differ(paths_[i].velocity, members_[i].path_before); }
 
  private:
-  enum class Stage : std::uint8_t { kMomentum, kPath };
+  enum class Stage : std::uint8_t { kMomentum, kSupport, kPath };
 
   static bool differ(const Velocity& x, const Velocity& y) {
     return x.linear != y.linear || x.angular != y.angular;
   }
-  std::vector<ImpulseBody>& stageBodies() { return stage_ == Stage::kMomentum ? momentum_ : paths_; }
+  std::vector<ImpulseBody>& stageBodies() {
+    return stage_ == Stage::kMomentum ? momentum_ : stage_ == Stage::kSupport ? ends_ : paths_;
+  }
+  Velocity gainedByForces(const Body& body) const;
+  double restOfStep() const { return settings_.step_s - time_s_; }
   bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
   int join(int body);
   void addPair(int pair, const ClosestFeatures& closest);
@@ -68,7 +85,15 @@ class ContactCluster {
   void joinSimultaneous(double approach_mps);
   bool isNear(const ShapePair& pair) const;
   double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
+  long fewRowsVisits() const;   ///< Of rows, for a solve of few.
   void startAgain();
+  bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
+  void recallPoints();
+  void releaseForces(int pair);
+  void releaseDistant();
+  void takeOverForces(std::size_t first, std::size_t count);
+  void keepForces();
+  void findBends();
   void solveSpreading(double careful_mps);
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();
@@ -86,6 +111,10 @@ class ContactCluster {
   Stage stage_ = Stage::kMomentum;
   std::vector<Member> members_;
   std::vector<ImpulseBody> momentum_;
+  std::vector<ImpulseBody> ends_;       ///< At the end of the step, by the forces that act; in kSupport.
+  std::vector<Velocity> planned_ends_;  ///< As they were before the event.
+  std::vector<char> pressed_;
+  std::vector<char> bends_;
   std::vector<ImpulseBody> paths_;
   std::vector<Velocity> solve_before_;  ///< Velocities when the stage's solve began.
   std::vector<SourcedRow> sources_;
@@ -95,6 +124,7 @@ class ContactCluster {
   std::vector<int> body_joined_;
   std::vector<int> body_member_;
   std::vector<int> pair_joined_;
+  std::vector<int> pair_released_;  ///< Likewise: its forces are those of the cluster's rows, or none.
 };
 
 }  // namespace carom

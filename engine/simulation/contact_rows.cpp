@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/contact_id.h"
+
 namespace carom {
 namespace {
 
 constexpr double kTurningShare = 0.2;  // of the rest gap: an approach by turning that nobody notices
+constexpr double kSamePlace = 10.0;    // rest gaps: points this close are one
+constexpr double kLivelyGap = 0.4;     // of the rest gap: lively bodies lie still from here upwards
 constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks for more
 
 std::size_t at(int i) {
@@ -49,21 +53,38 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
                 const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
                 std::vector<SourcedRow>& rows) {
+  CollisionWindow window = pair.window;
+  window.manifold = std::max(window.manifold, request.height_m);
   const ContactManifold manifold =
       contactManifold(*request.closest, *shapes[at(pair.shapes.a)].part, request.X_WA,
-                      *shapes[at(pair.shapes.b)].part, request.X_WB, pair.window);
-  for (const ManifoldPoint& point : manifold.view()) {
+                      *shapes[at(pair.shapes.b)].part, request.X_WB, window);
+  const auto append = [&](const ManifoldPoint& point) {
     SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m};
     ContactRow& row = sourced.row;
     row.a = request.row_a;
     row.b = request.row_b;
     row.n = point.n_W;
-    row.r_a = point.p_W - request.X_WA.position;
-    row.r_b = point.p_W - request.X_WB.position;
+    // Points stand halfway across the gap, so that an impulse turns both bodies by the same moment. On what
+    // cannot turn they stand on the other's own surface: a ball rolls by its radius.
+    Vec3 p_W = point.p_W;
+    if (bodies[at(pair.body_a)].is_static) p_W += 0.5 * point.gap_m * point.n_W;
+    if (bodies[at(pair.body_b)].is_static) p_W -= 0.5 * point.gap_m * point.n_W;
+    row.r_a = p_W - request.X_WA.position;
+    row.r_b = p_W - request.X_WB.position;
     row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
     prepareRow(row, solver_bodies);
     rows.push_back(sourced);
-  }
+  };
+  for (const ManifoldPoint& point : manifold.view()) append(point);
+  if (!request.struck) return;
+  // Of equally deep corners the manifold may have dropped the one that came in.
+  const Vec3 struck = 0.5 * (request.closest->p_A_W + request.closest->p_B_W);
+  const bool known = std::any_of(
+      manifold.view().begin(), manifold.view().end(),
+      [&](const ManifoldPoint& point) { return (point.p_W - struck).norm() <= kSamePlace * window.rest; });
+  if (!known && manifold.count < ContactManifold::kMaxPoints)
+    append({struck, request.closest->n_W, request.closest->distance_m,
+            contactId(request.closest->features, PointRole::kClosest), request.closest->features});
 }
 
 Friction combinedFriction(const Material& a, const Material& b) {
@@ -75,14 +96,15 @@ double combinedRestitution(const Material& a, const Material& b) {
   return std::max(a.restitution, b.restitution);
 }
 
-GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses) {
+GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool presses) {
+  const CollisionWindow& window = pair.window;
   const double band = tolerance::kRestBand * window.rest;
   if (gap_m > window.rest + band) {
-    const double share = presses ? tolerance::kGapGain : 1.0;
-    const double closing = share * (window.rest + band - gap_m) / dt_s;
-    return {closing, closing};
+    const double closing = (window.rest + band - gap_m) / dt_s;
+    return {(presses ? tolerance::kGapGain : 1.0) * closing, closing};
   }
-  const double missing = window.rest - band - gap_m;
+  const double lowest = pair.restitution > tolerance::kLively ? kLivelyGap * window.rest : window.rest - band;
+  const double missing = lowest - gap_m;
   if (missing <= 0.0) return {};
   return {0.0, std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed)};
 }

@@ -25,6 +25,8 @@ struct RowRequest {
   const ClosestFeatures* closest = nullptr;
   Pose X_WA;
   Pose X_WB;
+  double height_m = 0.0;  ///< Points up to this gap count, and up to the window's height at least.
+  bool struck = false;    ///< The closest point gets a row wherever it is: it has been stopped there.
 };
 
 /// Appends the rows of a pair; the solver's `bodies` prepare them.
@@ -38,13 +40,14 @@ double combinedRestitution(const Material& a, const Material& b);
 
 /// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
 /// contacts than it needs can lie still on all of them; above the band it may close to it, gently where the
-/// contact `presses` already: bodies wedged between others never find all their gaps within the band.
+/// contact `presses` already: bodies wedged between others never find all their gaps within the band. Where
+/// restitution keeps almost all energy, gaps reopen only from much lower: being lifted is energy too.
 struct GapSpeeds {
   double momentum = 0.0;  ///< The separating speed must not be below this.
   double path =
       0.0;  ///< The same for the path, which also reopens gaps below the band; that gives no energy.
 };
-GapSpeeds gapSpeeds(double gap_m, const CollisionWindow& window, double dt_s, bool presses = false);
+GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool presses = false);
 
 /// Where rows are that bound paths: the bodies' poses at `time_s`, and from there the rest of the step.
 struct PathBounds {

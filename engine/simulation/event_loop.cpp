@@ -5,6 +5,7 @@
 #include <queue>
 #include <tuple>
 
+#include "engine/simulation/carried_path.h"
 #include "engine/simulation/contact_cluster.h"
 #include "engine/simulation/step_record.h"
 
@@ -75,7 +76,7 @@ class EventLoop {
     const Body& b = bodies_[at(pair.body_b)];
     if (a.path.still() && b.path.still()) return;
     prediction.search = {pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s),
-                         settings_.step_s};
+                         settings_.step_s, pair.restitution == 0.0};
     const double begin_s = prediction.search.begin_s;
     prediction.found =
         beginSearch(prediction.search, begin_s > 0.0 ? closestAt(pair, begin_s) : pair.closest);
@@ -137,9 +138,13 @@ class EventLoop {
     }
     if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
     changed_.clear();
-    const bool bounds = crowded || (spreads && cluster_.size() > 2);
-    takeMomentum(time_s, bounds);
-    if (bounds) takePaths(time_s);
+    const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
+    if (supports) {
+      const PhaseScope phase(clock_, StepPhase::kImpulses);
+      cluster_.support();
+    }
+    takeMomentum(time_s, crowded || spreads);
+    if (supports) takePaths(time_s, crowded);
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
@@ -152,7 +157,7 @@ class EventLoop {
     for (Body& body : bodies_) {
       if (!body.resting || body.rest_island != island) continue;
       wake(body);
-      body.travel = Travel::kCarried;  // held up by others or afloat: gravity takes part from the next step
+      body.travel = Travel::kCarried;  // held up by others or afloat: its forces are in balance
     }
   }
 
@@ -167,74 +172,81 @@ class EventLoop {
     body.path.start_s = time_s;
   }
 
-  // New momentum, and the path that goes with it. Where contacts bound the paths, gravity and what else
-  // surrounds the body is given for the rest of the step.
-  void takeMomentum(double time_s, bool bounds) {
+  bool isTouched(std::size_t i) const {
+    return i < 2 || cluster_.momentumChanged(i) || cluster_.forcesChanged(i);
+  }
+
+  // New momentum and forces, and the path that goes with them; where many meet, straight for who is in
+  // flight.
+  void takeMomentum(double time_s, bool straight) {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
       Body& body = bodies_[at(member.body)];
       body.collided = body.collided || member.collided;
-      if (body.is_static || !(i < 2 || cluster_.momentumChanged(i))) continue;
+      if (body.is_static || !isTouched(i)) continue;
       if (body.resting) wakeInStep(member.body);
       bring(member.body, time_s);
       changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
-      if (body.travel == Travel::kHeld) continue;
-      if (body.travel == Travel::kBallistic) {
-        planner_.plan(member.body, body);
-      } else {
-        body.path.velocity = body.momentum_velocity.linear;
-        turnFreely(body, settings_.step_s - time_s);
+      const double rest = settings_.step_s - time_s;
+      if (body.travel == Travel::kHeld) {
+        if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
+        continue;
       }
-      if (bounds) carry(body);
-      cluster_.path(i) = {body.path.velocity, body.path.spin};
+      const bool flies = body.travel == Travel::kBallistic || member.expanded || !(rest > 0.0);
+      if (flies && !cluster_.pressed(i)) {
+        body.travel = Travel::kBallistic;
+        planner_.plan(member.body, body);
+        if (straight && cluster_.size() > 2) straighten(body, rest);
+      } else {
+        const Velocity& end = cluster_.end(i);
+        body.travel = Travel::kCarried;
+        driveEvenly(body, {body.momentum_velocity, end, rest});
+        carryAlong(body,
+                   {0.5 * (body.momentum_velocity.linear + end.linear),
+                    0.5 * (body.momentum_velocity.angular + end.angular)},
+                   rest, !straight && cluster_.bends(i));
+      }
+      cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
     }
   }
 
-  void carry(Body& body) {
-    if (body.travel != Travel::kBallistic) return;
-    const Velocity gained = planner_.gained(body);
-    body.momentum_velocity.linear += gained.linear;
-    body.momentum_velocity.angular += gained.angular;
-    body.path.velocity += 0.5 * (settings_.step_s - body.path.start_s) * body.path.acceleration;
-    body.path.acceleration.setZero();
+  void straighten(Body& body, double rest_of_step_s) {
     body.travel = Travel::kCarried;
+    const Vec3 mean = body.path.velocity + 0.5 * rest_of_step_s * body.path.acceleration;
+    carryAlong(body, {mean, body.path.spin}, rest_of_step_s, false);
   }
 
-  void takePaths(double time_s) {
+  void takePaths(double time_s, bool crowded) {
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
-      cluster_.boundPaths();
+      cluster_.boundPaths(crowded);
     }
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const int index = cluster_.member(i).body;
       Body& body = bodies_[at(index)];
-      if (body.is_static || body.travel == Travel::kHeld ||
-          !(i < 2 || cluster_.momentumChanged(i) || cluster_.pathChanged(i)))
-        continue;
+      if (body.is_static || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
       if (body.resting) wakeInStep(index);
-      if (i >= 2 && !cluster_.momentumChanged(i)) {
+      if (!isTouched(i)) {
         bring(index, time_s);
-        carry(body);
         changed_.push_back(index);
       }
-      body.path.velocity = cluster_.path(i).linear;
-      body.path.turnAt(cluster_.path(i).angular);
+      body.travel = Travel::kCarried;
+      carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
     }
   }
 
-  // Its momentum stays: the contacts around it have just been solved together, and the next step solves them
-  // again.
+  // Its momentum goes on, and so do the forces of its contacts, which others have the opposites of: they have
+  // just been solved together, and the next step solves them again. What weight would give it without a fall
+  // is energy from nowhere.
   void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
-    // What gravity was given for the rest of the step would be energy without a fall; what contacts have
-    // taken up of it already stays as it is.
-    if (body.travel == Travel::kCarried) {
-      const Vec3 unfallen = body.momentum_velocity.linear - planner_.gained(body).linear;
-      if (unfallen.squaredNorm() < body.momentum_velocity.linear.squaredNorm())
-        body.momentum_velocity.linear = unfallen;
-    }
     body.travel = Travel::kHeld;
+    const double rest = settings_.step_s - body.path.start_s;
+    const Vec3 unfallen = body.acceleration - settings_.gravity;
+    if ((body.momentum_velocity.linear + rest * unfallen).squaredNorm() <
+        (body.momentum_velocity.linear + rest * body.acceleration).squaredNorm())
+      body.acceleration = unfallen;
     body.path.velocity.setZero();
     body.path.acceleration.setZero();
     body.path.turnAt(Vec3::Zero());

@@ -4,10 +4,13 @@
 #include <limits>
 
 #include "engine/modes/islands.h"
+#include "engine/simulation/carried_path.h"
+#include "engine/simulation/midstep_rows.h"
 
 namespace carom {
 namespace {
 
+constexpr double kNoticedTurning = 1e-4;  // of the speed that gravity adds in a step: below, arms stay
 constexpr int kPathSweeps = 60;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
@@ -35,20 +38,36 @@ void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
   }
 }
 
+// No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
+// height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
+double lastingHeight(const ShapePair& pair, double step_s) {
+  return pair.window.ceiling + pair.collision_speed_mps * step_s;
+}
+
 void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::vector<Body>& bodies,
-             const std::vector<Shape>& shapes, double step_s) {
+             const std::vector<Shape>& shapes, const WorldSettings& settings, StepCounters& counters) {
+  const double step_s = settings.step_s;
+  const RowRequest request{.pair = index,
+                           .row_a = pair.body_a,
+                           .row_b = pair.body_b,
+                           .closest = &pair.closest,
+                           .X_WA = bodies[at(pair.body_a)].X_WB,
+                           .X_WB = bodies[at(pair.body_b)].X_WB,
+                           .height_m = lastingHeight(pair, step_s)};
   std::vector<SourcedRow> rows;
-  appendRows({index, pair.body_a, pair.body_b, &pair.closest, bodies[at(pair.body_a)].X_WB,
-              bodies[at(pair.body_b)].X_WB},
-             pair, bodies, shapes, assembly.contacts.bodies, rows);
+  appendRows(request, pair, bodies, shapes, assembly.contacts.bodies, rows);
+  // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution; so
+  // will one that bounces up.
+  std::erase_if(rows, [&](const SourcedRow& sourced) {
+    const double speed = rowVelocity(sourced.row, assembly.contacts.bodies).x();
+    return speed < -pair.collision_speed_mps || (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
+  });
+  const MidStep mid{0.5 * step_s, kNoticedTurning * settings.gravity.norm() * step_s};
+  moveToMidStep(request, pair, mid, bodies, shapes, assembly.contacts.bodies, rows, counters);
   for (SourcedRow& sourced : rows) {
     ContactRow& row = sourced.row;
-    // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution.
-    const double speed = rowVelocity(row, assembly.contacts.bodies).x();
-    if (speed < -pair.collision_speed_mps) continue;
-    if (pair.restitution > 0.0 && speed > pair.collision_speed_mps) continue;  // so will one that bounces up
     warmStart(row, pair, sourced.id);
-    row.lowest_speed = gapSpeeds(sourced.gap_m, pair.window, step_s, row.impulse.x() > 0.0).momentum;
+    row.lowest_speed += gapSpeeds(sourced.gap_m, pair, step_s, row.impulse.x() > 0.0).momentum;
     assembly.sources.push_back(sourced);
   }
 }
@@ -70,8 +89,8 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-// With friction: small islands to the fine residual, as far as their share of row visits goes; large ones to
-// the coarse one.
+// With friction: small islands to the fine residual, as far as their share of row visits goes; large ones,
+// and what has just come together and would fall apart in a coarse step, to the coarse one.
 void solveImpulses(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                    double gravity_speed) {
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
@@ -79,8 +98,14 @@ void solveImpulses(const Assembly& assembly, std::span<ContactRow> rows, std::sp
     const int share = tolerance::kSolverRowVisits / static_cast<int>(count);
     const bool small = share >= tolerance::kSolverSweeps;
     const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverCoarseResidual;
+    const int careful_sweeps = std::max(share, tolerance::kSolverSweeps);
+    const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(count);
     solveContactsFinely(rows.subspan(assembly.island_begin[i], count), bodies,
-                        {std::max(share, tolerance::kSolverSweeps), residual * gravity_speed, true});
+                        {.sweeps = std::max(careful_sweeps, most_sweeps),
+                         .residual_mps = residual * gravity_speed,
+                         .friction = true,
+                         .careful_sweeps = careful_sweeps,
+                         .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
   }
 }
 
@@ -100,7 +125,7 @@ void solvePaths(const Assembly& assembly, std::span<ContactRow> rows, std::span<
 }
 
 Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                  std::vector<ShapePair>& pairs, double step_s) {
+                  std::vector<ShapePair>& pairs, const WorldSettings& settings, StepCounters& counters) {
   Assembly assembly;
   assembly.contacts.touched.assign(bodies.size(), 0);
   for (const Body& body : bodies) {
@@ -114,7 +139,8 @@ Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& sha
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
     if (!moves) continue;  // what a resting pair remembers, it keeps
-    if (isLasting(pairs[i], step_s)) addRows(assembly, static_cast<int>(i), pairs[i], bodies, shapes, step_s);
+    if (isLasting(pairs[i], settings.step_s))
+      addRows(assembly, static_cast<int>(i), pairs[i], bodies, shapes, settings, counters);
     pairs[i].remembered_count = 0;
   }
   sortByIsland(assembly);
@@ -149,6 +175,19 @@ void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
   }
 }
 
+// Whose paths may bend, one a body.
+std::vector<char> findBends(const Assembly& assembly, const std::vector<Body>& bodies,
+                            const std::vector<ShapePair>& pairs, double step_s) {
+  std::vector<char> bends = assembly.contacts.touched;
+  std::vector<Vec3> accelerations(bodies.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves()) accelerations[i] = bodies[i].acceleration;
+  for (std::size_t i = 0; i < assembly.sources.size(); ++i)
+    straightenDips(assembly.sources[i], pairs[at(assembly.sources[i].pair)].window, step_s, accelerations,
+                   bends);
+  return bends;
+}
+
 // The path of a pressed body: the mean of the velocities before and after, which is exact for constant
 // friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that reopening
 // a gap gives no energy.
@@ -163,11 +202,10 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
   std::vector<ContactRow> rows = assembly.contacts.rows;
   double smallest_rest_gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CollisionWindow& window = pairs[at(assembly.sources[i].pair)].window;
-    rows[i].lowest_speed =
-        gapSpeeds(assembly.sources[i].gap_m, window, step_s, rows[i].impulse.x() > 0.0).path;
+    const ShapePair& pair = pairs[at(assembly.sources[i].pair)];
+    rows[i].lowest_speed = gapSpeeds(assembly.sources[i].gap_m, pair, step_s, rows[i].impulse.x() > 0.0).path;
     rows[i].impulse.setZero();
-    smallest_rest_gap = std::min(smallest_rest_gap, window.rest);
+    smallest_rest_gap = std::min(smallest_rest_gap, pair.window.rest);
   }
   const double coarse_residual = kPathShare * smallest_rest_gap / step_s;
   solvePaths(assembly, rows, paths, coarse_residual);
@@ -179,22 +217,37 @@ void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::ve
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!assembly.contacts.touched[i]) continue;
     bodies[i].travel = Travel::kCarried;
-    bodies[i].momentum_velocity = assembly.contacts.bodies[i].velocity;
-    bodies[i].path.velocity = paths[i].velocity.linear;
-    bodies[i].path.turnAt(paths[i].velocity.angular);
-    bodies[i].path.acceleration.setZero();
+    driveEvenly(bodies[i], {bodies[i].velocity, assembly.contacts.bodies[i].velocity, step_s});
   }
+  const std::vector<char> bends = findBends(assembly, bodies, pairs, step_s);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (assembly.contacts.touched[i]) carryAlong(bodies[i], paths[i].velocity, step_s, bends[i] != 0);
 }
 
-void remember(const Assembly& assembly, std::vector<ShapePair>& pairs) {
+void remember(const Assembly& assembly, std::vector<ShapePair>& pairs, double step_s) {
   for (std::size_t i = 0; i < assembly.contacts.rows.size(); ++i) {
     ShapePair& pair = pairs[at(assembly.sources[i].pair)];
     const ContactRow& row = assembly.contacts.rows[i];
-    pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, rowImpulse(row, row.impulse)};
+    const Vec3 impulse_W = rowImpulse(row, row.impulse);
+    pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, impulse_W, impulse_W / step_s,
+                                                    row.r_a, row.r_b};
   }
 }
 
 }  // namespace
+
+void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, double step_s,
+                    std::vector<ShapePair>& pairs) {
+  ShapePair& pair = pairs[at(sourced.pair)];
+  // Pairs may have been collected anew since.
+  if (pair.body_a != sourced.row.a || pair.body_b != sourced.row.b) return;
+  for (int i = 0; i < pair.remembered_count; ++i) {
+    RememberedImpulse& remembered = pair.remembered[at(i)];
+    if (remembered.id != sourced.id) continue;
+    remembered.impulse_W = impulse_W;
+    remembered.force_W = impulse_W / step_s;
+  }
+}
 
 void wake(Body& body) {
   body.resting = false;
@@ -221,13 +274,13 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
 }
 
 bool isLasting(const ShapePair& pair, double step_s) {
-  return pair.closest.distance_m <= pair.window.ceiling + pair.collision_speed_mps * step_s;
+  return pair.closest.distance_m <= lastingHeight(pair, step_s);
 }
 
 LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                                      std::vector<ShapePair>& pairs, FlightPlanner& planner,
                                      const WorldSettings& settings, StepCounters& counters) {
-  Assembly assembly = assemble(bodies, shapes, pairs, settings.step_s);
+  Assembly assembly = assemble(bodies, shapes, pairs, settings, counters);
   LastingContacts& contacts = assembly.contacts;
   giveEnvironment(contacts, bodies, planner);
   for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
@@ -240,7 +293,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
     if (!bodies[i].moves()) contacts.touched[i] = 0;
   foreseeContacts(contacts, bodies, planner);
   setPaths(assembly, bodies, shapes, pairs, settings.step_s, counters);
-  remember(assembly, pairs);
+  remember(assembly, pairs, settings.step_s);
   counters.contact_points = static_cast<int>(contacts.rows.size());
   contacts.sources = std::move(assembly.sources);
   return std::move(assembly.contacts);

@@ -32,6 +32,10 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
                                      std::vector<ShapePair>& pairs, FlightPlanner& planner,
                                      const WorldSettings& settings, StepCounters& counters);
 
+/// The impulse that a row is remembered by, and acts with, instead of what it took in the step.
+void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, double step_s,
+                    std::vector<ShapePair>& pairs);
+
 /// Makes a body that rested move again.
 void wake(Body& body);
 /// Wakes everything that came to rest together with a body.

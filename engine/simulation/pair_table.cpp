@@ -167,6 +167,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
       ++counters.distance_queries;
       pairs_.push_back(pair);
       link(pairs_.size() - 1);
+      ++counters.candidate_pairs;
     }
   }
 }

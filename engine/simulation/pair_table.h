@@ -15,7 +15,11 @@ namespace carom {
 
 struct RememberedImpulse {
   std::uint64_t id = 0;
-  Vec3 impulse_W = Vec3::Zero();  ///< N s on B.
+  Vec3 impulse_W = Vec3::Zero();  ///< N s on B: what the point took in its last step.
+  // What acts at the point for the rest of the step: events may end it, or give it anew.
+  Vec3 force_W = Vec3::Zero();  ///< N on B.
+  Vec3 arm_a = Vec3::Zero();    ///< From the centres of mass to where it acts, m.
+  Vec3 arm_b = Vec3::Zero();
 };
 
 struct ShapePair {

@@ -115,6 +115,8 @@ void World::Impl::planFlight(PhaseClock* clock) {
     body.events = 0;
     body.collided = false;
     body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
+    body.acceleration.setZero();
+    body.torque.setZero();
     if (body.moves()) planner.plan(static_cast<int>(i), body);
   }
 }
@@ -193,7 +195,9 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
   radii.push_back(0.0);
   if (!planner.isVacuum()) pushes.push_back({});
   std::vector<ContactRow> rows;
-  for (ContactRow row : contacts.rows) {
+  std::vector<std::size_t> source_of;
+  for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
+    ContactRow row = contacts.rows[i];
     const bool in_a = local[at(row.a)] >= 0;
     const bool in_b = local[at(row.b)] >= 0;
     if (!in_a && !in_b) continue;
@@ -202,8 +206,17 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
     row.a = in_a ? local[at(row.a)] : ground;
     row.b = in_b ? local[at(row.b)] : ground;
     rows.push_back(row);
+    source_of.push_back(i);
   }
-  return canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes});
+  // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
+  std::vector<Vec3> balance(rows.size(), Vec3::Zero());
+  const bool rests =
+      canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes, balance});
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!balance[k].isZero(0.0))
+      correctImpulse(contacts.sources[source_of[k]], rowImpulse(rows[k], balance[k]), settings.step_s,
+                     table.pairs());
+  return rests;
 }
 
 void World::Impl::restIslands(const LastingContacts& contacts) {

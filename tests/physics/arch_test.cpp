@@ -1,8 +1,8 @@
 // A semicircular arch (experiments/arch.h) stands from t / R = 0.1075 on.
 //
-// At 240 steps a second that is decided rightly at 0.12 and 0.10, for every size; at 120 an arch of R = 2 m
-// stands at 0.12 and one of 0.5 m falls; at 60 the former needs 0.14 and the latter 0.16 or more. Nothing
-// thinner than theory allows ever stands.
+// One of R = 2 m stands from 0.108 on at 240 steps a second, 0.11 at 120, 0.115 at 60 and 0.12 at 30; one of
+// 0.5 m from 0.11, 0.115, 0.12 and 0.13 on. It settles by 0.01 to 0.4 % of R in the first seconds, by 1.2 %
+// at the coarsest, and then rests. Nothing thinner than theory allows ever stands.
 
 #include "tests/physics/experiments/arch.h"
 
@@ -17,6 +17,7 @@ struct Stones {
   double rate_hz;
   double radius_m;
   double stands_from;  ///< t / R.
+  double comes_down;   ///< As it settles, over R, at most.
 };
 void PrintTo(const Stones& s, std::ostream* out) {
   *out << s.rate_hz << " Hz, R = " << s.radius_m << " m, t/R = " << s.stands_from;
@@ -26,15 +27,18 @@ class Arch : public testing::TestWithParam<Stones> {};
 
 TEST_P(Arch, StandsWhenItIsThickEnough_AndFallsWhenItIsTooThin) {
   const Stones stones = GetParam();
-  EXPECT_TRUE(archStands(kCarom, stones.stands_from, stones.rate_hz, 4.0, stones.radius_m));
-  EXPECT_FALSE(archStands(kCarom, 0.10, stones.rate_hz, 4.0, stones.radius_m));
-  EXPECT_FALSE(archStands(kCarom, 0.09, stones.rate_hz, 4.0, stones.radius_m));
+  EXPECT_LE(archDrop(kCarom, stones.stands_from, stones.rate_hz, 4.0, stones.radius_m),
+            stones.comes_down * stones.radius_m);
+  for (double too_thin : {0.09, 0.10, 0.107})
+    EXPECT_FALSE(archStands(kCarom, too_thin, stones.rate_hz, 4.0, stones.radius_m)) << too_thin;
 }
 
 INSTANTIATE_TEST_SUITE_P(RatesAndSizes, Arch,
-                         testing::Values(Stones{240.0, 2.0, 0.12}, Stones{240.0, 0.5, 0.12},
-                                         Stones{120.0, 2.0, 0.12}, Stones{60.0, 2.0, 0.14},
-                                         Stones{60.0, 0.5, 0.18}));
+                         testing::Values(Stones{240.0, 2.0, 0.108, 2e-4}, Stones{240.0, 0.5, 0.11, 5e-4},
+                                         Stones{120.0, 2.0, 0.11, 5e-4}, Stones{120.0, 0.5, 0.115, 2e-3},
+                                         Stones{60.0, 2.0, 0.115, 2.5e-3}, Stones{60.0, 2.0, 0.12, 2e-3},
+                                         Stones{60.0, 0.5, 0.12, 5e-3}, Stones{30.0, 2.0, 0.12, 5e-3},
+                                         Stones{30.0, 0.5, 0.13, 1.5e-2}));
 
 }  // namespace
 }  // namespace carom::physics

@@ -1,8 +1,9 @@
 // Painlevé's rod (experiments/painleve_rod.h): in the region without a finite force the tip is stopped by a
 // finite impulse, and nothing gains energy.
 //
-// At 60 steps a second the rod gains up to 62 % of its energy in later landings (mu 1.4, tan a = 2), and 17 %
-// with mu = 0.5: the bar there is that the first blow gains nothing. From 240 on nothing gains at all.
+// From 240 steps a second on nothing gains at all. Below, the first blow gains nothing, but the rod, which is
+// only 0.02 m thick, does in later landings: at 120 25 % with mu = 1.2 and nothing with 0.5, 1.4 and 2; at 60
+// 11 % with mu = 0.5, 54 % with 1.2, 325 % with 1.4 and 45 % with 2; at 30 up to 418 %.
 
 #include "tests/physics/experiments/painleve_rod.h"
 
@@ -36,7 +37,7 @@ TEST(PainleveRegion, BeginsAtFourThirds) {
 
 TEST(PainleveRegion, TheFirstBlowGainsNothing_AtCoarseSteps) {
   for (double friction : {1.4, 2.0})
-    for (double rate_hz : {30.0, 60.0}) {
+    for (double rate_hz : {30.0, 60.0, 120.0}) {
       const PainleveRod rod{.rate_hz = rate_hz, .friction = friction};
       const PainleveOutcome outcome = slidePainleveRod(kCarom, rod, 0.1);
       EXPECT_LE(outcome.energy_gain, 1e-12) << rate_hz << " mu " << friction;

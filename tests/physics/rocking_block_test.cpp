@@ -1,8 +1,10 @@
-// Housner's rocking block (experiments/rocking_block.h): 0.8313 of the energy is left at each change of
-// edges.
+// Housner's rocking block (experiments/rocking_block.h): between landings it keeps its energy, and at each
+// it keeps the closed form's share, 0.8313 for 1 x 4.
 //
-// GOALS' +-0.5 % is not met: a landing of finite length lets the block keep more, 0.844 to 0.852 (+2.5 %) at
-// a thousand steps a second, 0.840 to 0.896 at 240 and 0.74 to 1.04 at 60.
+// GOALS' +-0.5 % is met (0.831 to 0.835) from 1 m of height on at 120 steps a second, and with the square of
+// the step: from 4 m at 60, from 0.25 m at 240. A lower block lands wrongly: at 60 one of 1 m keeps 0.72,
+// 0.60 and 0.63, one of 0.5 m 0.48 to 0.58 and one of 2.4 m 0.96 to 0.97; at 120 one of 0.5 m keeps 0.96,
+// 0.98 and 1.01, and so gains.
 
 #include "tests/physics/experiments/rocking_block.h"
 
@@ -13,26 +15,73 @@
 namespace carom::physics {
 namespace {
 
-void expectHousner(double rate_hz, double height_m, double below, double above) {
-  const std::vector<double> ratios = rockingRatios(kCarom, height_m, rate_hz, 3, 0.3);
-  ASSERT_EQ(ratios.size(), 3u);
-  for (double ratio : ratios) {
-    EXPECT_GE(ratio, (1.0 - below) * closedFormRockingRatio(0.25)) << rate_hz << " Hz, " << height_m << " m";
-    EXPECT_LE(ratio, (1.0 + above) * closedFormRockingRatio(0.25)) << rate_hz << " Hz, " << height_m << " m";
-  }
-}
-
-TEST(RockingBlock, ClosedFormIsHousners) {
+TEST(RockingBlockForm, ClosedFormIsHousners) {
   EXPECT_NEAR(closedFormRockingRatio(0.25), 0.8313, 5e-5);
 }
 
-TEST(RockingBlock, KeepsHousnersShareOfItsEnergy) {
-  for (double height_m : {0.5, 1.0, 2.4}) expectHousner(1000.0, height_m, 0.005, 0.03);
+struct Block {
+  double rate_hz, height_m, width_over_height;
+};
+void PrintTo(const Block& b, std::ostream* out) {
+  *out << b.rate_hz << " Hz, " << b.height_m << " m, width / height " << b.width_over_height;
 }
 
-TEST(RockingBlock, KeepsHousnersShareOfItsEnergy_LessExactlyAt240StepsASecond) {
-  for (double height_m : {0.5, 1.0, 2.4}) expectHousner(240.0, height_m, 0.005, 0.08);
+class RockingBlock : public testing::TestWithParam<Block> {};
+
+TEST_P(RockingBlock, KeepsHousnersShareOfItsEnergy) {
+  const Block b = GetParam();
+  for (double heading : {0.0, 0.3}) {
+    const std::vector<double> ratios =
+        rockingRatios(kCarom, b.height_m, b.rate_hz, 3, heading, b.width_over_height);
+    ASSERT_EQ(ratios.size(), 3u);
+    for (double ratio : ratios)
+      EXPECT_NEAR(ratio / closedFormRockingRatio(b.width_over_height), 1.0, 0.005) << heading;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(RatesAndSizes, RockingBlock,
+                         testing::Values(Block{60, 4.0, 0.25}, Block{120, 1.0, 0.25}, Block{120, 2.4, 0.25},
+                                         Block{120, 4.0, 0.25}, Block{240, 0.25, 0.25}, Block{240, 0.5, 0.25},
+                                         Block{240, 1.0, 0.25}, Block{240, 2.4, 0.25},
+                                         Block{240, 3.0, 1.0 / 3.0}, Block{1000, 0.5, 0.25},
+                                         Block{1000, 1.0, 0.25}, Block{1000, 2.4, 0.25},
+                                         Block{1000, 3.0, 1.0 / 3.0}));
+
+// At 60 steps a second: not the closed form, but never a gain.
+TEST(RockingBlockCoarse, OfLessThanFourMetres_LosesEnergyAtCoarseSteps) {
+  for (double height_m : {0.5, 1.0, 2.4})
+    for (double ratio : rockingRatios(kCarom, height_m, 60.0, 3)) {
+      EXPECT_GE(ratio, 0.4) << height_m;
+      EXPECT_LE(ratio, 0.98) << height_m;
+    }
+}
+
+class Swing : public testing::TestWithParam<std::tuple<double, double>> {};  // Hz, heading
+
+// From rest to just before the landing, a block of 4 m.
+TEST_P(Swing, AboutAnEdge_KeepsItsEnergy) {
+  const auto [rate_hz, heading] = GetParam();
+  constexpr double kHeight = 4.0;
+  Trial trial = rockingBlock(kCarom, kHeight, rate_hz, heading);
+  const double upright =
+      trial.experiment().bodies[kRocker].mass_kg * kGravity * (0.5 * kHeight + restGap(0.25 * kHeight));
+  const double begin = trial.energy() - upright;
+  const auto tilt = [&] {
+    return std::acos(std::min(1.0, (trial.motion(kRocker).X_WB.rotation * Vec3::UnitZ()).z()));
+  };
+  double last = tilt();
+  for (long n = trial.stepsOf(5.0); n > 0 && last > 0.03; --n) {
+    trial.step();
+    last = tilt();
+    if (last > 0.03) {
+      ASSERT_NEAR((trial.energy() - upright) / begin, 1.0, 1e-3 * std::pow(60.0 / rate_hz, 2)) << last;
+    }
+  }
+  EXPECT_LE(last, 0.03) << "it should have come down";
+}
+
+INSTANTIATE_TEST_SUITE_P(RatesAndHeadings, Swing,
+                         testing::Combine(testing::Values(60.0, 120.0, 240.0), testing::Values(0.0, 0.7)));
 
 }  // namespace
 }  // namespace carom::physics

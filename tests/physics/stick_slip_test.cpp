@@ -1,4 +1,7 @@
-// The threshold of friction: a block on a slope stays exactly when tan(angle) <= mu.
+// The threshold of friction: a block on a slope stays exactly when tan(angle) <= mu, to a thousandth. One
+// that would gain less than 1e-3 m/s^2 is held by the resting mode: it stays up to 0.05 % beyond mu = 0.2,
+// and up to 0.015 % beyond 0.9. What stays moves by less than a micrometre; what slides has the closed form's
+// speed to 6e-5, and to the step in which it gets loose.
 
 #include "tests/physics/small_world.h"
 
@@ -35,7 +38,7 @@ TEST_P(StickSlip, ABlockJustBelowTheThresholdRestsWhereItWasPut) {
     for (double turn : {0.0, 0.6}) {
       const Outcome o = leaveOnSlope(mu * (1.0 - kMargin), mu, mu, 0.4, turn, GetParam());
       EXPECT_TRUE(o.rests) << "mu " << mu << " turn " << turn << " speed " << o.speed_mps;
-      EXPECT_LT(o.slid_m, 1e-4) << "mu " << mu << " turn " << turn;
+      EXPECT_LT(o.slid_m, 1e-6) << "mu " << mu << " turn " << turn;
     }
 }
 
@@ -47,8 +50,7 @@ TEST_P(StickSlip, ABlockJustAboveTheThresholdSlidesByTheClosedForm) {
       const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
       const double expected = kGravity * cosine * (tangent - mu) * 3.0;
       EXPECT_FALSE(o.rests) << "mu " << mu << " turn " << turn;
-      // The friction force is good to 1e-4 of itself, which is a tenth of what is left of the weight.
-      EXPECT_NEAR(o.speed_mps / expected, 1.0, 0.1) << "mu " << mu << " turn " << turn;
+      EXPECT_NEAR(o.speed_mps / expected, 1.0, 1e-4) << "mu " << mu << " turn " << turn;
     }
 }
 
@@ -56,11 +58,12 @@ TEST_P(StickSlip, TheStaticCoefficientDecidesWhetherTheDynamicOneHowFast) {
   const double mu_s = 0.6, mu_d = 0.4;
   const Outcome below = leaveOnSlope(mu_s * (1.0 - kMargin), mu_s, mu_d, 0.2, 0.3, GetParam());
   EXPECT_TRUE(below.rests);
-  EXPECT_LT(below.slid_m, 1e-4);
+  EXPECT_LT(below.slid_m, 1e-6);
   const double tangent = mu_s * (1.0 + kMargin);
   const Outcome above = leaveOnSlope(tangent, mu_s, mu_d, 0.2, 0.3, GetParam());
   const double expected = kGravity / std::sqrt(1.0 + tangent * tangent) * (tangent - mu_d) * 3.0;
-  EXPECT_NEAR(above.speed_mps / expected, 1.0, 0.01);
+  // The static coefficient holds it for the first step of the three seconds.
+  EXPECT_NEAR(above.speed_mps / expected, 1.0, 0.36 / GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, StickSlip, testing::Values(60.0, 120.0, 240.0));

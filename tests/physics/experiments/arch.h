@@ -7,7 +7,8 @@
 
 namespace carom::physics {
 
-inline bool archStands(const Simulator& simulator, double thickness_over_radius, double rate_hz,
+/// How far the keystone has come down after `seconds`; more than R / 10 as soon as it has.
+inline double archDrop(const Simulator& simulator, double thickness_over_radius, double rate_hz,
                        double seconds = 4.0, double radius_m = 2.0) {
   constexpr int kStones = 21;
   constexpr double kFriction = 0.9;
@@ -32,11 +33,18 @@ inline bool archStands(const Simulator& simulator, double thickness_over_radius,
   const int keystone = kStones / 2 + 1;
   Trial trial(simulator, std::move(e));
   const double begin = trial.position(keystone).z();
-  for (long n = trial.stepsOf(seconds); n > 0; --n) {
+  double drop = 0.0;
+  for (long n = trial.stepsOf(seconds); n > 0 && drop <= 0.1 * radius_m; --n) {
     trial.step();
-    if (!(trial.position(keystone).z() > begin - 0.1 * radius_m)) return false;
+    const double now = begin - trial.position(keystone).z();
+    drop = std::isfinite(now) ? now : std::numeric_limits<double>::infinity();
   }
-  return true;
+  return drop;
+}
+
+inline bool archStands(const Simulator& simulator, double thickness_over_radius, double rate_hz,
+                       double seconds = 4.0, double radius_m = 2.0) {
+  return archDrop(simulator, thickness_over_radius, rate_hz, seconds, radius_m) < 0.1 * radius_m;
 }
 
 }  // namespace carom::physics

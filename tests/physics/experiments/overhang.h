@@ -6,8 +6,9 @@
 
 namespace carom::physics {
 
-/// Whether eight blocks stand for five seconds with `share` of those offsets.
-inline bool overhangStands(const Simulator& simulator, double share, double rate_hz, double length_m = 1.6,
+/// How far the uppermost of eight blocks with `share` of those offsets has come down after five seconds; more
+/// than L / 20 as soon as it has.
+inline double overhangDrop(const Simulator& simulator, double share, double rate_hz, double length_m = 1.6,
                            double heading = 0.0) {
   constexpr int kBlocks = 8;
   const Vec3 size(length_m, 0.3 * length_m, 0.125 * length_m);
@@ -30,11 +31,18 @@ inline bool overhangStands(const Simulator& simulator, double share, double rate
   }
   Trial trial(simulator, std::move(e));
   const double begin = trial.position(top).z();
-  for (long n = trial.stepsOf(5.0); n > 0; --n) {
+  double drop = 0.0;
+  for (long n = trial.stepsOf(5.0); n > 0 && drop <= 0.05 * length_m; --n) {
     trial.step();
-    if (!(trial.position(top).z() > begin - 0.05 * length_m)) return false;
+    const double now = begin - trial.position(top).z();
+    drop = std::isfinite(now) ? now : std::numeric_limits<double>::infinity();
   }
-  return true;
+  return drop;
+}
+
+inline bool overhangStands(const Simulator& simulator, double share, double rate_hz, double length_m = 1.6,
+                           double heading = 0.0) {
+  return overhangDrop(simulator, share, rate_hz, length_m, heading) < 0.05 * length_m;
 }
 
 }  // namespace carom::physics

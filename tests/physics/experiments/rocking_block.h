@@ -12,19 +12,30 @@ inline double closedFormRockingRatio(double width_over_height) {
   return (1.0 - 1.5 * sine_squared) * (1.0 - 1.5 * sine_squared);
 }
 
-/// Energies after the first landings, each over the one before it; fewer when it stops rocking.
-inline std::vector<double> rockingRatios(const Simulator& simulator, double height_m, double rate_hz,
-                                         std::size_t landings, double heading = 0.0) {
-  const double width = 0.25 * height_m, alpha = std::atan(0.25), tilt = 0.8 * alpha;
-  const double diagonal = 0.5 * std::hypot(width, height_m);
+inline constexpr int kRocker = 1;  ///< The block of a rocking experiment; the floor is 0.
+
+/// Askew by 0.8 of the angle at which it would fall over, its lower edge a rest gap above the floor.
+inline Trial rockingBlock(const Simulator& simulator, double height_m, double rate_hz, double heading = 0.0,
+                          double width_over_height = 0.25) {
+  const double width = width_over_height * height_m, alpha = std::atan(width_over_height);
+  const double tilt = 0.8 * alpha, diagonal = 0.5 * std::hypot(width, height_m);
   Experiment e{.step_s = 1.0 / rate_hz};
   e.addPlane(0.9);
+  e.add({.shape = Shape::box({width, 1.6 * width, height_m}),
+         .X_WB = {rotatedBy(Vec3::UnitZ(), heading) * rotatedBy(Vec3::UnitY(), tilt),
+                  Vec3(0, 0, diagonal * std::cos(alpha - tilt) + restGap(width))},
+         .friction = 0.9});
+  return Trial(simulator, std::move(e));
+}
+
+/// Energies after the first landings, each over the one before it; fewer when it stops rocking.
+inline std::vector<double> rockingRatios(const Simulator& simulator, double height_m, double rate_hz,
+                                         std::size_t landings, double heading = 0.0,
+                                         double width_over_height = 0.25) {
+  const double alpha = std::atan(width_over_height), tilt = 0.8 * alpha;
+  const double diagonal = 0.5 * std::hypot(width_over_height * height_m, height_m);
   const Quat turn = rotatedBy(Vec3::UnitZ(), heading);
-  const int body = e.add({.shape = Shape::box({width, 1.6 * width, height_m}),
-                          .X_WB = {turn * rotatedBy(Vec3::UnitY(), tilt),
-                                   Vec3(0, 0, diagonal * std::cos(alpha - tilt) + restGap(width))},
-                          .friction = 0.9});
-  Trial trial(simulator, std::move(e));
+  Trial trial = rockingBlock(simulator, height_m, rate_hz, heading, width_over_height);
   // Over one edge, per kg, from angle and rate: potential less that of standing, and 2/3 d^2 w^2.
   const auto energy = [&](double angle, double rate) {
     return kGravity * diagonal * (std::cos(alpha - angle) - std::cos(alpha)) +
@@ -35,7 +46,7 @@ inline std::vector<double> rockingRatios(const Simulator& simulator, double heig
   bool landed = false;
   for (long n = trial.stepsOf(6.0); n > 0 && swings.size() <= landings; --n) {
     trial.step();
-    const Motion m = trial.motion(body);
+    const Motion m = trial.motion(kRocker);
     const double lean =
         std::asin(std::clamp((turn.conjugate() * (m.X_WB.rotation * Vec3::UnitZ())).x(), -1.0, 1.0));
     if (lean * side < 0.0) {  // on the other edge now

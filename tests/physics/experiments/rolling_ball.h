@@ -31,8 +31,8 @@ inline double slipShare(const Simulator& simulator, const Slope& slope, double r
   return (m.velocity - radius_m * m.spin.cross(up)).norm() / m.velocity.norm();
 }
 
-/// The least mu with which it rolls over 2/7 tan, less one. A share of 0.3 % of slip counts as rolling: the
-/// gap below the ball is 0.1 % of its radius.
+/// The least mu with which it rolls over 2/7 tan, less one. A share of 0.3 % of slip counts as rolling, for
+/// those who hold the ball a little off its radius: exact rolling comes out at -0.2 %.
 inline double rollingThresholdError(const Simulator& simulator, Slope slope) {
   const double expected = 2.0 / 7.0 * std::tan(slope.angle);
   const auto slips = [&](double share) {

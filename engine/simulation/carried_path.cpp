@@ -1,0 +1,42 @@
+#include "engine/simulation/carried_path.h"
+
+#include <algorithm>
+
+namespace carom {
+namespace {
+
+constexpr double kDipShare = 0.05;  // of the room below a gap
+constexpr double kNoDip = 1e-6;     // of the rest gap: what rounding may do to a body that slides
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void driveEvenly(Body& body, const CarriedStretch& stretch) {
+  const double dt = stretch.rest_of_step_s;
+  body.momentum_velocity = stretch.begin;
+  body.acceleration = (stretch.end.linear - stretch.begin.linear) / dt;
+  const Vec3 turned = stretch.end.angular - stretch.begin.angular;
+  body.torque = angularMomentum(body.inertia, body.path.X_WB.rotation, turned) / dt;
+}
+
+void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends) {
+  body.path.acceleration = bends ? body.acceleration : Vec3(Vec3::Zero());
+  body.path.velocity = mean.linear - (0.5 * rest_of_step_s) * body.path.acceleration;
+  body.path.turnAt(mean.angular);
+}
+
+void straightenDips(const SourcedRow& sourced, const CollisionWindow& window, double rest_of_step_s,
+                    std::span<const Vec3> accelerations, std::span<char> bends) {
+  // A parabola lies below its chord by up to an eighth of the acceleration times the time squared.
+  const double share = 0.125 * rest_of_step_s * rest_of_step_s;
+  const double room = std::min(sourced.gap_m, window.rest) - window.floor;
+  const double dip = std::max(kDipShare * room, kNoDip * window.rest);
+  const ContactRow& row = sourced.row;
+  if (-share * row.n.dot(accelerations[at(row.a)]) > dip) bends[at(row.a)] = 0;
+  if (share * row.n.dot(accelerations[at(row.b)]) > dip) bends[at(row.b)] = 0;
+}
+
+}  // namespace carom
