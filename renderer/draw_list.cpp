@@ -161,7 +161,8 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
   const int seen = static_cast<int>(visible.size());
   list.visible = group(visible, &SolidGeometry::levels, instances, geometry, 0);
   list.casting = group(casting, &SolidGeometry::casting, instances, geometry, seen);
-  list.mirrored = group(casting, &SolidGeometry::levels, instances, geometry, seen);
+  if (qualityOf(settings.preset, settings.style).mirror)
+    list.mirrored = group(casting, &SolidGeometry::levels, instances, geometry, seen);
   return list;
 }
 

@@ -33,7 +33,7 @@ struct DrawList {
   std::vector<InstanceRecord> records;  ///< First those of `visible`, then those of `casting`.
   std::vector<DrawGroup> visible;       ///< Nearest group first.
   std::vector<DrawGroup> casting;       ///< All but the ground, as the shadow map needs them.
-  std::vector<DrawGroup> mirrored;      ///< The same instances as the camera would see them.
+  std::vector<DrawGroup> mirrored;      ///< The same as the camera would see them, where the ground mirrors.
   std::optional<int> ground;            ///< The instance drawn as an endless plane.
   double ground_z_E = 0.0;              ///< Height of that plane above the eye.
   DepthRange depth;

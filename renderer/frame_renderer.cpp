@@ -229,13 +229,12 @@ void FrameRenderer::Impl::createOcclusionBuffer() {
   gl.GenVertexArrays(1, &occlusion_array);
   gl.BindVertexArray(occlusion_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
-  const GLint sizes[] = {3, 3, 3, 3, 3};
-  std::size_t at = 0;
+  constexpr std::size_t kTriple = 3 * sizeof(float);  // Attributes are three floats each.
+  static_assert(sizeof(OcclusionVertex) == 5 * kTriple);
   for (GLuint i = 0; i < 5; ++i) {
-    gl.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex),
-                           reinterpret_cast<const void*>(at));
+    gl.VertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex),
+                           reinterpret_cast<const void*>(kTriple * i));
     gl.EnableVertexAttribArray(i);
-    at += static_cast<std::size_t>(sizes[i]) * sizeof(float);
   }
 }
 

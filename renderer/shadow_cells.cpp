@@ -22,7 +22,7 @@ ShadowCells::ShadowCells(const ShadowView& view, std::span<const ShadowCaster> c
     const Block& block = blocks_.emplace_back(blockOf(caster));
     for (int y = block.y_begin; y < block.y_end; ++y)
       for (int x = block.x_begin; x < block.x_end; ++x)
-        casters(x, y) = static_cast<std::uint16_t>(std::min(casters(x, y) + 1, 2));
+        casters(x, y) = static_cast<std::uint8_t>(std::min(casters(x, y) + 1, 2));
   }
 }
 

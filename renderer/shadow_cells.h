@@ -33,12 +33,12 @@ class ShadowCells {
   };
   Block blockOf(const ShadowCaster& caster) const;
   std::vector<Block> coveredBlocks() const;
-  std::uint16_t& casters(int x, int y) { return casters_[static_cast<std::size_t>(kSide * y + x)]; }
-  std::uint16_t casters(int x, int y) const { return casters_[static_cast<std::size_t>(kSide * y + x)]; }
+  std::uint8_t& casters(int x, int y) { return casters_[static_cast<std::size_t>(kSide * y + x)]; }
+  std::uint8_t casters(int x, int y) const { return casters_[static_cast<std::size_t>(kSide * y + x)]; }
 
   ShadowView view_;
-  std::vector<Block> blocks_;                           // By caster.
-  std::array<std::uint16_t, kSide * kSide> casters_{};  // Of each cell; two stand for more.
+  std::vector<Block> blocks_;                          // By caster.
+  std::array<std::uint8_t, kSide * kSide> casters_{};  // Of each cell; two stand for more.
 };
 
 }  // namespace carom::renderer

@@ -31,16 +31,6 @@ std::string sceneText(const std::string& color = "#d55e00") {
 }
 
 constexpr int kFrames = 12;
-using Files = std::map<std::string, std::string>;
-
-/// The frames of a folder, by name; anything hidden counts as well.
-Files framesOf(const fs::path& folder) {
-  Files files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() != ".json")
-      files[entry.path().filename().string()] = readTextFile(entry.path());
-  return files;
-}
 
 struct LongJob : testing::Test {
   TemporaryFolder folder;

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kWidth = 160, kHeight = 90;
-using Files = std::map<std::string, std::string>;
 
 struct Looks : testing::Test {
   TemporaryFolder folder;

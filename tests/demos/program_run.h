@@ -4,7 +4,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -97,6 +99,18 @@ class Program {
 inline ProgramEnd runCarom(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment = {}) {
   return Program(arguments, environment).wait();
+}
+
+/// File names and contents.
+using Files = std::map<std::string, std::string>;
+
+/// What `render` left in a folder but for its JSON; anything hidden counts as well.
+inline Files framesOf(const std::filesystem::path& folder) {
+  Files files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() != ".json")
+      files[entry.path().filename().string()] = readTextFile(entry.path());
+  return files;
 }
 
 }  // namespace carom::demos

@@ -19,16 +19,6 @@ namespace carom::demos {
 namespace {
 namespace fs = std::filesystem;
 
-using Files = std::map<std::string, std::string>;
-
-Files framesOf(const fs::path& folder) {
-  Files files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() != ".json")
-      files[entry.path().filename().string()] = readTextFile(entry.path());
-  return files;
-}
-
 /// The processes whose parent is `parent`, from /proc; those that have ended and wait to be fetched as well.
 std::vector<pid_t> childrenOf(pid_t parent) {
   std::vector<pid_t> children;

@@ -19,11 +19,18 @@ inline Experiment emptySpace(const ShotPlan& plan) {
   return {.step_s = 1.0 / plan.rate_hz, .gravity = 0.0, .continuous_collision = plan.continuous_collision};
 }
 
+/// Share of the plan's shots for which `passes` is true, each given the same random numbers in turn.
+template <typename Passes>
+double shareThat(const ShotPlan& plan, unsigned seed, const Passes& passes) {
+  oracle::Random random(seed);
+  int passed = 0;
+  for (int i = 0; i < plan.shots; ++i) passed += passes(random);
+  return static_cast<double>(passed) / plan.shots;
+}
+
 /// Share of 0.1 m boxes, turned anyhow, that pass a static wall of 2 cm.
 inline double passedTheWall(const Simulator& simulator, const ShotPlan& plan) {
-  oracle::Random random(11);
-  int passed = 0;
-  for (int i = 0; i < plan.shots; ++i) {
+  return shareThat(plan, 11, [&](oracle::Random& random) {
     Experiment e = emptySpace(plan);
     ExperimentBody wall{Shape::box({0.02, 4.0, 4.0})};
     wall.is_static = true;
@@ -40,16 +47,13 @@ inline double passedTheWall(const Simulator& simulator, const ShotPlan& plan) {
       const Vec3 p = trial.position(box);
       beyond = beyond || (p.x() > 0.0 && p.tail<2>().cwiseAbs().maxCoeff() < 1.9);
     }
-    passed += beyond;
-  }
-  return static_cast<double>(passed) / plan.shots;
+    return beyond;
+  });
 }
 
 /// Share of pairs of 0.1 m boxes, face to face at `speed` each, that change sides.
 inline double changedSides(const Simulator& simulator, const ShotPlan& plan) {
-  oracle::Random random(12);
-  int passed = 0;
-  for (int i = 0; i < plan.shots; ++i) {
+  return shareThat(plan, 12, [&](oracle::Random& random) {
     Experiment e = emptySpace(plan);
     const double apart = random.uniform(0.3, 2.0);
     for (double side : {-1.0, 1.0})
@@ -62,18 +66,15 @@ inline double changedSides(const Simulator& simulator, const ShotPlan& plan) {
       trial.step();
       beyond = beyond || !(trial.position(1).x() - trial.position(0).x() > 0.0);
     }
-    passed += beyond;
-  }
-  return static_cast<double>(passed) / plan.shots;
+    return beyond;
+  });
 }
 
 /// Share of rods of 2 m, spinning at `speed` < 90 rad/s between two static posts within their reach, that
 /// turn past them. The posts stand opposite each other, so that their blows turn the rod but do not push it
 /// away: past the line of both is through.
 inline double passedThePosts(const Simulator& simulator, const ShotPlan& plan) {
-  oracle::Random random(13);
-  int passed = 0;
-  for (int i = 0; i < plan.shots; ++i) {
+  return shareThat(plan, 13, [&](oracle::Random& random) {
     Experiment e = emptySpace(plan);
     const double reach = random.uniform(0.3, 0.8);
     for (double side : {-1.0, 1.0}) {
@@ -94,9 +95,8 @@ inline double passedThePosts(const Simulator& simulator, const ShotPlan& plan) {
       angle += std::remainder(std::atan2(along.y(), along.x()) - angle, std::numbers::pi);
       through = angle > 0.2;
     }
-    passed += through;
-  }
-  return static_cast<double>(passed) / plan.shots;
+    return through;
+  });
 }
 
 }  // namespace carom::physics
