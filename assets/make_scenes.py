@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes thirteen scenes of impulses and friction in assets/scenes/, the same bytes on every run.
+"""Makes fourteen scenes of impulses and friction in assets/scenes/, the same bytes on every run.
 
 Usage: python3 assets/make_scenes.py [FOLDER]        (needs nothing but Python 3)
 
@@ -322,6 +322,46 @@ def rolling_race(folder):
           bodies, main_camera([8.6, -8.6, 4.9], [0.3, -0.3, 0.65], 34), 4, folder)
 
 
+def rolling_stop(folder):
+    """Equal balls roll out on three lanes, to posts where theory stops them; two tops spin beside them."""
+    radius, speed, gap = 0.3, 2.4, 0.0001  # the rest gap on a lane 0.1 thick
+    thick, lift, start = 0.1, 0.0005, -3.2
+    lane_top = lift + thick
+    bodies = [floor()]
+    materials = {"floor": FLOOR, "post": {"color": "#3b4148"}}
+    lanes = (("ice", 0.02, 2.2, SKY, "#cfe0ea"), ("cork", 0.04, 0.9, ORANGE, "#d9bf94"),
+             ("felt", 0.08, -0.4, RED, "#7d9c83"))
+    for name, lever, y, color, lane_color in lanes:
+        # The pair's lever is the geometric mean of both.
+        materials[name] = {"staticFriction": 0.6, "rollingResistance": lever, "density": 900}
+        way = speed ** 2 / (2 * 5 / 7 * GRAVITY * lever / radius)
+        bodies.append(body(f"{name} lane", {"box": [8.2, 1.0, thick]}, [0.3, y, lift + thick / 2],
+                           static=True, material=name, color=lane_color))
+        bodies.append(body(f"{name} ball", {"sphere": {"radius": radius}},
+                           [start, y, lane_top + radius + gap],
+                           linearVelocity=[speed, 0, 0], angularVelocity=[0, speed / radius, 0],
+                           material=name, color=color))
+        for side, sign in (("near", -1), ("far", 1)):
+            bodies.append(body(f"{side} post of {name}", {"box": [0.06, 0.06, 0.55]},
+                               [start + way, y + sign * 0.42, lane_top + 0.276],
+                               static=True, material="post"))
+    materials["glass"] = {"staticFriction": 0.6, "density": 900}
+    materials["leather"] = {"staticFriction": 0.6, "spinningResistance": 0.012, "density": 900}
+    bar = {"shape": {"capsule": {"radius": 0.09, "length": 1.2}}, "rotation": turn([0, 1, 0], 90)}
+    top = {"compound": [{"shape": {"sphere": {"radius": radius}}}, bar]}
+    for name, x, color, plate in (("glass", -1.6, GREEN, "#dfe9e4"), ("leather", 1.2, YELLOW, "#a98467")):
+        bodies.append(body(f"{name} plate", {"box": [2.0, 2.0, thick]}, [x, -2.3, lift + thick / 2],
+                           static=True, material=name, color=plate))
+        bodies.append(body(f"top on {name}", top, [x, -2.3, lane_top + radius + gap],
+                           angularVelocity=[0, 0, 9], material=name, color=color))
+    write("rolling-stop",
+          "Balls of radius r = 0.3 m with 2.4 m/s and rolling resistances c of 2, 4 and 8 cm lose "
+          "5/7 g c / r and stop between their posts, after 6.2, 3.1 and 1.5 m. Of two tops, the one on "
+          "leather (spinning resistance 1.2 cm) comes to a stop, the one on glass spins on.",
+          "balls roll out at three distances, one of two tops stops",
+          materials, bodies, main_camera([5.2, -8.0, 5.2], [0.25, -0.25, 0.1], 36), 6, folder)
+
+
 def spinning_coin(folder):
     """Coins of 120 sides: one spins upright, one rolls in a circle, one wobbles like Euler's disk."""
     radius, thick = 0.5, 0.08
@@ -514,8 +554,8 @@ def tower_hit(folder):
           bodies, main_camera([4.6, -9.2, 3.4], [0.6, 0, 1.3], 33), 4, folder)
 
 
-SCENES = [cradle, overhang, arch, card_house, dominoes, rocking_block, rolling_race, spinning_coin,
-          stick_slip_ramp,
+SCENES = [cradle, overhang, arch, card_house, dominoes, rocking_block, rolling_race, rolling_stop,
+          spinning_coin, stick_slip_ramp,
           heavy_on_light, pyramid, wall, tower_hit]
 
 

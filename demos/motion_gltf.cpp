@@ -177,6 +177,8 @@ tinygltf::Value physics(const BodyDescription& body) {
   const Material& m = body.material;
   return tinygltf::Value({{"staticFriction", tinygltf::Value(m.static_friction)},
                           {"dynamicFriction", tinygltf::Value(m.dynamic_friction)},
+                          {"rollingResistance", tinygltf::Value(m.rolling_resistance_m)},
+                          {"spinningResistance", tinygltf::Value(m.spinning_resistance_m)},
                           {"restitution", tinygltf::Value(m.restitution)},
                           {"density", tinygltf::Value(m.density_kgpm3)},
                           {"static", tinygltf::Value(body.is_static)}});

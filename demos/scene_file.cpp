@@ -34,6 +34,7 @@ struct Range {
 constexpr Range kLength{kSmallestLength_m, kLargestLength_m};
 constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
 constexpr Range kFactor{0.0, 1000.0};
+constexpr Range kResistance{0.0, 100.0};  // metres
 constexpr Range kSpeed{-kLargestSpeed, kLargestSpeed};
 
 std::string plainNumber(double value) {
@@ -143,8 +144,8 @@ struct NamedMaterial {
 using Materials = std::map<std::string, NamedMaterial>;
 
 NamedMaterial readMaterial(const Json& json) {
-  json.onlyKeys(
-      {"staticFriction", "dynamicFriction", "restitution", "density", "dragCoefficient", "color", "checker"});
+  json.onlyKeys({"staticFriction", "dynamicFriction", "rollingResistance", "spinningResistance",
+                 "restitution", "density", "dragCoefficient", "color", "checker"});
   NamedMaterial material;
   Material& m = material.physical;
   if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
@@ -155,6 +156,10 @@ NamedMaterial readMaterial(const Json& json) {
       value->fail(value->shown() + " is above the static friction of " + plainNumber(m.static_friction) +
                   "; accepted: at most that");
   }
+  if (const Json* value = json.find("rollingResistance"))
+    m.rolling_resistance_m = readNumber(*value, kResistance);
+  if (const Json* value = json.find("spinningResistance"))
+    m.spinning_resistance_m = readNumber(*value, kResistance);
   if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
   if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
   if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);

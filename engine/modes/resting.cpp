@@ -29,18 +29,20 @@ bool standsOnLevelContacts(std::span<const BodyContact> contacts, const Vec3& we
 
 bool forcesPassThroughSupports(const RestQuestion& q) {
   std::vector<std::vector<BodyContact>> contacts(q.bodies.size());
+  std::vector<char> resisted(q.bodies.size(), 0);  // torques hold it: only (2) knows
   for (const ContactRow& row : q.rows) {
     const Vec3 force = rowImpulse(row, row.impulse) / q.step_s;
     const auto a = static_cast<std::size_t>(row.a);
     const auto b = static_cast<std::size_t>(row.b);
     contacts[a].push_back({q.bodies[a].center + row.r_a, -row.n, -force});
     contacts[b].push_back({q.bodies[b].center + row.r_b, row.n, force});
+    if (row.resistance.rolling_m > 0.0) resisted[a] = resisted[b] = 1;
   }
   for (std::size_t i = 0; i < q.bodies.size(); ++i) {
     if (q.bodies[i].inverse_mass == 0.0) continue;
     const Vec3 weight = q.gravity / q.bodies[i].inverse_mass;
     if (weight.isZero(0.0)) return false;
-    if (!standsOnLevelContacts(contacts[i], weight)) continue;
+    if (resisted[i] != 0 || !standsOnLevelContacts(contacts[i], weight)) continue;
     if (supportMiss(q.bodies[i].center, weight, contacts[i]) > kSupportSlack * q.radii[i]) return false;
   }
   return true;
@@ -82,9 +84,10 @@ bool conesBalanceGravity(const RestQuestion& q) {
     row.still_slip.setZero();
     if (row.impulse.x() > 0.0) row.lowest_speed = 0.0;
     applyToRow(row, row.impulse, bodies);
+    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, bodies);
   }
   const bool balanced = comesToBalance(q, rows, bodies);
-  for (std::size_t i = 0; i < q.balance.size(); ++i) q.balance[i] = rows[i].impulse;
+  for (std::size_t i = 0; i < q.balance.size(); ++i) q.balance[i] = {rows[i].impulse, rows[i].torque};
   return balanced;
 }
 

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/turning_resistance.h"
 
 namespace carom {
 
@@ -25,8 +25,8 @@ struct RestQuestion {
   /// What gravity, air and water give each body in a step from standstill; empty: gravity alone. Where more
   /// than gravity may push, (2) alone decides.
   std::span<const Velocity> pushes = {};
-  /// Where given, one a row, (2) leaves its impulses here, also when they do not balance yet: a better guess.
-  std::span<Vec3> balance = {};
+  /// Where given, one a row, (2) leaves its loads here, also when they do not balance yet: a better guess.
+  std::span<RowLoad> balance = {};
 };
 
 /// (1) and (2) above. Cost: a converged contact solve; ask rarely.

@@ -76,6 +76,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     before[i] = rowVelocity(rows[i], bodies);
     report.approach_mps = std::min(report.approach_mps, before[i].x());
     rows[i].lowest_speed = 0.0;
+    rows[i].resistance = {};
   }
   if (rows.size() == 1) {
     ContactRow& row = rows.front();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/foundation/tolerances.h"
+#include "engine/response/turning_resistance.h"
 
 namespace carom {
 namespace {
@@ -48,8 +49,8 @@ struct RowChange {
   bool settled = true;  ///< The row's conditions hold now; else only a step towards them was taken.
 };
 
-// Brings one row to its conditions, or nearer to them, with the others as they are.
-RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
+// Brings the impulse of one row to its conditions, or nearer to them, with all else as it is.
+RowChange solvePoint(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
   Vec3 miss = rowVelocity(row, bodies);
   miss.x() -= row.lowest_speed;
   miss.tail<2>() -= row.still_slip;
@@ -75,6 +76,36 @@ RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction
   applyToRow(row, impulse - row.impulse, bodies);
   row.impulse = impulse;
   return {change, settled};
+}
+
+// The same with a torque against turning: all held at once, or else each brought nearer with the other as it
+// is. Kept out of the way of the rows without.
+[[gnu::noinline]] RowChange solveTurningPoint(ContactRow& row, std::span<ImpulseBody> bodies) {
+  Vec3 miss = rowVelocity(row, bodies);
+  miss.x() -= row.lowest_speed;
+  miss.tail<2>() -= row.still_slip;
+  RowLoad load;
+  RowChange change;
+  if (holdsTurning(row, bodies, miss, load)) {
+    change.speed_mps = largest(miss);
+  } else {
+    change = solvePoint(row, bodies, true);
+    load = resistTurning(row, bodies, change.settled && row.impulse.x() > 0.0);
+    change.settled = change.settled && load.torque.isZero(0.0);
+  }
+  const Vec3 torque_change = load.torque - row.torque;
+  change.speed_mps = std::max(change.speed_mps, turningAsSpeed(row, torque_change));
+  applyToRow(row, load.impulse - row.impulse, bodies);
+  applyTorqueToRow(row, torque_change, bodies);
+  row.impulse = load.impulse;
+  row.torque = load.torque;
+  return change;
+}
+
+RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
+  if (friction && row.resistance.acts()) [[unlikely]]
+    return solveTurningPoint(row, bodies);
+  return solvePoint(row, bodies, friction);
 }
 
 double& stirOf(std::span<ImpulseBody> bodies, int i) {
@@ -116,12 +147,14 @@ std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows) {
 // Impulses and the velocities they give: a point, or a direction, of the search.
 struct Iterate {
   std::vector<Vec3> impulses;
+  std::vector<Vec3> torques;  ///< None where no row resists turning.
   std::vector<Velocity> velocities;
 };
 
 void store(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
            std::span<const std::size_t> involved, Iterate& iterate) {
   for (std::size_t i = 0; i < rows.size(); ++i) iterate.impulses[i] = rows[i].impulse;
+  for (std::size_t i = 0; i < iterate.torques.size(); ++i) iterate.torques[i] = rows[i].torque;
   for (std::size_t k = 0; k < involved.size(); ++k) iterate.velocities[k] = bodies[involved[k]].velocity;
 }
 
@@ -133,6 +166,8 @@ double squaredStep(std::span<const ContactRow> rows, const Iterate& before) {
     squared += d.x() * d.x() * rows[i].normal_response.x() +
                d.tail<2>().squaredNorm() * rows[i].largest_slip_response;
   }
+  for (std::size_t i = 0; i < before.torques.size(); ++i)
+    squared += (rows[i].torque - before.torques[i]).squaredNorm() * rows[i].largest_turn_response;
   return squared;
 }
 
@@ -144,6 +179,11 @@ void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
     const Vec3 kept = share * direction.impulses[i];
     direction.impulses[i] = rows[i].impulse - before.impulses[i] + kept;
     rows[i].impulse += kept;
+  }
+  for (std::size_t i = 0; i < before.torques.size(); ++i) {
+    const Vec3 kept = share * direction.torques[i];
+    direction.torques[i] = rows[i].torque - before.torques[i] + kept;
+    rows[i].torque += kept;
   }
   for (std::size_t k = 0; k < involved.size(); ++k) {
     Velocity& d = direction.velocities[k];
@@ -176,6 +216,7 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
                               std::sqrt(half_difference * half_difference + response(1, 2) * response(1, 2));
   const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
   row.coefficient = slides ? row.friction.dynamic_coefficient : row.friction.static_coefficient;
+  if (row.resistance.acts()) prepareResistance(row, bodies);
 }
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
@@ -201,7 +242,12 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
   constexpr double kVisitAll = -1.0;
   SolverReport report;
   const std::vector<std::size_t> involved = bodiesOf(rows);
-  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()), std::vector<Velocity>(involved.size())};
+  const bool turning = settings.friction && std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) {
+                         return row.resistance.acts();
+                       });
+  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()),
+                    std::vector<Vec3>(turning ? rows.size() : 0, Vec3::Zero()),
+                    std::vector<Velocity>(involved.size())};
   Iterate before = direction;
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {

@@ -14,6 +14,13 @@
 
 namespace carom {
 
+/// Of turning at a contact point (turning_resistance.h), as shares of the normal impulse; 0: none.
+struct TurningResistance {
+  double rolling_m = 0.0;   ///< Of the torque along the contact.
+  double spinning_m = 0.0;  ///< Of the torque about the normal.
+  bool acts() const { return rolling_m > 0.0 || spinning_m > 0.0; }
+};
+
 /// One contact point between bodies a and b of the solver's list.
 struct ContactRow {
   int a = -1;
@@ -35,6 +42,10 @@ struct ContactRow {
   double coefficient = 0.0;            ///< Of friction, for this solve.
 
   double seen_stir = -1.0;  ///< The solver's: how much its bodies had been stirred at its last visit.
+
+  TurningResistance resistance;        ///< Of solves with friction.
+  Vec3 torque = Vec3::Zero();          ///< N m s on B about (n, t1, t2), as `impulse`.
+  double largest_turn_response = 0.0;  ///< 1/(kg m^2); filled by `prepareRow` where `resistance` acts.
 };
 
 /// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.

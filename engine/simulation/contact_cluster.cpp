@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/response/collision.h"
+#include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 
 namespace carom {
@@ -134,6 +135,7 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   for (std::size_t i = first; i < sources_.size(); ++i) {
     rows_.push_back(sources_[i].row);
     rows_.back().lowest_speed = lowestSpeed(sources_[i]);
+    if (stage_ == Stage::kMomentum) rows_.back().resistance = {};  // it belongs to lasting contact
   }
   if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
 }
@@ -298,6 +300,9 @@ void ContactCluster::releaseForces(int index) {
     const RememberedImpulse& acting = pair.remembered[at(i)];
     a.apply(restOfStep() * acting.force_W, acting.arm_a);
     b.apply(-restOfStep() * acting.force_W, acting.arm_b);
+    if (acting.torque_W.isZero(0.0)) continue;
+    a.velocity.angular += a.inverse_tensor * (restOfStep() * acting.torque_W);
+    b.velocity.angular -= b.inverse_tensor * (restOfStep() * acting.torque_W);
   }
 }
 
@@ -323,6 +328,7 @@ void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
   for (std::size_t k = first; k < first + count; ++k) {
     ContactRow& row = rows_[k];
     row.impulse.setZero();
+    row.torque.setZero();
     row.lowest_speed = -std::numeric_limits<double>::max();
     if (collidesLater(row, sources_[k])) continue;
     if (pair.restitution > 0.0 && rowVelocity(row, momentum_).x() > pair.collision_speed_mps) continue;
@@ -331,8 +337,11 @@ void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
       if (acting.id != sources_[k].id) continue;
       const Vec3 impulse = restOfStep() * acting.force_W;
       row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
+      const Vec3 torque = restOfStep() * acting.torque_W;
+      if (row.resistance.acts()) row.torque = Vec3(row.n.dot(torque), row.t1.dot(torque), row.t2.dot(torque));
     }
     applyToRow(row, row.impulse, ends_);
+    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, ends_);
     row.lowest_speed = gapSpeeds(sources_[k].gap_m, pair, restOfStep(), row.impulse.x() > 0.0).momentum;
   }
 }
@@ -416,8 +425,12 @@ void ContactCluster::keepForces() {
       const ContactRow& row = rows_[end];
       RememberedImpulse now{sources_[end].id, Vec3::Zero(), rowImpulse(row, row.impulse) / restOfStep(),
                             row.r_a, row.r_b};
+      if (row.resistance.acts()) now.torque_W = rowImpulse(row, row.torque) / restOfStep();
       for (int i = 0; i < known_count; ++i)
-        if (known[at(i)].id == now.id) now.impulse_W = known[at(i)].impulse_W;
+        if (known[at(i)].id == now.id) {
+          now.impulse_W = known[at(i)].impulse_W;
+          now.torque_impulse_W = known[at(i)].torque_impulse_W;
+        }
       pair.remembered[at(pair.remembered_count++)] = now;
       if (row.impulse.x() > 0.0) pressed_[at(row.a)] = pressed_[at(row.b)] = 1;
     }

@@ -72,6 +72,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     row.r_a = p_W - request.X_WA.position;
     row.r_b = p_W - request.X_WB.position;
     row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
+    row.resistance = combinedResistance(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
     prepareRow(row, solver_bodies);
     rows.push_back(sourced);
   };
@@ -94,6 +95,11 @@ Friction combinedFriction(const Material& a, const Material& b) {
 
 double combinedRestitution(const Material& a, const Material& b) {
   return std::max(a.restitution, b.restitution);
+}
+
+TurningResistance combinedResistance(const Material& a, const Material& b) {
+  return {std::sqrt(a.rolling_resistance_m * b.rolling_resistance_m),
+          std::sqrt(a.spinning_resistance_m * b.spinning_resistance_m)};
 }
 
 GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool presses) {

@@ -37,6 +37,8 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
 /// The contact coefficients of two materials: friction is the geometric mean, restitution the larger.
 Friction combinedFriction(const Material& a, const Material& b);
 double combinedRestitution(const Material& a, const Material& b);
+/// Of turning: geometric means, as of friction.
+TurningResistance combinedResistance(const Material& a, const Material& b);
 
 /// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
 /// contacts than it needs can lie still on all of them; above the band it may close to it, gently where the

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/modes/islands.h"
+#include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/midstep_rows.h"
 
@@ -34,6 +35,8 @@ void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
     if (pair.remembered[at(i)].id != id) continue;
     const Vec3& impulse = pair.remembered[at(i)].impulse_W;
     row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
+    const Vec3& torque = pair.remembered[at(i)].torque_impulse_W;
+    if (row.resistance.acts()) row.torque = Vec3(row.n.dot(torque), row.t1.dot(torque), row.t2.dot(torque));
     return;
   }
 }
@@ -231,13 +234,17 @@ void remember(const Assembly& assembly, std::vector<ShapePair>& pairs, double st
     const Vec3 impulse_W = rowImpulse(row, row.impulse);
     pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, impulse_W, impulse_W / step_s,
                                                     row.r_a, row.r_b};
+    if (!row.resistance.acts()) continue;
+    RememberedImpulse& remembered = pair.remembered[at(pair.remembered_count - 1)];
+    remembered.torque_impulse_W = rowImpulse(row, row.torque);
+    remembered.torque_W = remembered.torque_impulse_W / step_s;
   }
 }
 
 }  // namespace
 
-void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, double step_s,
-                    std::vector<ShapePair>& pairs) {
+void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, const Vec3& torque_impulse_W,
+                    double step_s, std::vector<ShapePair>& pairs) {
   ShapePair& pair = pairs[at(sourced.pair)];
   // Pairs may have been collected anew since.
   if (pair.body_a != sourced.row.a || pair.body_b != sourced.row.b) return;
@@ -246,6 +253,8 @@ void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, double ste
     if (remembered.id != sourced.id) continue;
     remembered.impulse_W = impulse_W;
     remembered.force_W = impulse_W / step_s;
+    remembered.torque_impulse_W = torque_impulse_W;
+    remembered.torque_W = torque_impulse_W / step_s;
   }
 }
 
@@ -283,7 +292,10 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   Assembly assembly = assemble(bodies, shapes, pairs, settings, counters);
   LastingContacts& contacts = assembly.contacts;
   giveEnvironment(contacts, bodies, planner);
-  for (const ContactRow& row : contacts.rows) applyToRow(row, row.impulse, contacts.bodies);
+  for (const ContactRow& row : contacts.rows) {
+    applyToRow(row, row.impulse, contacts.bodies);
+    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, contacts.bodies);
+  }
   solveImpulses(assembly, contacts.rows, contacts.bodies, settings.gravity.norm() * settings.step_s);
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;

@@ -33,8 +33,8 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
                                      const WorldSettings& settings, StepCounters& counters);
 
 /// The impulse that a row is remembered by, and acts with, instead of what it took in the step.
-void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, double step_s,
-                    std::vector<ShapePair>& pairs);
+void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, const Vec3& torque_impulse_W,
+                    double step_s, std::vector<ShapePair>& pairs);
 
 /// Makes a body that rested move again.
 void wake(Body& body);

@@ -20,6 +20,9 @@ struct RememberedImpulse {
   Vec3 force_W = Vec3::Zero();  ///< N on B.
   Vec3 arm_a = Vec3::Zero();    ///< From the centres of mass to where it acts, m.
   Vec3 arm_b = Vec3::Zero();
+  // Against turning, likewise.
+  Vec3 torque_impulse_W = Vec3::Zero();  ///< N m s on B.
+  Vec3 torque_W = Vec3::Zero();          ///< N m on B.
 };
 
 struct ShapePair {

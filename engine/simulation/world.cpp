@@ -33,6 +33,10 @@ void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.material.drag_coefficient.value_or(0.0) >= 0.0);
   REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
   REQUIRE(d.material.static_friction >= 0.0 && d.material.dynamic_friction >= 0.0);
+  REQUIRE(d.material.rolling_resistance_m >= 0.0 && std::isfinite(d.material.rolling_resistance_m),
+          d.material.rolling_resistance_m);
+  REQUIRE(d.material.spinning_resistance_m >= 0.0 && std::isfinite(d.material.spinning_resistance_m),
+          d.material.spinning_resistance_m);
 }
 
 void requireEnvironment(const WorldSettings& settings) {
@@ -209,13 +213,13 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
     source_of.push_back(i);
   }
   // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
-  std::vector<Vec3> balance(rows.size(), Vec3::Zero());
+  std::vector<RowLoad> balance(rows.size());
   const bool rests =
       canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!balance[k].isZero(0.0))
-      correctImpulse(contacts.sources[source_of[k]], rowImpulse(rows[k], balance[k]), settings.step_s,
-                     table.pairs());
+    if (!balance[k].impulse.isZero(0.0))
+      correctImpulse(contacts.sources[source_of[k]], rowImpulse(rows[k], balance[k].impulse),
+                     rowImpulse(rows[k], balance[k].torque), settings.step_s, table.pairs());
   return rests;
 }
 

@@ -27,6 +27,9 @@ struct Material {
   double restitution = 0.0;
   double density_kgpm3 = 1000.0;
   std::optional<double> drag_coefficient = {};  ///< In air and water; none: the standard one of the shape.
+  // Torques that lasting contact bears against turning, over its normal force; 0: none.
+  double rolling_resistance_m = 0.0;
+  double spinning_resistance_m = 0.0;  ///< About the normal.
 };
 
 /// What a body does at the moment (paper §2.4, §2.5).

@@ -2,6 +2,7 @@
 
 #include "tests/bench/physics.h"
 #include "tests/physics/experiments/balls_on_a_box.h"
+#include "tests/physics/experiments/resisted_ball.h"
 #include "tests/physics/experiments/rest_or_slip.h"
 #include "tests/physics/experiments/rolling_ball.h"
 #include "tests/physics/experiments/sliding_block.h"
@@ -75,6 +76,29 @@ Figure rollingThreshold(const Simulator& s) {
   return errorWithin(rollingThresholdError(s, {.angle = radians(30.0), .heading = 0.7}), 5e-3);
 }
 
+// Peers brake turning by other models, so that no figure of theirs would be fair.
+const Figure kNotModelled{"-", false};
+
+Figure rollingResistance(const Simulator& s) {
+  if (!s.resists_turning) return kNotModelled;
+  const auto worst = [&](const auto& error) {
+    return worstOver({0.02, 0.25, 2.0}, [&](double radius) {
+      return error(s, {.radius_m = radius,
+                       .rolling = 0.05,
+                       .heading = 0.7,
+                       .velocity_mps = std::sqrt(kGravity * radius)});
+    });
+  };
+  return allOf({errorWithin(worst(rollingLossError), 1e-6), errorWithin(worst(rollingWayError), 1e-3),
+                errorWithin(standingThresholdError(s, {.rolling = 0.2, .heading = 0.7}), 1e-3)});
+}
+
+Figure spinningResistance(const Simulator& s) {
+  if (!s.resists_turning) return kNotModelled;
+  const ResistedBall ball{.spinning = 0.005, .heading = 0.7, .spin_radps = 20.0};
+  return allOf({errorWithin(spinLossError(s, ball), 1e-6), errorWithin(spinTimeError(s, ball), 5e-3)});
+}
+
 Figure ballsOnBox(const Simulator& s) {
   return within("%.1e", rollingVelocityError(s, 1e-3, radians(45.0)), 0.0, 1e-12);
 }
@@ -96,6 +120,11 @@ std::vector<Row> frictionRows() {
        rolling},
       {"rolling-threshold", "ball on 30 deg: error of the least mu with which it rolls", "2/7 tan", "+-0.5 %",
        rollingThreshold},
+      {"rolling-resistance",
+       "ball, c / r 0.05 (0.2 on the slope), 3 sizes: errors of deceleration / way / steepest slope",
+       "5/7 g c / r, v^2 / 2a, tan = c / r", "1e-6 / +-0.1 % / +-0.1 %", rollingResistance},
+      {"spinning-resistance", "ball on the spot, s / r 0.005: errors of deceleration / time to its stop",
+       "5/2 g s / r^2", "1e-6 / +-0.5 %", spinningResistance},
       {"rolling-on-a-box", "25 balls on a sliding box, 1 kHz: mean squared error of velocity, (m/s)^2",
        "box mu g (M+m)/(M+2m/7), balls 2/7 of it", "1e-12", ballsOnBox}};
 }

@@ -88,6 +88,12 @@ const Refusal kRefusals[] = {
      ":3: bodies[0].material: density 0 for a body that moves; accepted: above 0"},
     {"NegativeDensity", bodyScene(kBox + ", \"material\": { \"density\": -1 }"),
      ":3: bodies[0].material.density: -1 is out of range; accepted: 0 to 1e+06"},
+    {"NegativeRollingResistance", bodyScene(kBox + ", \"material\": { \"rollingResistance\": -1 }"),
+     ":3: bodies[0].material.rollingResistance: -1 is out of range; accepted: 0 to 100"},
+    {"ResistanceMisspelt", bodyScene(kBox + ", \"material\": { \"spiningResistance\": 0.1 }"),
+     ":3: bodies[0].material.spiningResistance: unknown key \"spiningResistance\"; did you mean "
+     "\"spinningResistance\"? accepted: staticFriction, dynamicFriction, rollingResistance, "
+     "spinningResistance, restitution, density, dragCoefficient, color, checker"},
     {"TooBouncy", bodyScene(kBox + ", \"material\": { \"restitution\": 1.1 }"),
      ":3: bodies[0].material.restitution: 1.1 is out of range; accepted: 0 to 1"},
     {"DynamicAboveStaticFriction",
@@ -183,7 +189,8 @@ TEST(SceneFile, ReadsWhatIsWritten) {
   const Scene scene = parseScene(
       R"({ "format": 1, "description": "d", "gravity": [0, 0, -1.62], "rate": 500, "seed": 9, "duration": 2.5,
       // a comment
-      "materials": { "wood": { "staticFriction": 0.6, "dynamicFriction": 0.5, "restitution": 0.3, "density": 600, "color": "#ff8000", "checker": true } },
+      "materials": { "wood": { "staticFriction": 0.6, "dynamicFriction": 0.5, "restitution": 0.3, "density": 600, "color": "#ff8000", "checker": true,
+        "rollingResistance": 0.01, "spinningResistance": 0.002 } },
       "bodies": [ { "name": "crate", "shape": { "capsule": { "radius": 0.2, "length": 0.6 } }, "position": [1, 2, 3],
                     "rotation": { "axis": [0, 0, 2], "degrees": 90 }, "linearVelocity": [4, 5, 6], "angularVelocity": [7, 8, 9],
                     "material": "wood", "color": ["#000000", "#ffffff"], "repeat": { "count": [2, 3, 4], "step": [1, 1, 2], "jitter": 0.1, "jitterDegrees": 5 } } ],
@@ -203,6 +210,8 @@ TEST(SceneFile, ReadsWhatIsWritten) {
   EXPECT_EQ(body.angular_velocity, Vec3(7.0, 8.0, 9.0));
   EXPECT_EQ(body.material.static_friction, 0.6);
   EXPECT_EQ(body.material.dynamic_friction, 0.5);
+  EXPECT_EQ(body.material.rolling_resistance_m, 0.01);
+  EXPECT_EQ(body.material.spinning_resistance_m, 0.002);
   EXPECT_EQ(body.material.restitution, 0.3);
   EXPECT_EQ(body.material.density_kgpm3, 600.0);
   EXPECT_TRUE(body.look.checker);

@@ -12,7 +12,9 @@ class CaromSimulation final : public Simulation {
   explicit CaromSimulation(const Experiment& experiment)
       : world_({experiment.step_s, Vec3(0, 0, -experiment.gravity), experiment.resting}) {
     for (const ExperimentBody& b : experiment.bodies) {
-      const Material material{b.friction, b.friction, b.restitution, b.mass_kg / b.shape.solid.volume()};
+      Material material{b.friction, b.friction, b.restitution, b.mass_kg / b.shape.solid.volume()};
+      material.rolling_resistance_m = b.rolling_resistance_m;
+      material.spinning_resistance_m = b.spinning_resistance_m;
       world_.addBody({world_.addSolid(b.shape.solid), b.X_WB, b.velocity, b.spin, material, b.is_static});
     }
     REQUIRE(world_.start().empty());
@@ -34,6 +36,6 @@ inline std::unique_ptr<Simulation> startCarom(const Experiment& experiment) {
   return std::make_unique<CaromSimulation>(experiment);
 }
 
-inline constexpr Simulator kCarom{"Carom", startCarom, true};
+inline constexpr Simulator kCarom{"Carom", startCarom, true, true};
 
 }  // namespace carom::physics

@@ -60,6 +60,8 @@ struct ExperimentBody {
   double friction = 0.5;     ///< A pair has the geometric mean of both, ...
   double restitution = 0.0;  ///< ... and the larger restitution: give all bodies of an experiment the same.
   bool is_static = false;
+  double rolling_resistance_m = 0.0;  ///< As friction; in libraries that have it (Simulator).
+  double spinning_resistance_m = 0.0;
 
   Mat3 inertia() const { return mass_kg / shape.solid.volume() * shape.solid.unitInertia(); }
 };
@@ -109,7 +111,8 @@ class Simulation {
 struct Simulator {
   const char* name;
   std::unique_ptr<Simulation> (*start)(const Experiment& experiment);
-  bool keeps_gaps = false;  ///< Bodies in contact are a rest gap apart, and may not touch.
+  bool keeps_gaps = false;       ///< Bodies in contact are a rest gap apart, and may not touch.
+  bool resists_turning = false;  ///< By torques of at most a length times the normal force.
 };
 
 /// A running experiment and the sums over its bodies that can move.
