@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kReach = 1.3;  // Of the smaller half width of the near body: how far off it darkens what
                                 // it touches, and the ground.
-constexpr double kApartReach = 1.0;  // The same for bodies that do not touch,
-constexpr double kApartSeen = 0.86;  // and the part of it where more than a hundredth of the light is lost.
+constexpr double kApartReach = 1.0;  // The same for bodies that do not touch.
+constexpr double kSeen = 0.86;       // The part of it where more than a hundredth of the light is lost.
 constexpr double kStrength = 0.62;
 constexpr double kMinPixels = 1.5;    // Effects with a shorter reach on the image are left out;
 constexpr double kPlainPixels = 4.0;  // those of bodies that do not touch fade away between these two.
@@ -24,9 +24,11 @@ struct Square {
   double half_2 = 0.0;
 };
 
-// How far from its surface an occluder darkens, how far beside itself in the plane of a face, and how much.
+// How far from its surface an occluder darkens, how far so that it is seen, how far beside itself in the
+// plane of a face, and how much.
 struct Reach {
   double whole = 0.0;
+  double seen = 0.0;
   double across = 0.0;
   double strength = 0.0;
 };
@@ -135,9 +137,9 @@ class Collector {
       const double gap = std::max(0.0, height - occluder.extentAlong(facing.normal));
       const bool plain = receiver.body->endless_ground || gap < kTouchingGap * size;
       const double strength = kStrength * (plain ? 1.0 : plainness);
-      const double reach = (plain ? kReach : kApartReach) * size, far = plain ? reach : kApartSeen * reach;
-      if (gap >= far || strength == 0.0) continue;
-      const Reach reaches{reach, std::sqrt(far * far - gap * gap), strength};
+      const double reach = (plain ? kReach : kApartReach) * size, seen = kSeen * reach;
+      if (gap >= seen || strength == 0.0) continue;
+      const Reach reaches{reach, seen, std::sqrt(seen * seen - gap * gap), strength};
       darkenFace(receiver, receiver.body->solid->parts()[part].core, facing, height, reaches, occluder);
     }
   }
@@ -156,8 +158,22 @@ class Collector {
            receiver.R_EB * core.intoFace(edges[i], facing.face), kept_);
       polygon_.swap(kept_);
     }
+    clipToReach(occluder, reach.seen);
     for (std::size_t i = 2; i < polygon_.size(); ++i)
       for (const Vec3& p : {polygon_[0], polygon_[i - 1], polygon_[i]}) append(p, n, reach, occluder);
+  }
+
+  // Leaves what lies in the occluder's box, widened on all sides.
+  void clipToReach(const PlacedPart& occluder, double reach_m) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double side = occluder.box->half[axis] + occluder.box->radius + reach_m;
+      for (const double sign : {-1.0, 1.0}) {
+        if (polygon_.empty()) return;
+        const Vec3 out_E = sign * occluder.R_RE.row(axis).transpose();
+        clip(polygon_, occluder.center + side * out_E, -out_E, kept_);
+        polygon_.swap(kept_);
+      }
+    }
   }
 
   void append(const Vec3& p_E, const Vec3& n_E, const Reach& reach, const PlacedPart& occluder) {

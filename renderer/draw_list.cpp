@@ -12,7 +12,8 @@ constexpr double kLevelTop = 0.9999;         // Cosine between a ground's own ax
 constexpr double kFarOverDistance = 4000.0;  // Far plane over the distance from eye to target.
 constexpr double kMinNearOverDistance = 1e-3;
 constexpr double kNearsPerDoubling = 2.0;
-constexpr double kGroundDarkening = 0.7;  // Of a body's half height: how near the ground darkens it.
+constexpr double kPixelsPerTriangle = 3.0;  // Squares of a radius that one more triangle is worth.
+constexpr double kGroundDarkening = 0.7;    // Of a body's half height: how near the ground darkens it.
 
 // An instance placed relative to the eye.
 struct Placed {
@@ -22,6 +23,9 @@ struct Placed {
   double depth_m = 0.0;  // Of the centre, along the view.
   int level = 0;
   BodyShader shader = BodyShader::kShadowed;
+  double radius_px = 0.0;
+  FaceMask faces = kAllFaces;
+  FaceMask sunlit = kAllFaces;
 };
 
 Placed place(int index, const Instance& instance, const SolidGeometry& solid, const Camera& camera,
@@ -32,8 +36,41 @@ Placed place(int index, const Instance& instance, const SolidGeometry& solid, co
   placed.radius_m = solid.extent.half.norm();
   placed.depth_m = placed.center_E.dot(axes.forward);
   const double distance = std::max(placed.center_E.norm() - placed.radius_m, 1e-3 * placed.radius_m);
-  placed.level = detailLevel(focal_px * solid.extent.half.maxCoeff() / distance);
+  placed.radius_px = focal_px * solid.extent.half.maxCoeff() / distance;
+  placed.level = detailLevel(placed.radius_px);
   return placed;
+}
+
+// Whether it is large enough on the image for look-ups on half of it to cost more than its triangles.
+bool isWorthSplitting(const Placed& placed, const SolidGeometry& solid) {
+  const int triangles = solid.levels[static_cast<std::size_t>(placed.level)].count / 3;
+  return placed.radius_px * placed.radius_px > kPixelsPerTriangle * triangles;
+}
+
+// What draws it: one without and one with shadows to look up, each with its faces, or one as a whole.
+void appendVisible(const Placed& whole, bool is_checker, const SolidGeometry& solid, const FaceLight& light,
+                   std::vector<Placed>& visible) {
+  const auto add = [&](BodyShader shader, FaceMask faces) {
+    if (faces == 0) return;
+    visible.push_back(whole);
+    visible.back().shader = shader;
+    visible.back().faces = faces;
+    if (shader == BodyShader::kSunlit) visible.back().sunlit = light.sunlit;
+  };
+  const FaceMask known = light.sunlit | light.turned;
+  const bool split =
+      drawsSingleFaces(whole.level) && (known == 0 || light.shadowed == 0 || isWorthSplitting(whole, solid));
+  if (is_checker) {
+    add(BodyShader::kChecker, kAllFaces);
+  } else if (split) {
+    add(BodyShader::kSunlit, known);
+    add(BodyShader::kShadowed, light.shadowed);
+  } else if (light.turned == 0 && light.shadowed == 0) {
+    visible.push_back(whole);
+    visible.back().shader = BodyShader::kSunlit;
+  } else {
+    add(BodyShader::kShadowed, kAllFaces);
+  }
 }
 
 // Whether the bounding ball reaches into the view's pyramid.
@@ -99,6 +136,8 @@ InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& sol
   r.color[2] = linearLight(instance.color.b);
   const double reach = kGroundDarkening * solid.extent.half.minCoeff();
   r.color[3] = static_cast<float>(instance.checker ? -reach : reach);
+  r.faces = kAllFaces;
+  r.sunlit = kAllFaces;
   return r;
 }
 
@@ -122,7 +161,7 @@ std::optional<int> findGround(std::span<const Instance> instances, const SceneGe
 }
 
 DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
-                       const SceneGeometry& geometry, std::span<const std::uint8_t> lone) {
+                       const SceneGeometry& geometry, std::span<const FaceLight> lights) {
   DrawList list;
   const CameraAxes axes = cameraAxes(camera);
   const double focal = focalLengthPixels(camera, settings.height);
@@ -136,17 +175,15 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const int index = static_cast<int>(i);
     if (list.ground == index) continue;
-    Placed placed = place(index, instances[i], geometry.solid(instances[i].solid), camera, axes, focal);
-    placed.shader = instances[i].checker ? BodyShader::kChecker
-                    : lone[i] != 0       ? BodyShader::kSunlit
-                                         : BodyShader::kShadowed;
-    if (inView(placed, axes, half_width, half_height)) visible.push_back(placed);
+    const Placed placed = place(index, instances[i], geometry.solid(instances[i].solid), camera, axes, focal);
+    if (inView(placed, axes, half_width, half_height))
+      appendVisible(placed, instances[i].checker, geometry.solid(instances[i].solid), lights[i], visible);
     casting.push_back(placed);
   }
   const auto byMesh = [&](const Placed& a, const Placed& b) {
     const auto key = [&](const Placed& p) {
       return std::tuple(instances[static_cast<std::size_t>(p.index)].solid, p.level, p.shader, p.depth_m,
-                        p.index);
+                        p.index, p.sunlit);
     };
     return key(a) < key(b);
   };
@@ -155,6 +192,8 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
     for (const Placed& p : *placed) {
       const Instance& instance = instances[static_cast<std::size_t>(p.index)];
       list.records.push_back(instanceRecord(instance, geometry.solid(instance.solid), camera));
+      list.records.back().faces = p.faces;
+      list.records.back().sunlit = p.sunlit;
     }
   }
   list.depth = depthRange(visible, (camera.target - camera.eye).norm(), list);

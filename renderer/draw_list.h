@@ -15,7 +15,7 @@ namespace carom::renderer {
 
 /// Which variant of the body shader an instance needs.
 enum class BodyShader {
-  kSunlit,    ///< Nothing else can darken it.
+  kSunlit,    ///< Nothing else can darken it, or it is turned away from the sun.
   kShadowed,  ///< Shadows are looked up.
   kChecker,   ///< So they are, and level faces show a checker board.
 };
@@ -47,8 +47,9 @@ double topHeight(const Instance& instance, const SolidGeometry& solid);
 /// Where and in which colour an instance is drawn.
 InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& solid, const Camera& camera);
 
-/// `lone`, by instance, says where nothing stands between the sun and it.
+/// `lights` has one of every instance; a visible one is drawn twice where that saves looking up
+/// shadows on some of its faces.
 DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera, const Settings& settings,
-                       const SceneGeometry& geometry, std::span<const std::uint8_t> lone);
+                       const SceneGeometry& geometry, std::span<const FaceLight> lights);
 
 }  // namespace carom::renderer

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstddef>
+#include <cstdlib>
 #include <cstring>
-#include <thread>
 
 #include "engine/foundation/contract.h"
 
@@ -14,7 +14,33 @@ namespace {
 
 constexpr std::uint8_t kThreshold =
     13;  // Of 255, in the channel that differs most: smaller steps are not seen as stairs.
-constexpr std::uint8_t kBelow = 1, kRight = 2;
+constexpr int kWhole = 4096;  // The weight of a whole pixel.
+
+// Whether two pixels differ visibly.
+bool differs(const std::uint8_t* a, const std::uint8_t* b) {
+  return std::abs(a[0] - b[0]) > kThreshold || std::abs(a[1] - b[1]) > kThreshold ||
+         std::abs(a[2] - b[2]) > kThreshold;
+}
+
+// The same of 32 pixels at once, the first in the lowest bit; alpha is the same everywhere and adds nothing.
+// Hand-laid vectors of four pixels: a pixel differs where its lane is more than the threshold in any byte.
+constexpr int kBlock = 32;
+typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+typedef std::uint32_t Lanes __attribute__((vector_size(16)));
+std::uint32_t differing(const std::uint8_t* a, const std::uint8_t* b) {
+  const Bytes least = Bytes{} + kThreshold;
+  Lanes weight = {1, 2, 4, 8}, sum = {};
+  for (int i = 0; i < kBlock / 4; ++i) {
+    Bytes p, q;
+    std::memcpy(&p, a + 16 * i, sizeof(p));
+    std::memcpy(&q, b + 16 * i, sizeof(q));
+    const Bytes difference = (p > q ? p : q) - (p > q ? q : p);
+    const Bytes raised = difference > least ? difference : least;
+    sum |= weight & ((Lanes)raised != (Lanes)least);
+    weight <<= 4;
+  }
+  return sum[0] | sum[1] | sum[2] | sum[3];
+}
 
 // sRGB bytes to linear light in 15 bits, so that products with 12-bit weights fit an int, and back from 12
 // bits.
@@ -40,84 +66,66 @@ const Tables& tables() {
   return instance;
 }
 
-// Moves `pixel` towards `neighbour` by `share`, in linear light.
-inline void mix(const Tables& t, std::uint8_t* pixel, const std::uint8_t* neighbour, float share) {
-  const int weight = static_cast<int>(share * 4096.0f);
-  for (int c = 0; c < 3; ++c) {
-    const int own = t.linear[pixel[c]], other = t.linear[neighbour[c]];
-    const int mixed = own + (((other - own) * weight) >> 12);
-    pixel[c] = t.encoded[static_cast<std::size_t>(mixed >> 3)];
-  }
+// Moves `pixel` towards `neighbour` by `weight`, in linear light.
+inline void mix(const Tables& t, std::uint8_t* pixel, const std::uint8_t* neighbour, int weight) {
+  const auto mixed = [&](std::uint8_t own_byte, std::uint8_t other_byte) {
+    const int own = t.linear[own_byte], other = t.linear[other_byte];
+    return t.encoded[static_cast<std::size_t>((own + (((other - own) * weight) >> 12)) >> 3)];
+  };
+  pixel[0] = mixed(pixel[0], neighbour[0]);
+  pixel[1] = mixed(pixel[1], neighbour[1]);
+  pixel[2] = mixed(pixel[2], neighbour[2]);
 }
 
-// A straight run of edge pixels [begin, end) and the height at which the true edge enters and leaves it: +1/2
-// on the first side (above, or left), -1/2 on the second, 0 where nothing tells. In between it falls to 0 at
-// the middle.
+// The two pixels of an edge, of its first side (above, or left) and of its second, in the source and in the
+// image.
+struct Pair {
+  const std::uint8_t* source[2];
+  std::uint8_t* out[2];
+  std::ptrdiff_t source_step;  // To the next pair of the run.
+  std::ptrdiff_t out_step;
+
+  void mixOne(const Tables& t, std::ptrdiff_t i, int side, int weight) const {
+    mix(t, out[side] + i * out_step, source[1 - side] + i * source_step, weight);
+  }
+};
+
+// A straight run of edge pixels. The true edge enters and leaves it half a pixel off, on the first side where
+// +1, on the second where -1; 0 where nothing tells. In between it falls to the pixels' border at the middle.
 struct Run {
-  int begin = 0;
-  int end = 0;
-  float enters = 0.0f;
-  float leaves = 0.0f;
+  int length = 0;
+  int enters = 0;
+  int leaves = 0;
 };
 
-float endHeight(bool first_side, bool second_side) {
-  if (first_side == second_side) return 0.0f;
-  return first_side ? 0.5f : -0.5f;
+int endSide(bool first_side, bool second_side) {
+  return static_cast<int>(first_side) - static_cast<int>(second_side);
 }
 
-// The area below one half of the line, within pixel i; `t0`, `t1` measure from the run's middle, 1 at its
-// end.
-float halfArea(float height, float t0, float t1, float half_length) {
-  t0 = std::max(t0, 0.0f), t1 = std::min(t1, 1.0f);
-  return t1 <= t0 ? 0.0f : 0.5f * height * (t0 + t1) * (t1 - t0) * half_length;
-}
-
-// Signed areas that the line cuts off pixel i: of the first side where positive, of the second where
-// negative.
-struct Cut {
-  float first = 0.0f;
-  float second = 0.0f;
-};
-Cut cutOff(const Run& run, int i) {
-  const float half = 0.5f * static_cast<float>(run.end - run.begin);
-  const float from_begin = static_cast<float>(i - run.begin);
-  const float before =
-      halfArea(run.enters, (half - from_begin - 1.0f) / half, (half - from_begin) / half, half);
-  const float after =
-      halfArea(run.leaves, (from_begin - half) / half, (from_begin + 1.0f - half) / half, half);
-  return {std::max(before, 0.0f) + std::max(after, 0.0f), std::max(-before, 0.0f) + std::max(-after, 0.0f)};
-}
-
-// The first x in [begin, end) whose edge byte has `bit`, or `end`; eight pixels at a time where there are
-// none.
-int firstMarked(const std::uint8_t* edges, int begin, int end, std::uint8_t bit) {
-  const std::uint64_t everywhere = 0x0101010101010101u * bit;
-  for (int x = begin; x < end;) {
-    std::uint64_t eight = 0;
-    if (x + 8 <= end) std::memcpy(&eight, edges + x, sizeof(eight));
-    if (x + 8 <= end && (eight & everywhere) == 0) {
-      x += 8;
-      continue;
-    }
-    if ((edges[x] & bit) != 0) return x;
-    ++x;
+// Mixes what the line cuts off each pixel of the run: under half of it, of length n / 2 and height 1/2, pixel
+// k holds (n - 2k - 1) / 2n, and the middle one of an odd number 1 / 8n of either half.
+void mixRun(const Tables& t, const Run& run, const Pair& pair) {
+  const int n = run.length;
+  const float each = 0.5f * static_cast<float>(kWhole) / static_cast<float>(n);
+  for (int k = 0; k < n / 2; ++k) {
+    const int weight = static_cast<int>(each * static_cast<float>(n - 2 * k - 1));
+    if (run.enters != 0) pair.mixOne(t, k, run.enters > 0 ? 0 : 1, weight);
+    if (run.leaves != 0) pair.mixOne(t, n - 1 - k, run.leaves > 0 ? 0 : 1, weight);
   }
-  return end;
-}
-
-template <typename First, typename Second>
-void inParallel(const First& first, const Second& second) {
-  std::thread other(first);
-  second();
-  other.join();
+  if (n % 2 == 0) return;
+  const int both = run.enters + run.leaves;
+  const int weight = static_cast<int>(0.25f * each * static_cast<float>(std::max(std::abs(both), 1)));
+  if (both >= 0) pair.mixOne(t, n / 2, 0, weight);
+  if (both <= 0) pair.mixOne(t, n / 2, 1, weight);
 }
 
 }  // namespace
 
-EdgeFilter::EdgeFilter(int width, int height) : width_(width), height_(height) {
-  const auto cells = static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2);
-  edges_.assign(cells, 0);
-  for (std::vector<std::uint8_t>& rows : differs_) rows.assign(2 * 4 * static_cast<std::size_t>(width), 0);
+EdgeFilter::EdgeFilter(int width, int height)
+    : width_(width), height_(height), words_(static_cast<std::size_t>(width) / 64 + 2) {
+  below_.assign(words_ * static_cast<std::size_t>(height + 1), 0);
+  right_ = below_;
+  begins_.assign(static_cast<std::size_t>(width), 0);
 }
 
 void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
@@ -126,127 +134,97 @@ void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
   image.width = width_;
   image.height = height_;
   image.rgb.resize(3 * pixels);
-  // What lies between the halves is mixed after both are done: it writes into either.
-  const std::uint8_t* source = rgba.data();
-  const int row = height_ / 2, column = width_ / 2;
-  inParallel(
-      [&] {
-        takeRows(source, image, {0, row}, differs_[0]);
-      },
-      [&] {
-        takeRows(source, image, {row, height_}, differs_[1]);
-      });
-  inParallel(
-      [&] {
-        mixRowPairs(source, image, {0, row - 1});
-      },
-      [&] {
-        mixRowPairs(source, image, {row, height_ - 1});
-      });
-  mixRowPairs(source, image, {std::max(row - 1, 0), row});
-  inParallel(
-      [&] {
-        mixColumnPairs(source, image, {0, column - 1});
-      },
-      [&] {
-        mixColumnPairs(source, image, {column, width_ - 1});
-      });
-  mixColumnPairs(source, image, {std::max(column - 1, 0), column});
-}
-
-void EdgeFilter::takeRows(const std::uint8_t* rgba, Image& image, Band rows,
-                          std::vector<std::uint8_t>& differs) {
-  for (int y = rows.begin; y < rows.end; ++y) {
-    const std::uint8_t* from = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
-    std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
-    // Four bytes at once; the fourth is overwritten by the next pixel, which the last one of a row has not.
-    for (std::ptrdiff_t x = 0; x + 1 < width_; ++x) std::memcpy(to + 3 * x, from + 4 * x, 4);
-    std::memcpy(to + 3 * (width_ - 1), from + 4 * (width_ - 1), 3);
-    markRow(rgba, y, differs);
+  for (int y = 0; y < height_; ++y) {
+    takeRow(rgba.data(), y, image);
+    if (y > 0) mixRowPair(rgba.data(), y - 1, image);
   }
+  mixColumnPairs(rgba.data(), image);
 }
 
-void EdgeFilter::markRow(const std::uint8_t* rgba, int y, std::vector<std::uint8_t>& differs) {
+void EdgeFilter::takeRow(const std::uint8_t* rgba, int y, Image& image) {
+  const std::uint8_t* from = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
+  std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
+  // Four bytes at once; the fourth is overwritten by the next pixel, which the last one of a row has not.
+  for (std::ptrdiff_t x = 0; x + 1 < width_; ++x) std::memcpy(to + 3 * x, from + 4 * x, 4);
+  std::memcpy(to + 3 * (width_ - 1), from + 4 * (width_ - 1), 3);
+  markRow(rgba, y);
+}
+
+void EdgeFilter::markRow(const std::uint8_t* rgba, int y) {
   const std::ptrdiff_t stride = 4 * static_cast<std::ptrdiff_t>(width_);
   const std::uint8_t* row = rgba + stride * (height_ - 1 - y);
   const std::uint8_t* below = y + 1 < height_ ? row - stride : row;
-  std::uint8_t* below_flags = differs.data();
-  std::uint8_t* right_flags = differs.data() + stride;
-  // Byte by byte and without branches, so that the compiler makes vectors of it.
-  const auto flag = [](std::uint8_t a, std::uint8_t b, std::uint8_t bit) {
-    const auto difference = static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
-    return difference > kThreshold ? bit : std::uint8_t{0};
-  };
-  for (std::ptrdiff_t i = 0; i < stride; ++i) below_flags[i] = flag(row[i], below[i], kBelow);
-  for (std::ptrdiff_t i = 0; i + 4 < stride; ++i) right_flags[i] = flag(row[i], row[i + 4], kRight);
-  for (std::ptrdiff_t i = 0; i < stride; ++i) below_flags[i] = below_flags[i] | right_flags[i];
-  // Fold the four channels of a pixel into one byte; alpha is the same everywhere and adds nothing.
-  std::uint8_t* edges = edges_.data() + static_cast<std::ptrdiff_t>(width_ + 2) * (y + 1) + 1;
-  for (std::ptrdiff_t x = 0; x < width_; ++x) {
-    std::uint32_t flags = 0;
-    std::memcpy(&flags, below_flags + 4 * x, sizeof(flags));
-    flags |= flags >> 16;
-    edges[x] = static_cast<std::uint8_t>(flags | flags >> 8);
+  for (std::size_t word = 0; word < words_; ++word) {
+    const auto half = [&](const std::uint8_t* other, int last, int x) {
+      const int left = last - x;
+      const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(x);
+      if (left >= kBlock) return Bits{differing(row + at, other + at)};
+      Bits bits = 0;
+      for (int i = 0; i < left; ++i) bits |= Bits{differs(row + at + 4 * i, other + at + 4 * i)} << i;
+      return bits;
+    };
+    const int x = static_cast<int>(64 * word);
+    below_[wordAt(y) + word] = half(below, width_, x) | half(below, width_, x + kBlock) << kBlock;
+    right_[wordAt(y) + word] = half(row + 4, width_ - 1, x) | half(row + 4, width_ - 1, x + kBlock) << kBlock;
   }
 }
 
-// Runs along a row, between it (first side) and the row below.
-void EdgeFilter::mixRowPairs(const std::uint8_t* rgba, Image& image, Band first_rows) const {
+bool EdgeFilter::isMarked(const std::vector<Bits>& bits, int x, int y) const {
+  if (x < 0 || y < 0) return false;
+  return (bits[wordAt(y) + static_cast<std::size_t>(x) / 64] >> (x % 64) & 1) != 0;
+}
+
+// Runs along row y, between it (first side) and the row below.
+void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, Image& image) const {
   const Tables& t = tables();
-  const std::ptrdiff_t pitch = width_ + 2;
-  for (int y = first_rows.begin; y < first_rows.end; ++y) {
-    const std::uint8_t* edges = edges_.data() + pitch * (y + 1) + 1;
-    const std::uint8_t* source = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
-    const std::uint8_t* source_below = source - 4 * static_cast<std::ptrdiff_t>(width_);
-    std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
-    std::uint8_t* out_below = out + 3 * static_cast<std::ptrdiff_t>(width_);
-    for (int x = firstMarked(edges, 0, width_, kBelow); x < width_;
-         x = firstMarked(edges, x + 1, width_, kBelow)) {
-      Run run{x, x, 0.0f, 0.0f};
-      while (run.end < width_ && (edges[run.end] & kBelow) != 0) ++run.end;
-      x = run.end;
-      run.enters =
-          endHeight((edges[run.begin - 1] & kRight) != 0, (edges[run.begin - 1 + pitch] & kRight) != 0);
-      run.leaves = endHeight((edges[run.end - 1] & kRight) != 0, (edges[run.end - 1 + pitch] & kRight) != 0);
-      if (run.enters == 0.0f && run.leaves == 0.0f) continue;
-      for (std::ptrdiff_t i = run.begin; i < run.end; ++i) {
-        const Cut cut = cutOff(run, static_cast<int>(i));
-        if (cut.first > 0.0f) mix(t, out + 3 * i, source_below + 4 * i, cut.first);
-        if (cut.second > 0.0f) mix(t, out_below + 3 * i, source + 4 * i, cut.second);
-      }
-    }
+  const Bits* bits = below_.data() + wordAt(y);
+  const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
+                       out_row = 3 * static_cast<std::ptrdiff_t>(width_);
+  const std::uint8_t* source = rgba + source_row * (height_ - 1 - y);
+  std::uint8_t* out = image.rgb.data() + out_row * y;
+  // The first bit from x on that is not like those of `like`.
+  const auto firstFrom = [&](int x, Bits like) {
+    std::size_t word = static_cast<std::size_t>(x) / 64;
+    Bits found = (bits[word] ^ like) >> (x % 64) << (x % 64);
+    while (found == 0 && word + 1 < words_) found = bits[++word] ^ like;
+    return found == 0 ? width_ : static_cast<int>(64 * word) + std::countr_zero(found);
+  };
+  for (int begin = firstFrom(0, 0), end = 0; begin < width_; begin = firstFrom(end, 0)) {
+    end = firstFrom(begin, ~Bits{0});
+    const Run run{end - begin, endSide(isMarked(right_, begin - 1, y), isMarked(right_, begin - 1, y + 1)),
+                  endSide(isMarked(right_, end - 1, y), isMarked(right_, end - 1, y + 1))};
+    if (run.enters == 0 && run.leaves == 0) continue;
+    const std::ptrdiff_t x = begin;
+    mixRun(t, run,
+           {{source + 4 * x, source - source_row + 4 * x}, {out + 3 * x, out + out_row + 3 * x}, 4, 3});
   }
 }
 
 // Runs along a column, between it (first side) and the column to its right. All columns are walked together,
 // row by row, to stay within the cache.
-void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image, Band first_columns) const {
+void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image) {
   const Tables& t = tables();
-  const std::ptrdiff_t pitch = width_ + 2;
-  const auto finish = [&](std::ptrdiff_t x, Run run) {
-    const std::uint8_t* top = edges_.data() + pitch * run.begin + x + 1;   // The row above the run.
-    const std::uint8_t* bottom = edges_.data() + pitch * run.end + x + 1;  // The run's last row.
-    run.enters = endHeight((top[0] & kBelow) != 0, (top[1] & kBelow) != 0);
-    run.leaves = endHeight((bottom[0] & kBelow) != 0, (bottom[1] & kBelow) != 0);
-    if (run.enters == 0.0f && run.leaves == 0.0f) return;
-    for (int y = run.begin; y < run.end; ++y) {
-      const Cut cut = cutOff(run, y);
-      const std::uint8_t* source = rgba + 4 * (static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y) + x);
-      std::uint8_t* out = image.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(width_) * y + x);
-      if (cut.first > 0.0f) mix(t, out, source + 4, cut.first);
-      if (cut.second > 0.0f) mix(t, out + 3, source, cut.second);
-    }
+  const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
+                       out_row = 3 * static_cast<std::ptrdiff_t>(width_);
+  const auto finish = [&](int x, int begin, int end) {
+    const Run run{end - begin, endSide(isMarked(below_, x, begin - 1), isMarked(below_, x + 1, begin - 1)),
+                  endSide(isMarked(below_, x, end - 1), isMarked(below_, x + 1, end - 1))};
+    if (run.enters == 0 && run.leaves == 0) return;
+    const std::uint8_t* source =
+        rgba + source_row * (height_ - 1 - begin) + 4 * static_cast<std::ptrdiff_t>(x);
+    std::uint8_t* out = image.rgb.data() + out_row * begin + 3 * static_cast<std::ptrdiff_t>(x);
+    mixRun(t, run, {{source, source + 4}, {out, out + 3}, -source_row, out_row});
   };
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* edges = edges_.data() + pitch * (y + 1) + 1;
-    for (int x = firstMarked(edges, first_columns.begin, first_columns.end, kRight); x < first_columns.end;
-         x = firstMarked(edges, x + 1, first_columns.end, kRight)) {
-      if ((edges[x + pitch] & kRight) != 0) continue;  // A run is handled where it ends.
-      Run run{y, y + 1, 0.0f, 0.0f};
-      while ((edges_[static_cast<std::size_t>(pitch * run.begin + x + 1)] & kRight) != 0) --run.begin;
-      finish(x, run);
+  const auto forEach = [](std::size_t word, Bits bits, const auto& act) {
+    for (; bits != 0; bits &= bits - 1) act(static_cast<int>(64 * word) + std::countr_zero(bits));
+  };
+  for (int y = 0; y < height_; ++y)
+    for (std::size_t word = 0; word < words_; ++word) {
+      const Bits here = right_[wordAt(y) + word], next = right_[wordAt(y + 1) + word];
+      const Bits before = y > 0 ? right_[wordAt(y - 1) + word] : 0;
+      forEach(word, here & ~before, [&](int x) { begins_[static_cast<std::size_t>(x)] = y; });
+      forEach(word, here & ~next, [&](int x) { finish(x, begins_[static_cast<std::size_t>(x)], y + 1); });
     }
-  }
 }
 
 }  // namespace carom::renderer

@@ -1,10 +1,9 @@
 #pragma once
 // Morphological anti-aliasing (Reshetov 2009) on the CPU: finds the stairs that a slanted edge makes on the
 // pixel grid, lays the straight line through them that made them, and mixes the two sides by the area the
-// line cuts off. Mixing is done in linear light. Two threads share the image in fixed halves, so that the
-// result does not depend on how they are scheduled. Tested in tests/renderer/edge_filter_test.cpp.
+// line cuts off. Mixing is done in linear light. Tested in tests/renderer/edge_filter_test.cpp.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,22 +20,21 @@ class EdgeFilter {
   void apply(const std::vector<std::uint8_t>& rgba, Image& image);
 
  private:
-  struct Band {
-    int begin = 0;
-    int end = 0;
-  };
-  void takeRows(const std::uint8_t* rgba, Image& image, Band rows, std::vector<std::uint8_t>& differs);
-  void markRow(const std::uint8_t* rgba, int y, std::vector<std::uint8_t>& differs);
-  void mixRowPairs(const std::uint8_t* rgba, Image& image, Band first_rows) const;
-  void mixColumnPairs(const std::uint8_t* rgba, Image& image, Band first_columns) const;
+  using Bits = std::uint64_t;  // Of 64 neighbouring pixels, the leftmost lowest.
+
+  void takeRow(const std::uint8_t* rgba, int y, Image& image);
+  void markRow(const std::uint8_t* rgba, int y);
+  void mixRowPair(const std::uint8_t* rgba, int y, Image& image) const;
+  void mixColumnPairs(const std::uint8_t* rgba, Image& image);
+  bool isMarked(const std::vector<Bits>& bits, int x, int y) const;
+  std::size_t wordAt(int y) const { return static_cast<std::size_t>(y) * words_; }
 
   int width_;
   int height_;
-  // Edges by pixel, top row first: bit kBelow where the pixel differs from the one below, kRight from the one
-  // to the right. One row and one column of zeros around, so that neighbours can be read without a bounds
-  // check.
-  std::vector<std::uint8_t> edges_;
-  std::array<std::vector<std::uint8_t>, 2> differs_;  // A row's flags by byte, for either thread.
+  std::size_t words_;  // A row's; one more than it needs, zero, where runs end at the latest.
+  std::vector<Bits> below_,
+      right_;                // Where a pixel differs from the one below, and from the one to the right.
+  std::vector<int> begins_;  // By column: where the run that is open begins.
 };
 
 }  // namespace carom::renderer

@@ -311,23 +311,23 @@ void FrameRenderer::Impl::expose(const Sample& sample) {
 ShadowCells FrameRenderer::Impl::castShadows(const Vec3& to_light) {
   const Camera& camera = view.camera;
   std::vector<ShadowCaster> casters;
+  std::vector<ShadedBody> bodies;
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     if (view.ground == static_cast<int>(i)) continue;
     const Instance& instance = view.instances[i];
     const Extent& extent = geometry.solid(instance.solid).extent;
     casters.push_back({{instance.X_WB.rotation, instance.X_WB * extent.center - camera.eye}, extent.half});
+    bodies.push_back({&solids[static_cast<std::size_t>(instance.solid)],
+                      {instance.X_WB.rotation, instance.X_WB.position - camera.eye},
+                      casters.back()});
   }
   view.shadow = fitShadow(
       {camera, static_cast<double>(settings.width) / settings.height, to_light, quality.shadow_texels},
       casters);
-  ShadowCells cells(view.shadow, casters);
-  // A body of one convex part has no shadow of its own but its dark side.
-  std::vector<std::uint8_t> lone(view.instances.size(), 0);
-  for (std::size_t i = 0, caster = 0; i < view.instances.size(); ++i)
-    if (view.ground != static_cast<int>(i) && cells.alone(caster++))
-      lone[i] = solids[static_cast<std::size_t>(view.instances[i].solid)].parts().size() == 1 ? 1 : 0;
-  view.list = buildDrawList(view.instances, camera, settings, geometry, lone);
-  return cells;
+  std::vector<FaceLight> lights = faceLights(view.shadow, to_light, bodies);
+  if (view.ground) lights.insert(lights.begin() + *view.ground, FaceLight{});
+  view.list = buildDrawList(view.instances, camera, settings, geometry, lights);
+  return {view.shadow, casters};
 }
 
 FrameBlock FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sample) const {
@@ -452,6 +452,7 @@ void FrameRenderer::Impl::drawOcclusion() const {
   gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(OcclusionVertex)),
                 triangles.data(), GL_STREAM_DRAW);
+  gl.Disable(GL_FRAMEBUFFER_SRGB);  // Blending bytes is cheap; the shader accounts for their meaning.
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
@@ -460,6 +461,7 @@ void FrameRenderer::Impl::drawOcclusion() const {
   gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_BLEND);
+  gl.Enable(GL_FRAMEBUFFER_SRGB);
 }
 
 void FrameRenderer::Impl::readBack() {

@@ -62,6 +62,7 @@ namespace carom::renderer {
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                                             \
   X(UseProgram, PFNGLUSEPROGRAMPROC)                                                                   \
   X(VertexAttribDivisor, PFNGLVERTEXATTRIBDIVISORPROC)                                                 \
+  X(VertexAttribIPointer, PFNGLVERTEXATTRIBIPOINTERPROC)                                               \
   X(VertexAttribPointer, PFNGLVERTEXATTRIBPOINTERPROC)                                                 \
   X(Viewport, PFNGLVIEWPORTPROC)
 

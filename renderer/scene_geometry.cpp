@@ -90,6 +90,10 @@ int detailLevel(double radius_px) {
   return level;
 }
 
+bool drawsSingleFaces(int level) {
+  return kLevels[static_cast<std::size_t>(level)].edges != Edges::kBevelled;
+}
+
 SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solids) {
   Pool pool;
   const double cap = bevelCap(solids);
@@ -106,6 +110,7 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                          offset(offsetof(MeshVertex, position)));
   gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, normal)));
   gl.VertexAttribPointer(6, 4, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, bend)));
+  gl.VertexAttribIPointer(7, 1, GL_UNSIGNED_INT, sizeof(MeshVertex), offset(offsetof(MeshVertex, face)));
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(pool.indices.size() * sizeof(std::uint32_t)),
                 pool.indices.data(), GL_STATIC_DRAW);
@@ -116,7 +121,12 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                            offset(4 * sizeof(float) * i));
     gl.VertexAttribDivisor(2 + i, 1);
   }
-  for (GLuint i = 0; i < 7; ++i) gl.EnableVertexAttribArray(i);
+  gl.VertexAttribIPointer(8, 1, GL_UNSIGNED_INT, sizeof(InstanceRecord),
+                          offset(offsetof(InstanceRecord, faces)));
+  gl.VertexAttribIPointer(9, 1, GL_UNSIGNED_INT, sizeof(InstanceRecord),
+                          offset(offsetof(InstanceRecord, sunlit)));
+  for (const GLuint i : {8u, 9u}) gl.VertexAttribDivisor(i, 1);
+  for (GLuint i = 0; i < 10; ++i) gl.EnableVertexAttribArray(i);
 }
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {

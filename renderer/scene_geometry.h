@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/face_light.h"
 #include "renderer/gl_functions.h"
 #include "renderer/solid_extent.h"
 
@@ -18,6 +19,9 @@ inline constexpr int kDetailLevels = 5;
 /// and the sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's
 /// 1000 pixels).
 int detailLevel(double radius_px);
+
+/// Whether the faces of a solid with lit faces can be drawn one without the other at this level.
+bool drawsSingleFaces(int level);
 
 /// A range of the index buffer.
 struct MeshRange {
@@ -36,10 +40,13 @@ struct SolidGeometry {
   bool is_round = false;          ///< Has a ball or capsule among its parts.
 };
 
-/// What changes per drawn body: the rows of X_EB and the colour (see the body shader).
+/// What changes per drawn body: the rows of X_EB, the colour, which faces are drawn and which of them the sun
+/// reaches if nothing is looked up (see the body shader).
 struct InstanceRecord {
   float rows[3][4];
   float color[4];
+  FaceMask faces;
+  FaceMask sunlit;
 };
 
 class SceneGeometry {

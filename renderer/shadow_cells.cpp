@@ -13,16 +13,12 @@ constexpr double kOverlap = 0.02;  // Of a cell.
 
 }  // namespace
 
-ShadowCells::ShadowCells(const ShadowView& view, std::span<const ShadowCaster> casters_given) : view_(view) {
-  if (view_.texel_m == 0.0) {
-    blocks_.resize(casters_given.size());
-    return;
-  }
-  for (const ShadowCaster& caster : casters_given) {
-    const Block& block = blocks_.emplace_back(blockOf(caster));
+ShadowCells::ShadowCells(const ShadowView& view, std::span<const ShadowCaster> casters) : view_(view) {
+  if (view_.texel_m == 0.0) return;
+  for (const ShadowCaster& caster : casters) {
+    const Block block = blockOf(caster);
     for (int y = block.y_begin; y < block.y_end; ++y)
-      for (int x = block.x_begin; x < block.x_end; ++x)
-        casters(x, y) = static_cast<std::uint8_t>(std::min(casters(x, y) + 1, 2));
+      for (int x = block.x_begin; x < block.x_end; ++x) covered(x, y) = true;
   }
 }
 
@@ -41,14 +37,6 @@ ShadowCells::Block ShadowCells::blockOf(const ShadowCaster& caster) const {
   return {begin[0], end[0], begin[1], end[1]};
 }
 
-bool ShadowCells::alone(std::size_t caster) const {
-  const Block& block = blocks_[caster];
-  for (int y = block.y_begin; y < block.y_end; ++y)
-    for (int x = block.x_begin; x < block.x_end; ++x)
-      if (casters(x, y) > 1) return false;
-  return true;
-}
-
 // Runs of cells with casters along the rows, joined with the same run of the row before.
 std::vector<ShadowCells::Block> ShadowCells::coveredBlocks() const {
   std::vector<Block> blocks;
@@ -57,7 +45,7 @@ std::vector<ShadowCells::Block> ShadowCells::coveredBlocks() const {
     const std::size_t row = blocks.size();
     std::vector<Block> runs;
     for (int x = 0; x < kSide; ++x) {
-      if (casters(x, y) == 0) continue;
+      if (!covered(x, y)) continue;
       if (runs.empty() || runs.back().x_end != x) runs.push_back({x, x, y, y + 1});
       runs.back().x_end = x + 1;
     }

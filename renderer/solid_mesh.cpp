@@ -17,7 +17,7 @@ constexpr int kMaxBevelledFaces = 400;   // A part with more faces is round by i
 
 std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n) {
   const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-  mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f});
+  mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace});
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
@@ -29,12 +29,17 @@ void addFan(TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
   for (std::size_t i = 2; i < loop.size(); ++i) addTriangle(mesh, loop[0], loop[i - 1], loop[i]);
 }
 
+std::uint32_t faceBit(int face) {
+  return static_cast<std::uint32_t>(std::min(face, kNoFace));
+}
+
 void addSharpPart(TriangleMesh& mesh, const ConvexPolyhedron& core) {
   for (int f = 0; f < core.faceCount(); ++f) {
     std::vector<std::uint32_t> loop;
     for (const int v : core.faceVertices(f))
       loop.push_back(append(mesh, core.vertex(v), core.plane(f).normal));
     addFan(mesh, loop);
+    for (const std::uint32_t i : loop) mesh.vertices[i].face = faceBit(f);
   }
 }
 
@@ -98,7 +103,9 @@ void addShadedFace(TriangleMesh& mesh, const ConvexPolyhedron& core, int f, doub
     const Vec3 bend = (core.plane(edge.left).normal + core.plane(edge.right).normal).normalized() - n;
     const std::uint32_t a = append(mesh, core.vertex(tail.vertex), n, bend, 1.0);
     const std::uint32_t b = append(mesh, core.vertex(corners[(i + 1) % corners.size()].vertex), n, bend, 1.0);
-    addTriangle(mesh, a, b, append(mesh, middle, n, bend, 1.0 - toEdge(tail) / width));
+    const std::uint32_t c = append(mesh, middle, n, bend, 1.0 - toEdge(tail) / width);
+    addTriangle(mesh, a, b, c);
+    for (const std::uint32_t vertex : {a, b, c}) mesh.vertices[vertex].face = faceBit(f);
   }
 }
 

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "engine/solid/solid.h"
+#include "renderer/face_light.h"
 
 namespace carom::renderer {
 
 struct MeshVertex {
-  float position[3];  ///< Body frame, metres.
-  float normal[3];    ///< Unit, outwards.
-  float bend[3];      ///< What is added to the normal at the edge, before it is made a unit again.
-  float nearness;     ///< How much of it a pixel adds: 1 at the edge, 0 or less from a bevel's width on.
+  float position[3];   ///< Body frame, metres.
+  float normal[3];     ///< Unit, outwards.
+  float bend[3];       ///< What is added to the normal at the edge, before it is made a unit again.
+  float nearness;      ///< How much of it a pixel adds: 1 at the edge, 0 or less from a bevel's width on.
+  std::uint32_t face;  ///< Its face's number; kNoFace where it has none or shares one, and from there on.
 };
 
 struct TriangleMesh {

@@ -64,6 +64,18 @@ TEST(ContactOcclusion, PolygonsEndWhereTheFaceEnds) {
   EXPECT_NEAR(highest, 1.0, 1e-6);
 }
 
+TEST(ContactOcclusion, WhatCannotBeDarkenedIsNotDrawn) {
+  Stage stage;
+  const Quat turned(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.5, 2.0).normalized()));
+  stage.add(Solid::box(Vec3(9.0, 9.0, 1.0)), at(0, 0, -0.5), true);
+  stage.add(Solid::box(Vec3(0.8, 0.3, 0.2)), {turned, Vec3(0.3, 0.2, 0.4)});
+  stage.add(Solid::box(Vec3(0.7, 0.6, 0.9)), at(-0.4, -0.1, 0.451));
+  const std::vector<OcclusionVertex> triangles = stage.occlusion();
+  ASSERT_GT(triangles.size(), 12u);
+  for (const OcclusionVertex& v : triangles)
+    for (int i = 0; i < 3; ++i) EXPECT_LE(std::abs(v.p_R[i]), v.half[i] + v.radius + 0.861f * v.reach);
+}
+
 TEST(ContactOcclusion, StackedBoxesDarkenEachOther) {
   Stage stage;
   stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));

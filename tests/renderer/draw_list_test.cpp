@@ -1,6 +1,5 @@
 #include "renderer/draw_list.h"
 
-#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@ namespace {
 
 const Camera kCamera{Vec3(1.0, -7.0, 3.0), Vec3(0.0, 0.0, 0.5), 40.0};
 enum : int { kFloor, kBall, kBox };
+const FaceLight kSunlit{kAllFaces, 0, 0}, kShadowed{0, 0, kAllFaces};
 
 Pose at(double x, double y, double z) {
   return {Quat::Identity(), Vec3(x, y, z)};
@@ -21,9 +21,9 @@ class DrawListTest : public testing::Test {
       : context_(createOffscreenContext(PixelPolicy::kFast)),
         geometry_(context_->gl(), std::vector<Solid>{Solid::box(Vec3(40.0, 40.0, 1.0)), Solid::ball(0.5),
                                                      Solid::box(Vec3(1.0, 1.0, 1.0))}) {}
-  DrawList list(const std::vector<Instance>& instances, std::vector<std::uint8_t> lone = {}) const {
-    lone.resize(instances.size(), 0);
-    return buildDrawList(instances, kCamera, Settings{}, geometry_, lone);
+  DrawList list(const std::vector<Instance>& instances, std::vector<FaceLight> lights = {}) const {
+    lights.resize(instances.size(), FaceLight{0, 0, kAllFaces});
+    return buildDrawList(instances, kCamera, Settings{}, geometry_, lights);
   }
   static int count(const std::vector<DrawGroup>& groups) {
     int sum = 0;
@@ -74,12 +74,12 @@ TEST_F(DrawListTest, TheDepthsStayTheSameWhileTheNearestBodyMovesALittle) {
   EXPECT_LE(changes, 3);
 }
 
-TEST_F(DrawListTest, LoneBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
+TEST_F(DrawListTest, SunlitBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
   const DrawList drawn = list({{kBox, at(0, 0, 0.5), {}},
                                {kBox, at(1.5, 0, 0.5), {}},
                                {kBox, at(-1.5, 0, 0.5), {}, true},
                                {kFloor, at(0, 0, -0.5), {}, true}},
-                              {1, 0, 1, 1});
+                              {kSunlit, kShadowed, kSunlit, kSunlit});
   ASSERT_EQ(drawn.visible.size(), 3u);
   for (const DrawGroup& group : drawn.visible) {
     ASSERT_EQ(group.count, 1);
@@ -89,6 +89,46 @@ TEST_F(DrawListTest, LoneBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
                                 : x < 1.0f ? BodyShader::kSunlit
                                            : BodyShader::kShadowed;
     EXPECT_EQ(group.shader, expected) << x;
+  }
+}
+
+TEST_F(DrawListTest, EachFaceIsDrawnOnceByTheShaderForItsLight) {
+  const Vec3 far = 2.5 * (Vec3(0, 0, 0.5) - kCamera.eye) + kCamera.eye;  // Where faces are drawn singly.
+  const DrawList drawn = list({{kBox, {Quat::Identity(), far}, {}}}, {{0b000011, 0b000100, 0b001000}});
+  ASSERT_EQ(drawn.visible.size(), 2u);
+  for (const DrawGroup& group : drawn.visible) {
+    ASSERT_EQ(group.count, 1);
+    const InstanceRecord& record = drawn.records[static_cast<std::size_t>(group.first)];
+    const bool looked_up = group.shader == BodyShader::kShadowed;
+    EXPECT_EQ(record.faces, looked_up ? 0b001000u : 0b000111u);
+    EXPECT_EQ(record.sunlit, looked_up ? kAllFaces : 0b000011u);
+  }
+  ASSERT_EQ(count(drawn.casting), 1);
+  EXPECT_EQ(drawn.records.back().faces, kAllFaces);
+}
+
+TEST_F(DrawListTest, ATinyBodyIsDrawnOnceWhateverItsShadows) {
+  const Vec3 far = 30.0 * (Vec3(0, 0, 0.5) - kCamera.eye) + kCamera.eye;
+  const Instance box{kBox, {Quat::Identity(), far}, {}};
+  const DrawList mixed = list({box}, {{0b000011, 0, 0b001000}});
+  ASSERT_EQ(count(mixed.visible), 1);
+  EXPECT_EQ(mixed.visible[0].shader, BodyShader::kShadowed);
+  EXPECT_EQ(mixed.records[0].faces, kAllFaces);
+  const DrawList turned = list({box}, {{0, 0b000011, 0}});
+  ASSERT_EQ(count(turned.visible), 1);
+  EXPECT_EQ(turned.visible[0].shader, BodyShader::kSunlit);
+  EXPECT_EQ(turned.records[0].sunlit, 0u);
+}
+
+TEST_F(DrawListTest, ABodySeenFromNearIsDrawnAsAWhole) {
+  const CameraAxes axes = cameraAxes(kCamera);
+  const Pose near{Quat::Identity(), kCamera.eye + 3.0 * axes.forward};
+  for (const FaceLight& light : {FaceLight{0b11, 0, 0}, FaceLight{0b01, 0, 0b10}, FaceLight{0b01, 0b10, 0}}) {
+    const DrawList drawn = list({{kBox, near, {}}}, {light});
+    ASSERT_EQ(drawn.visible.size(), 1u);
+    ASSERT_EQ(drawn.visible[0].count, 1);
+    EXPECT_EQ(drawn.records[0].faces, kAllFaces);
+    EXPECT_EQ(drawn.visible[0].shader, light.sunlit == 0b11u ? BodyShader::kSunlit : BodyShader::kShadowed);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "renderer/edge_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -90,8 +91,6 @@ TEST(EdgeFilter, StraightEdgesAndFlatPartsStayAsTheyAre) {
   EXPECT_EQ(std::count(flat.rgb.begin(), flat.rgb.end(), 77), 3 * 33 * 29);
 }
 
-// Also across the middle, where the two threads' halves meet. The order of mixing differs there, hence the
-// tolerance.
 TEST(EdgeFilter, ShiftingThePictureShiftsTheResult) {
   const auto grey = [](int x, int y) { return (x - 0.13 * y > 20.0) != (y + 0.11 * x > 25.0) ? 230 : 25; };
   const Image here = filtered(64, 64, grey);
@@ -100,9 +99,31 @@ TEST(EdgeFilter, ShiftingThePictureShiftsTheResult) {
       const Image there = filtered(64, 64, [&](int x, int y) { return grey(x - dx, y - dy); });
       for (int y = 8; y < 48; ++y)
         for (int x = 8; x < 52; ++x)
-          EXPECT_NEAR(*there.pixel(x + dx, y + dy), *here.pixel(x, y), 4)
+          EXPECT_EQ(*there.pixel(x + dx, y + dy), *here.pixel(x, y))
               << x << "," << y << " by " << dx << "," << dy;
     }
+}
+
+// Pixels are taken 32 and 64 at a time, what is left of a row one by one. Slanted stripes whose runs are
+// shorter than the margin, and three greys, of which two differ by one more than the threshold.
+TEST(EdgeFilter, EveryColumnIsTreatedAlike) {
+  constexpr int kMargin = 24, kHeight = 60;
+  const auto grey = [](int x, int y) {
+    return std::array{60, 74, 200}[static_cast<std::size_t>((9 * x + 5 * y) / 61 % 3)];
+  };
+  const Image whole = filtered(300, kHeight, grey);
+  int changed = 0;
+  for (const int width : {97, 128, 129, 160, 191, 192, 193})
+    for (const int begin : {0, 1, 31, 32, 33, 63, 64, 65}) {
+      const Image part = filtered(width, kHeight, [&](int x, int y) { return grey(x + begin, y); });
+      for (int y = kMargin; y < kHeight - kMargin; ++y)
+        for (int x = kMargin; x < width - kMargin; ++x) {
+          ASSERT_EQ(*part.pixel(x, y), *whole.pixel(x + begin, y))
+              << x << "," << y << " from " << begin << " of " << width;
+          if (*part.pixel(x, y) != grey(x + begin, y)) ++changed;
+        }
+    }
+  EXPECT_GT(changed, 1000);
 }
 
 TEST(EdgeFilter, RowsComeOutFromTopToBottom) {

@@ -298,6 +298,46 @@ TEST_F(Frame, ImpossibleCamerasAndSolidsAreRefused) {
   EXPECT_THROW(draw({{-1, {}, kRed}}), ContractViolation);
 }
 
+// Boxes that darken each other's sides but not their tops: the faces come from several draws. The oracle is
+// the image of surfaces, one pixel inside of each body.
+TEST(FrameRenderer, FacesOfDifferentLightMeetWithoutAGap) {
+  const Camera camera{Vec3(5.0, -12.0, 7.0), Vec3(0.0, 0.0, 0.3), 30.0};
+  FrameRenderer renderer(Settings{kWidth, kHeight}, solids());
+  std::vector<Instance> bodies = {ground()};
+  for (int i = 0; i < 9; ++i)
+    bodies.push_back({kBox, at(1.2 * (i % 3 - 1), 1.2 * (i / 3 - 1), 0.5001), kRed});
+  const Image image = renderer.draw(bodies, camera);
+  const std::vector<std::int32_t>& shown = renderer.surfaces().instance;
+  int inside = 0;
+  for (int y = 1; y + 1 < kHeight; ++y)
+    for (int x = 1; x + 1 < kWidth; ++x) {
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(y) * kWidth + x;
+      const auto body = [&](std::ptrdiff_t k) { return shown[static_cast<std::size_t>(k)]; };
+      if (body(i) < 1 || body(i - 1) != body(i) || body(i + 1) != body(i) || body(i - kWidth) != body(i) ||
+          body(i + kWidth) != body(i))
+        continue;
+      ++inside;
+      const std::uint8_t* rgb = image.pixel(x, y);
+      EXPECT_GT(rgb[0], 2 * rgb[1]) << x << "," << y;
+    }
+  EXPECT_GT(inside, 2000);
+}
+
+// A plank over one of two boxes far apart: what it shades on the way is darker than the same face in the sun.
+TEST(FrameRenderer, AShadedTopIsDarkerThanASunlitOne) {
+  FrameRenderer renderer(Settings{kWidth, kHeight}, solids());
+  const Vec3 to_light = Settings{}.to_light / Settings{}.to_light.z();
+  const Camera camera{Vec3(0.0, -16.0, 9.0), Vec3(0.0, 0.0, 0.5), 30.0};
+  const Vec3 top(-2.0, 0.0, 1.0), other(2.0, 0.0, 1.0);
+  const Image& image =
+      renderer.draw(std::vector<Instance>{ground(),
+                                          {kBox, at(-2.0, 0.0, 0.5), kRed},
+                                          {kBox, at(2.0, 0.0, 0.5), kRed},
+                                          {kBox, {Quat::Identity(), top + 2.5 * to_light}, kBlue}},
+                    camera);
+  EXPECT_GT(at(image, pinhole(camera, other)).r, at(image, pinhole(camera, top)).r + 60);
+}
+
 TEST(FrameRenderer, ImpossibleSizesAreRefused) {
   for (const auto& [width, height] :
        {std::pair{0, 720}, {1280, 0}, {-1, 720}, {1280, -5}, {16385, 16}, {16, 16385}})
