@@ -24,10 +24,12 @@ inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatt
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
 inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...
 inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps; where that is more, ...
-inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough
-inline constexpr int kSolverMostVisits = 50000;          // ... and so many where that is not reached
-inline constexpr double kGapGain = 0.2;                  // share of the missing gap reopened in a step
-inline constexpr double kGapSpeed = 0.1;                 // m/s at most while reopening
+inline constexpr double kSolverCoarseResidual = 1.0e-3;    // ... this is enough for what moves ...
+inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... and this for what stands
+inline constexpr int kSolverMostVisits = 50000;   // of what moves, where the coarse one is not reached
+inline constexpr int kSolverStandingSweeps = 20;  // of what stands, before its rows are solved at once
+inline constexpr double kGapGain = 0.2;           // share of the missing gap reopened in a step
+inline constexpr double kGapSpeed = 0.1;          // m/s at most while reopening
 
 // Events of one step and body.
 inline constexpr int kPairEvents = 8;      // up to here elastic events are solved between their two bodies

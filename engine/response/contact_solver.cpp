@@ -51,9 +51,7 @@ struct RowChange {
 
 // Brings the impulse of one row to its conditions, or nearer to them, with all else as it is.
 RowChange solvePoint(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
-  Vec3 miss = rowVelocity(row, bodies);
-  miss.x() -= row.lowest_speed;
-  miss.tail<2>() -= row.still_slip;
+  const Vec3 miss = rowMiss(row, bodies);
   Vec3 impulse = row.impulse;
   double change = 0.0;
   bool settled = true;

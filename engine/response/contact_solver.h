@@ -68,6 +68,11 @@ inline Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodi
   return {row.n.dot(v), row.t1.dot(v), row.t2.dot(v)};
 }
 
+/// By how much the velocity misses what would hold the point: (separating, t1, t2), m/s.
+inline Vec3 rowMiss(const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  return rowVelocity(row, bodies) - Vec3(row.lowest_speed, row.still_slip.x(), row.still_slip.y());
+}
+
 struct SolverSettings {
   int sweeps = 0;             ///< At most.
   double residual_mps = 0.0;  ///< A sweep that changes no row's speed by more has converged.

@@ -4,9 +4,12 @@
 #include <limits>
 
 #include "engine/modes/islands.h"
+#include "engine/modes/resting.h"
+#include "engine/response/standing_solver.h"
 #include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/midstep_rows.h"
+#include "engine/simulation/warm_start.h"
 
 namespace carom {
 namespace {
@@ -30,15 +33,8 @@ struct Assembly {
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
 };
 
-void warmStart(ContactRow& row, const ShapePair& pair, std::uint64_t id) {
-  for (int i = 0; i < pair.remembered_count; ++i) {
-    if (pair.remembered[at(i)].id != id) continue;
-    const Vec3& impulse = pair.remembered[at(i)].impulse_W;
-    row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
-    const Vec3& torque = pair.remembered[at(i)].torque_impulse_W;
-    if (row.resistance.acts()) row.torque = Vec3(row.n.dot(torque), row.t1.dot(torque), row.t2.dot(torque));
-    return;
-  }
+bool liesStill(const Body& body) {
+  return !body.moves() || carom::liesStill(body.velocity, body.radius_m);
 }
 
 // No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
@@ -67,9 +63,9 @@ void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::ve
   });
   const MidStep mid{0.5 * step_s, kNoticedTurning * settings.gravity.norm() * step_s};
   moveToMidStep(request, pair, mid, bodies, shapes, assembly.contacts.bodies, rows, counters);
+  warmStart(pair, liesStill(bodies[at(pair.body_a)]) && liesStill(bodies[at(pair.body_b)]), rows);
   for (SourcedRow& sourced : rows) {
     ContactRow& row = sourced.row;
-    warmStart(row, pair, sourced.id);
     row.lowest_speed += gapSpeeds(sourced.gap_m, pair, step_s, row.impulse.x() > 0.0).momentum;
     assembly.sources.push_back(sourced);
   }
@@ -92,21 +88,49 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-// With friction: small islands to the fine residual, as far as their share of row visits goes; large ones,
-// and what has just come together and would fall apart in a coarse step, to the coarse one.
-void solveImpulses(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                   double gravity_speed) {
+// Whether an island lies still but for a few of its bodies: in the mean by mass.
+bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
+  double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
+  double mass = 0.0;
+  for (const ContactRow& row : rows) {
+    for (const int i : {row.a, row.b}) {
+      const Body& body = bodies[at(i)];
+      if (!body.moves()) continue;
+      const double m = 1.0 / body.inertia.inverse_mass;
+      const double v = body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m;
+      mass += m;
+      twice_energy += m * v * v;
+    }
+  }
+  return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
+}
+
+// With friction. Small islands to the fine residual, large ones to a coarser one: of what moves, as far as
+// their share of row visits goes; what has just come together there and would fall apart in a coarse step,
+// farther.
+void solveImpulses(const Assembly& assembly, const std::vector<Body>& bodies, double gravity_speed,
+                   LastingContacts& contacts) {
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
+    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(assembly.island_begin[i], count);
     const int share = tolerance::kSolverRowVisits / static_cast<int>(count);
     const bool small = share >= tolerance::kSolverSweeps;
+    if (stands(rows, bodies)) {
+      const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverStandingResidual;
+      // What presses holds at the gap it has: closing it would keep the rest from lying still.
+      for (ContactRow& row : rows)
+        if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
+      solveStandingContacts(rows, contacts.bodies,
+                            {.sweeps = std::max(share, tolerance::kSolverStandingSweeps),
+                             .residual_mps = residual * gravity_speed});
+      continue;
+    }
     const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverCoarseResidual;
     const int careful_sweeps = std::max(share, tolerance::kSolverSweeps);
     const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(count);
-    solveContactsFinely(rows.subspan(assembly.island_begin[i], count), bodies,
+    solveContactsFinely(rows, contacts.bodies,
                         {.sweeps = std::max(careful_sweeps, most_sweeps),
                          .residual_mps = residual * gravity_speed,
-                         .friction = true,
                          .careful_sweeps = careful_sweeps,
                          .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
   }
@@ -296,7 +320,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
     applyToRow(row, row.impulse, contacts.bodies);
     if (row.resistance.acts()) applyTorqueToRow(row, row.torque, contacts.bodies);
   }
-  solveImpulses(assembly, contacts.rows, contacts.bodies, settings.gravity.norm() * settings.step_s);
+  solveImpulses(assembly, bodies, settings.gravity.norm() * settings.step_s, contacts);
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;
     contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;

@@ -1,0 +1,175 @@
+#include "engine/response/held_rows.h"
+
+#include <Eigen/LU>
+#include <Eigen/OrderingMethods>
+#include <algorithm>
+
+namespace carom {
+namespace {
+
+constexpr double kInsideCone = 1.0 - 1e-9;  // of the limit of friction: more slides
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+Mat3 crossMatrix(const Vec3& r) {
+  Mat3 m;
+  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
+  return m;
+}
+
+// The row's velocity of a point at arm r per velocity of its body.
+Eigen::Matrix<double, 3, 6> jacobian(const ContactRow& row, const Vec3& r) {
+  Mat3 frame;
+  frame << row.n, row.t1, row.t2;
+  Eigen::Matrix<double, 3, 6> j;
+  j << frame.transpose(), -frame.transpose() * crossMatrix(r);
+  return j;
+}
+
+// What of the row is an equation; zero where it does not press.
+Mat3 stiffnessOf(const ContactRow& row) {
+  Mat3 stiffness = Mat3::Zero();
+  if (!(row.impulse.x() > 0.0) || row.lowest_speed < 0.0) return stiffness;
+  const bool slides = row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
+  if (slides)
+    stiffness(0, 0) = HeldRows::kStiffness / row.normal_response.x();
+  else
+    stiffness = HeldRows::kStiffness * row.inverse_response;
+  return stiffness;
+}
+
+// The order of elimination that keeps the factor sparse, found among bodies rather than their coordinates.
+std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, int>>& neighbours) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < bodies; ++i) entries.emplace_back(i, i, 1.0);
+  for (const auto& [i, j] : neighbours) {
+    entries.emplace_back(i, j, 1.0);
+    entries.emplace_back(j, i, 1.0);
+  }
+  Eigen::SparseMatrix<double> graph(bodies, bodies);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::AMDOrdering<int>::PermutationType order;
+  Eigen::AMDOrdering<int>()(graph, order);
+  return {order.indices().data(), order.indices().data() + bodies};
+}
+
+}  // namespace
+
+HeldRows::HeldRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
+  placeBodies(rows, bodies);
+  placeBlocks(rows);
+}
+
+void HeldRows::placeBodies(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
+  slots_.assign(bodies.size(), -1);
+  std::vector<int> found;
+  for (const ContactRow& row : rows) {
+    for (const int body : {row.a, row.b}) {
+      if (slots_[at(body)] >= 0 || bodies[at(body)].inverse_mass == 0.0) continue;
+      slots_[at(body)] = static_cast<int>(found.size());
+      found.push_back(body);
+    }
+  }
+  std::vector<std::pair<int, int>> neighbours;
+  for (const ContactRow& row : rows)
+    if (slots_[at(row.a)] >= 0 && slots_[at(row.b)] >= 0)
+      neighbours.emplace_back(slots_[at(row.a)], slots_[at(row.b)]);
+  const std::vector<int> order = eliminationOrder(static_cast<int>(found.size()), neighbours);
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    const int body = found[at(order[slot])];
+    slots_[at(body)] = static_cast<int>(slot);
+    Mat6 inertia = Mat6::Zero();
+    inertia.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / bodies[at(body)].inverse_mass);
+    inertia.bottomRightCorner<3, 3>() = bodies[at(body)].inverse_tensor.inverse();
+    inertia_.push_back(inertia);
+  }
+}
+
+void HeldRows::placeBlocks(std::span<const ContactRow> rows) {
+  std::vector<std::pair<int, int>> pairs;  // (column, row)
+  for (const ContactRow& row : rows) {
+    places_.push_back(
+        {-jacobian(row, row.r_a), jacobian(row, row.r_b), slots_[at(row.a)], slots_[at(row.b)]});
+    const RowPlace& place = places_.back();
+    if (place.slot_a >= 0 && place.slot_b >= 0) pairs.push_back(std::minmax(place.slot_a, place.slot_b));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto& [column, row] : pairs) blocks_.push_back({row, column, Mat6::Zero()});
+  for (RowPlace& place : places_) {
+    if (place.slot_a < 0 || place.slot_b < 0) continue;
+    const std::pair<int, int> pair = std::minmax(place.slot_a, place.slot_b);
+    place.block = static_cast<int>(std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin());
+  }
+}
+
+void HeldRows::addRow(const RowPlace& place, const Mat3& stiffness, const Vec3& miss) {
+  const RowJacobian on_a = stiffness * place.of_a;
+  const RowJacobian on_b = stiffness * place.of_b;
+  const Vec3 force = stiffness * miss;
+  if (place.slot_a >= 0) {
+    diagonal_[at(place.slot_a)] += place.of_a.transpose() * on_a;
+    push_.segment<6>(6 * place.slot_a) -= place.of_a.transpose() * force;
+  }
+  if (place.slot_b >= 0) {
+    diagonal_[at(place.slot_b)] += place.of_b.transpose() * on_b;
+    push_.segment<6>(6 * place.slot_b) -= place.of_b.transpose() * force;
+  }
+  if (place.block < 0) return;
+  if (place.slot_a > place.slot_b)
+    blocks_[at(place.block)].value += place.of_a.transpose() * on_b;
+  else
+    blocks_[at(place.block)].value += place.of_b.transpose() * on_a;
+}
+
+void HeldRows::writeMatrix() {
+  const int bodies = static_cast<int>(inertia_.size());
+  matrix_.resize(6 * bodies, 6 * bodies);
+  matrix_.reserve(21 * bodies + 36 * static_cast<int>(blocks_.size()));
+  std::size_t first = 0;
+  for (int slot = 0; slot < bodies; ++slot) {
+    std::size_t last = first;
+    while (last < blocks_.size() && blocks_[last].column == slot) ++last;
+    for (int c = 0; c < 6; ++c) {
+      matrix_.startVec(6 * slot + c);
+      for (int r = c; r < 6; ++r) matrix_.insertBack(6 * slot + r, 6 * slot + c) = diagonal_[at(slot)](r, c);
+      for (std::size_t k = first; k < last; ++k)
+        for (int r = 0; r < 6; ++r)
+          matrix_.insertBack(6 * blocks_[k].row + r, 6 * slot + c) = blocks_[k].value(r, c);
+    }
+    first = last;
+  }
+  matrix_.finalize();
+}
+
+bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+  diagonal_ = inertia_;
+  for (Block& block : blocks_) block.value.setZero();
+  push_.setZero(6 * static_cast<int>(inertia_.size()));
+  std::vector<Vec3> misses(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    misses[i] = rowMiss(rows[i], bodies);
+    addRow(places_[i], stiffnessOf(rows[i]), misses[i]);
+  }
+  writeMatrix();
+  if (!analyzed_) factor_.analyzePattern(matrix_);
+  analyzed_ = true;
+  factor_.factorize(matrix_);
+  if (factor_.info() != Eigen::Success) return false;
+  const Eigen::VectorXd change = factor_.solve(push_);
+  if (!change.allFinite()) return false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RowPlace& place = places_[i];
+    Vec3 miss = misses[i];
+    if (place.slot_a >= 0) miss += place.of_a * change.segment<6>(6 * place.slot_a);
+    if (place.slot_b >= 0) miss += place.of_b * change.segment<6>(6 * place.slot_b);
+    const Vec3 impulse = -stiffnessOf(rows[i]) * miss;
+    rows[i].impulse += impulse;
+    applyToRow(rows[i], impulse, bodies);
+  }
+  return true;
+}
+
+}  // namespace carom

@@ -1,0 +1,81 @@
+#include "engine/response/standing_solver.h"
+
+#include <vector>
+#include <cstdio>
+#include <cstdlib>
+
+#include "engine/response/held_rows.h"
+
+namespace carom {
+namespace {
+
+constexpr int kSteps = 4;           // each leaves a fifth to a fiftieth of the residual
+constexpr double kFiner = 0.1;      // of the residual that is enough: next steps start from here
+constexpr double kHopeless = 10.0;  // times the best residual: the held rows contradict each other
+constexpr int kRises = 3;           // so many in a row over the best: no use
+constexpr int kSweepsAfter = 16;    // fewer do not bring the impulses back into their cones
+
+// A solution, to return to.
+class Saved {
+ public:
+  Saved(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, double residual_mps)
+      : residual_mps_(residual_mps) {
+    for (const ContactRow& row : rows) {
+      impulses_.push_back(row.impulse);
+      torques_.push_back(row.torque);
+      for (const int body : {row.a, row.b})
+        velocities_.push_back(bodies[static_cast<std::size_t>(body)].velocity);
+    }
+  }
+  double residual() const { return residual_mps_; }
+  void restore(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) const {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].impulse = impulses_[i];
+      rows[i].torque = torques_[i];
+      bodies[static_cast<std::size_t>(rows[i].a)].velocity = velocities_[2 * i];
+      bodies[static_cast<std::size_t>(rows[i].b)].velocity = velocities_[2 * i + 1];
+    }
+  }
+
+ private:
+  double residual_mps_;
+  std::vector<Vec3> impulses_;
+  std::vector<Vec3> torques_;
+  std::vector<Velocity> velocities_;  // of both bodies of every row
+};
+
+}  // namespace
+
+SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                   const SolverSettings& settings) {
+  SolverReport total = solveContactsFinely(rows, bodies, settings);
+  const SolverSettings after{.sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps};
+  if (std::getenv("VERB"))
+    std::fprintf(stderr, "rows %zu sweeps %d res %.3g of %.3g\n", rows.size(), total.sweeps,
+                 total.residual_mps, settings.residual_mps);
+  if (total.residual_mps <= settings.residual_mps) return total;
+  HeldRows held(rows, bodies);
+  Saved best(rows, bodies, total.residual_mps);
+  for (int step = 0, rises = 0; step < kSteps && rises < kRises; ++step) {
+    if (!held.step(rows, bodies)) break;
+    const SolverReport report = solveContactsFinely(rows, bodies, after);
+    if (std::getenv("VERB"))
+      std::fprintf(stderr, "   step %d res %.3g sweeps %d\n", step, report.residual_mps, report.sweeps);
+    total.sweeps += report.sweeps;
+    total.visits += report.visits;
+    total.residual_mps = report.residual_mps;
+    if (report.residual_mps > kHopeless * best.residual()) break;
+    if (report.residual_mps <= settings.residual_mps) return total;
+    if (report.residual_mps < best.residual()) {
+      best = Saved(rows, bodies, report.residual_mps);
+      rises = 0;
+    } else {
+      ++rises;
+    }
+  }
+  best.restore(rows, bodies);
+  total.residual_mps = best.residual();
+  return total;
+}
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+#include "engine/simulation/warm_start.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+
+namespace carom {
+namespace {
+
+constexpr double kSamePoint = 10.0;  // rest gaps: points this close are one
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+Mat3 crossMatrix(const Vec3& r) {
+  Mat3 m;
+  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
+  return m;
+}
+
+Vec3 inFrame(const ContactRow& row, const Vec3& v_W) {
+  return {row.n.dot(v_W), row.t1.dot(v_W), row.t2.dot(v_W)};
+}
+
+class Memory {
+ public:
+  explicit Memory(const ShapePair& pair) : pair_(pair) {}
+
+  int named(std::uint64_t id) const {
+    for (int i = 0; i < pair_.remembered_count; ++i)
+      if (pair_.remembered[at(i)].id == id) return i;
+    return -1;
+  }
+  int nearestTo(const Vec3& arm_b) const {
+    int nearest = -1;
+    double distance = kSamePoint * pair_.window.rest;
+    for (int i = 0; i < pair_.remembered_count; ++i) {
+      const double d = (pair_.remembered[at(i)].arm_b - arm_b).norm();
+      if (taken_[at(i)] || d >= distance) continue;
+      nearest = i;
+      distance = d;
+    }
+    return nearest;
+  }
+  const RememberedImpulse& take(int i) {
+    taken_[at(i)] = true;
+    return pair_.remembered[at(i)];
+  }
+  /// Impulse and moment on B of what no row has taken.
+  Vec6 rest() const {
+    Vec6 wrench = Vec6::Zero();
+    for (int i = 0; i < pair_.remembered_count; ++i) {
+      const RememberedImpulse& remembered = pair_.remembered[at(i)];
+      if (taken_[at(i)]) continue;
+      wrench.head<3>() += remembered.impulse_W;
+      wrench.tail<3>() += remembered.arm_b.cross(remembered.impulse_W);
+    }
+    return wrench;
+  }
+
+ private:
+  const ShapePair& pair_;
+  std::array<bool, ContactManifold::kMaxPoints> taken_{};
+};
+
+// The least impulses at the rows' points that have this impulse and moment together: a + b x r.
+void spread(const Vec6& wrench, std::span<const SourcedRow> rows, std::span<Vec3> impulses_W) {
+  Mat6 response = Mat6::Zero();
+  for (const SourcedRow& sourced : rows) {
+    const Mat3 cross = crossMatrix(sourced.row.r_b);
+    response.topLeftCorner<3, 3>() += Mat3::Identity();
+    response.topRightCorner<3, 3>() -= cross;
+    response.bottomLeftCorner<3, 3>() += cross;
+    response.bottomRightCorner<3, 3>() -= cross * cross;
+  }
+  const Vec6 least = response.completeOrthogonalDecomposition().solve(wrench);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    impulses_W[i] += least.head<3>() + least.tail<3>().cross(rows[i].row.r_b);
+}
+
+}  // namespace
+
+void warmStart(const ShapePair& pair, bool still, std::span<SourcedRow> rows) {
+  if (rows.empty() || pair.remembered_count == 0) return;
+  Memory memory(pair);
+  std::array<const RememberedImpulse*, ContactManifold::kMaxPoints> known{};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const int found = memory.named(rows[i].id); found >= 0) known[i] = &memory.take(found);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (known[i] != nullptr) continue;
+    if (const int found = memory.nearestTo(rows[i].row.r_b); found >= 0) known[i] = &memory.take(found);
+  }
+  std::array<Vec3, ContactManifold::kMaxPoints> impulses_W;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    impulses_W[i] = known[i] != nullptr ? known[i]->impulse_W : Vec3(Vec3::Zero());
+  const Vec6 rest = memory.rest();
+  if (still && !rest.isZero(0.0)) spread(rest, rows, std::span(impulses_W).first(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ContactRow& row = rows[i].row;
+    row.impulse = inFrame(row, impulses_W[i]);
+    row.impulse.x() = std::max(0.0, row.impulse.x());
+    if (row.resistance.acts() && known[i] != nullptr) row.torque = inFrame(row, known[i]->torque_impulse_W);
+  }
+}
+
+}  // namespace carom
