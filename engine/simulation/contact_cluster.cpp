@@ -14,7 +14,7 @@ namespace {
 // What lies between bodies a thousand times as heavy converges slowly; where rows are few, that is waited
 // for.
 constexpr std::size_t kFewRows = 32;
-constexpr long kFewRowsVisits = 20000;
+constexpr long kFewRowsVisits = 4000;
 constexpr double kFewRowsShare = 1e-3;  // of what is safe
 constexpr int kSweepsARound = 4;        // between two looks at whom the impulses have reached
 constexpr int kFineSweeps = 20;         // at least, when they have reached all
