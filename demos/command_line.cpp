@@ -218,8 +218,10 @@ void CommandLine::addLookOptions() {
   render.add_option("--style", options.style, "print: white background and ground, for paper")
       ->check(CLI::IsMember(renderer::styleNames()))
       ->capture_default_str();
-  render.add_option("--aov", options.aov,
-                    "depth, normal, id: 16-bit PNG files beside each frame (frame_0001.depth.png)");
+  render.add_option(
+      "--aov", options.aov,
+      "depth, normal, id: 16-bit PNG files beside each frame (frame_0001.depth.png); with --stream "
+      "one of them, in the frame's place");
   render.add_option("--speed", options.speed, "Of the scene's time: 0.1 is ten times slow motion")
       ->capture_default_str();
   CLI::Option* at = render.add_option("--at", options.at_s, "One picture, at exactly this many seconds");
@@ -478,8 +480,8 @@ void checkRender(const RenderOptions& options) {
     message << "--at " << *options.at_s << ": accepted: 0 to " << kLongest_s << " seconds";
     throw UsageError(message.str());
   }
-  if (!options.aov.empty() && (!options.stream.empty() || !options.ffmpeg.empty()))
-    throw UsageError("--aov writes files beside the frames; accepted: without --stream and --ffmpeg");
+  if (!options.aov.empty() && !options.ffmpeg.empty())
+    throw UsageError("--aov has 16 bits a sample, a video 8; accepted: without --ffmpeg");
   if ((options.output == "-") != !options.stream.empty())
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }

@@ -135,11 +135,12 @@ struct Run {
   std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
 
-/// The frame's other outputs, without their pixels.
+/// The frame's other outputs, without their pixels; in a stream they have no files either.
 std::vector<OutputToWrite> plannedOutputs(const Run& run, const FrameToWrite& frame) {
   std::vector<OutputToWrite> outputs;
   for (const FrameOutput output : run.plan.outputs) {
-    const std::filesystem::path path = run.names->file(frame.record.frame, nameOf(output));
+    std::filesystem::path path;
+    if (run.names != nullptr) path = run.names->file(frame.record.frame, nameOf(output));
     outputs.push_back(
         {{}, path, outputText(output, frame.text, run.scale), {nameOf(output), path.filename().string(), 0}});
   }
@@ -406,9 +407,19 @@ Sink sinkOf(const RenderOptions& options) {
     return {[](FrameToWrite frame) { return DrawnFrame{*writeFrameFile(std::move(frame)), {}}; }, {}};
   const StreamFormat format = streamFormat(options.stream);
   return {[format](FrameToWrite frame) {
-            return DrawnFrame{frame.record, streamedFrame(format, frame)};
+            return DrawnFrame{frame.record, frame.outputs.empty()
+                                                ? streamedFrame(format, frame)
+                                                : streamedOutput(format, frame.outputs.front())};
           },
           {}};
+}
+
+/// A stream holds one picture a frame: the colours, or one other output in their place.
+void requireStreamable(const RenderOptions& options, const std::vector<FrameOutput>& outputs) {
+  if (outputs.size() > 1)
+    throw UsageError("--aov " + options.aov + ": accepted with --stream: one of depth, normal and id");
+  if (!outputs.empty() && streamFormat(options.stream) == StreamFormat::kRgb24)
+    throw UsageError("--stream rgb24 has 8 bits a sample; accepted with --aov: png or ppm");
 }
 
 /// Overlays need the engine itself, and so does a still.
@@ -437,6 +448,7 @@ ExitCode render(const RenderOptions& options) {
   if (!options.from.empty()) recording.emplace(options.from);
   const OverlayChoice shown = readOverlays(options.overlays);
   const Plan plan = planned(options, recording);
+  if (!options.stream.empty()) requireStreamable(options, plan.outputs);
   const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
   Manifest manifest = emptyManifest(options, plan);
 

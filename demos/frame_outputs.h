@@ -1,12 +1,13 @@
 #pragma once
 // What `render --aov` writes beside each frame: depth, world normals and body ids as PNG files that lie pixel
 // on pixel with it. The number in a pixel is that of the surface that the ray through the pixel's middle
-// meets first, on the engine's own solids; the smoothing of the frame's edges moves none.
+// meets first, on the engine's own solids; the smoothing of the frame's edges moves none, and water is
+// see-through.
 //   depth   16-bit grey: depth along the view axis in units of `metresPerUnit`, rounded; 65534 for that and
 //           beyond, 65535 for the sky. The unit is the same for all frames of a run.
-//   normal  16-bit RGB: 32768 + 32767 * (x, y, z) of the unit normal, world frame, rounded; 0, 0, 0 for the
-//   sky id      16-bit grey: 1 + the body's place in the scene, 0 for the sky
-// Tested in tests/demos/frame_outputs_test.cpp.
+//   normal  16-bit RGB: 32768 + 32767 * (x, y, z) of the unit normal, world frame, rounded; 0 for the sky
+//   id      16-bit grey: 1 + the body's place in the scene, 0 for the sky
+// Tested in tests/demos/frame_outputs_test.cpp and, on all shipped scenes, tests/demos/scene_outputs_test.cpp
 
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include "demos/exit_code.h"
 #include "demos/frame_identity.h"
+#include "engine/foundation/contract.h"
 
 namespace carom::demos {
 
@@ -19,6 +20,21 @@ std::vector<std::uint8_t> streamedFrame(StreamFormat format, const FrameToWrite&
       "P6\n" + std::to_string(frame.image.width) + " " + std::to_string(frame.image.height) + "\n255\n";
   std::vector<std::uint8_t> bytes(head.begin(), head.end());
   bytes.insert(bytes.end(), frame.image.rgb.begin(), frame.image.rgb.end());
+  return bytes;
+}
+
+std::vector<std::uint8_t> streamedOutput(StreamFormat format, const OutputToWrite& output) {
+  REQUIRE(format != StreamFormat::kRgb24, output.raster.bits);
+  const renderer::Raster& raster = output.raster;
+  if (format == StreamFormat::kPng) return encodedOutput(raster, output.text).bytes;
+  const std::string head = std::string(raster.channels == 1 ? "P5" : "P6") + "\n" +
+                           std::to_string(raster.width) + " " + std::to_string(raster.height) + "\n" +
+                           std::to_string(raster.fullScale()) + "\n";
+  std::vector<std::uint8_t> bytes(head.begin(), head.end());
+  for (const std::uint16_t sample : raster.samples) {
+    bytes.push_back(static_cast<std::uint8_t>(sample >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(sample & 0xff));
+  }
   return bytes;
 }
 

@@ -17,4 +17,8 @@ StreamFormat streamFormat(const std::string& name);
 /// The bytes of one frame.
 std::vector<std::uint8_t> streamedFrame(StreamFormat format, const FrameToWrite& frame);
 
+/// The bytes of another output in the place of its frame, 16 bits a sample: the bytes of its file, or for ppm
+/// a PGM of what is grey and a PPM of what is not, high bytes first. Not for rgb24.
+std::vector<std::uint8_t> streamedOutput(StreamFormat format, const OutputToWrite& output);
+
 }  // namespace carom::demos

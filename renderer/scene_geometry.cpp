@@ -10,7 +10,7 @@ namespace {
 
 struct Level {
   double max_radius_px;  // Used up to this radius on the image.
-  int segments;          // Around balls and capsules.
+  int segments;          // Around balls, capsules and roundings.
   Edges edges;
 };
 constexpr std::array<Level, kDetailLevels> kLevels = {
@@ -26,6 +26,12 @@ constexpr double kBevelCapFraction =
 bool hasRoundPart(const Solid& solid) {
   return std::any_of(solid.parts().begin(), solid.parts().end(),
                      [](const ConvexPart& part) { return part.core.faceCount() == 0; });
+}
+
+// Whether some part has triangles by `segments`.
+bool hasRounding(const Solid& solid) {
+  return std::any_of(solid.parts().begin(), solid.parts().end(),
+                     [](const ConvexPart& part) { return part.radius_m > 0.0; });
 }
 
 // A twentieth of the median of the solids' narrowest parts.
@@ -66,7 +72,7 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   const double bevel = bevelWidth(solid, bevel_cap_m);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
     const auto& [radius, segments, edges] = kLevels[i];
-    const bool sized = geometry.is_round;  // Without round parts, levels with the same edges are the same.
+    const bool sized = hasRounding(solid);  // Without, levels with the same edges are the same.
     const bool same = i > 0 && !sized && edges == kLevels[i - 1].edges;
     geometry.levels[i] = same ? geometry.levels[i - 1] : pool.add(buildMesh(solid, {edges, bevel, segments}));
     if (edges != Edges::kShaded)

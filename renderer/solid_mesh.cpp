@@ -6,6 +6,8 @@
 #include <numbers>
 #include <span>
 
+#include "renderer/rounded_part_mesh.h"
+
 namespace carom::renderer {
 namespace {
 
@@ -237,6 +239,8 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
   const ConvexPolyhedron& core = part.core;
   if (core.faceCount() == 0)
     addRoundPart(mesh, core.vertex(0), core.vertex(core.vertexCount() - 1), part.radius_m, detail.segments);
+  else if (part.radius_m > 0.0)
+    addRoundedPolyhedron(mesh, part, detail.segments);
   else if (detail.edges == Edges::kSharp || core.faceCount() > kMaxBevelledFaces)
     addSharpPart(mesh, core);
   else if (detail.edges == Edges::kBevelled)

@@ -2,7 +2,7 @@
 // Triangles of a solid. Flat faces keep flat normals; along edges they turn from face to face, so that edges
 // catch the light: seen from near in narrow bands and patches that recede from the sharp edge by less than a
 // hundredth of the solid's width (what touches in the simulation touches in the picture), from farther away
-// on sharp faces, pixel by pixel. Balls and capsules are smooth. Tested in
+// on sharp faces, pixel by pixel. Balls, capsules and rounded polyhedra are smooth. Tested in
 // tests/renderer/solid_mesh_test.cpp.
 
 #include <cstdint>

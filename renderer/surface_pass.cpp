@@ -5,6 +5,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "engine/foundation/contract.h"
 #include "renderer/offscreen_context.h"
 #include "renderer/round_surfaces.h"
 #include "renderer/shader_program.h"
@@ -129,6 +130,8 @@ void SurfacePass::draw(std::span<const Instance> instances, std::span<const Soli
   drawFlatParts(instances, camera, geometry, ground);
   startWithGround(camera, list, surfaces);
   takeFlatParts(surfaces);
+  const GLenum error = gl_.GetError();
+  REQUIRE(error == GL_NO_ERROR, error);  // What GL refuses to draw is missing without a word otherwise.
   addRoundSurfaces(instances, solids, camera, ground, surfaces);
 }
 

@@ -145,6 +145,8 @@ void WaterPass::draw(std::span<const WaterVolume> volumes, const Camera& camera,
   for (const WaterVolume* volume : order) drawVolume(*volume, camera, depth);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_BLEND);
+  // A function of a second colour makes any drawing to two targets an error, even while blending is off.
+  gl_.BlendFunc(GL_ONE, GL_ZERO);
 }
 
 }  // namespace carom::renderer

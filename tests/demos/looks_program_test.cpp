@@ -253,7 +253,9 @@ TEST(LooksRefuse, InOneLineWithWhatIsAccepted) {
       {"accepted with --at: a name that ends in .png", {"--at", "1", "-o", "still.jpg"}},
       {"--frames excludes --at", {"--at", "1", "--frames", "0"}},
       {"--speed excludes --at", {"--at", "1", "--speed", "0.5"}},
-      {"--aov writes files beside the frames", {"--aov", "id", "-o", "-", "--stream", "ppm"}},
+      {"accepted with --stream: one of depth", {"--aov", "id,depth", "-o", "-", "--stream", "ppm"}},
+      {"accepted with --aov: png or ppm", {"--aov", "id", "-o", "-", "--stream", "rgb24"}},
+      {"accepted: without --ffmpeg", {"--aov", "id", "--ffmpeg", "a.mp4"}},
       {"no such body in", {"--camera", "follow:nobody"}},
       {"did you mean \"orbit\"?", {"--camera", "orbti"}},
   };

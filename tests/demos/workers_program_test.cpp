@@ -132,6 +132,16 @@ TEST_F(Workers, AStreamIsTheFilesInOrder) {
   EXPECT_TRUE(render("", {"-o", "-", "--stream", "png", "--workers", "3"}) == files);
 }
 
+TEST_F(Workers, AStreamOfAnotherOutputIsItsFilesInOrder) {
+  render("files", {"--workers", "1", "--aov", "depth,id"});
+  std::string ids;
+  for (const auto& [name, bytes] : framesOf(out("files")))
+    if (name.ends_with(".id.png")) ids += bytes;
+  ASSERT_FALSE(ids.empty());
+  for (const char* workers : {"1", "3"})
+    EXPECT_TRUE(render("", {"-o", "-", "--stream", "png", "--aov", "id", "--workers", workers}) == ids);
+}
+
 TEST_F(Workers, ResumeKeepsAndRedrawsAsOneProcessWould) {
   render("run", {"--workers", "1"});
   const Files whole = framesOf(out("run"));

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../oracle/ray_caster.h"
 #include "engine/solid/convex_hull.h"
 
 namespace carom::renderer {
@@ -140,6 +141,32 @@ TEST(SolidMesh, BallsAndCapsulesAreClosedWithTheVolumeOfTheRealOnes) {
   EXPECT_TRUE(closed(capsule));
   EXPECT_NEAR(volume(ball) / (4.0 / 3.0 * pi * 0.343), 1.0, 0.005);
   EXPECT_NEAR(volume(capsule) / (pi * 0.09 * 0.8 + 4.0 / 3.0 * pi * 0.027), 1.0, 0.005);
+}
+
+// The volume is Steiner's, which the solid's mass comes from as well; for the box it is written out.
+TEST(SolidMesh, RoundedPolyhedraAreClosedWithTheirTrueVolumeAndEveryVertexOnTheTrueSurface) {
+  const double pi = std::numbers::pi, r = 0.2;
+  const Solid box = Solid::roundedBox(Vec3(1.0, 0.8, 1.4), r);  // its core: 0.6 by 0.4 by 1.0
+  const double true_volume = 0.6 * 0.4 * 1.0 + 2.0 * r * (0.6 * 0.4 + 0.4 * 1.0 + 1.0 * 0.6) +
+                             pi * r * r * (0.6 + 0.4 + 1.0) + 4.0 / 3.0 * pi * r * r * r;
+  EXPECT_NEAR(volume(buildMesh(box, {Edges::kBevelled, 0.01, 64})) / true_volume, 1.0, 0.002);
+  std::mt19937 random(8);
+  for (int i = 0; i < 12; ++i) {
+    const double radius_m = 0.05 + 0.1 * i;
+    const Solid hull({{randomHull(random, 4 + 3 * i).parts()[0].core, radius_m}});
+    for (const Edges edges : {Edges::kSharp, Edges::kShaded, Edges::kBevelled}) {
+      const TriangleMesh mesh = buildMesh(hull, {edges, 0.01, 64});
+      EXPECT_TRUE(closed(mesh)) << i;
+      EXPECT_LT(volume(mesh), hull.volume()) << i;
+      EXPECT_GT(volume(mesh), 0.995 * hull.volume()) << i;
+      for (const MeshVertex& v : mesh.vertices) {
+        const Vec3 p(v.position[0], v.position[1], v.position[2]), n(v.normal[0], v.normal[1], v.normal[2]);
+        const Vec3 away = p - oracle::nearestOnCore(p, hull.parts()[0].core);
+        ASSERT_NEAR(away.norm(), radius_m, 1e-5) << i;
+        ASSERT_LT((away / radius_m - n).norm(), 1e-4) << i;
+      }
+    }
+  }
 }
 
 TEST(SolidMesh, TheBevelOfALargeGroundIsCapped) {

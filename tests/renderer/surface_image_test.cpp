@@ -50,9 +50,10 @@ oracle::CastView viewOf(const Camera& camera) {
   return {camera.eye, camera.target, camera.fov_degrees, kWidth, kHeight};
 }
 
-void expectSurfacesOf(const Stage& stage, const Camera& camera, Preset preset) {
+void expectSurfacesOf(const Stage& stage, const Camera& camera, Preset preset,
+                      std::span<const WaterVolume> water = {}) {
   FrameRenderer renderer({.width = kWidth, .height = kHeight, .preset = preset}, stage.solids);
-  renderer.draw(stage.instances, camera);
+  renderer.draw(stage.instances, camera, {}, water);
   const SurfaceImage& surfaces = renderer.surfaces();
   ASSERT_EQ(surfaces.instance.size(), static_cast<std::size_t>(kWidth * kHeight));
   const std::vector<oracle::CastPixel> expected = oracle::castPixels(viewOf(camera), stage.bodies());
@@ -123,16 +124,34 @@ TEST(SurfaceImage, FromAmongTheBodiesAndFromBelowTheGroundAsWell) {
   EXPECT_EQ(wrong, 0);
 }
 
-// The colour frame's bodies lie where the instances do: a red body on blue ones has its outline there.
-TEST(SurfaceImage, LiesPixelOnPixelWithTheColourFrame) {
-  Stage stage;
-  for (std::size_t i = 1; i < stage.instances.size(); ++i) stage.instances[i].color = {0.05f, 0.1f, 0.8f};
-  const std::int32_t red = 2;  // a box, whose bevels are narrower than a pixel here
-  stage.instances[2].color = {0.9f, 0.05f, 0.05f};
+// Water is see-through: behind it are flat and round bodies and the ground, whole, cut or drowned.
+TEST(SurfaceImage, ShowsTheSolidsBehindWater) {
+  const Stage stage;
+  WaterVolume sea, pool;
+  sea.max.z() = 1.3;
+  sea.waves = {{0.1, Vec2(1.5, 0.8), 0.4}};
+  pool.min = Vec3(-4.0, -2.0, 0.0);
+  pool.max = Vec3(4.0, 3.0, 4.0);
+  const Camera above{Vec3(1.0, -8.0, 3.5), Vec3(0.0, 0.0, 0.9), 42.0};
+  const Camera within{Vec3(0.1, -2.4, 1.1), Vec3(0.3, 0.0, 1.0), 75.0};
+  for (const Preset preset : {Preset::kRealtime, Preset::kQuality}) {
+    expectSurfacesOf(stage, above, preset, std::vector{sea});
+    expectSurfacesOf(stage, above, preset, std::vector{pool, sea});
+    expectSurfacesOf(stage, within, preset, std::vector{sea});
+  }
+}
+
+// The colour frame's bodies lie where the instances do: another colour of a body shows where it is and, off
+// its edges, nowhere else.
+void expectOutlineInColour(std::int32_t body) {
+  Stage red, green;
+  red.instances[static_cast<std::size_t>(body)].color = {0.9f, 0.05f, 0.05f};
+  green.instances[static_cast<std::size_t>(body)].color = {0.05f, 0.9f, 0.05f};
   const Camera camera{Vec3(-1.0, -8.0, 3.0), Vec3(-0.5, 0.0, 1.0), 40.0};
   for (const Preset preset : {Preset::kFast, Preset::kRealtime, Preset::kQuality, Preset::kCinematic}) {
-    FrameRenderer renderer({.width = kWidth, .height = kHeight, .preset = preset}, stage.solids);
-    const Image image = renderer.draw(stage.instances, camera);
+    FrameRenderer renderer({.width = kWidth, .height = kHeight, .preset = preset}, red.solids);
+    const Image reddish = renderer.draw(red.instances, camera);
+    const Image greenish = renderer.draw(green.instances, camera);
     const SurfaceImage& surfaces = renderer.surfaces();
     int inside = 0, outside = 0, differing = 0;
     for (int y = 1; y + 1 < kHeight; ++y)
@@ -140,18 +159,22 @@ TEST(SurfaceImage, LiesPixelOnPixelWithTheColourFrame) {
         int around = 0;
         for (int v = -1; v <= 1; ++v)
           for (int u = -1; u <= 1; ++u)
-            around += surfaces.instance[static_cast<std::size_t>((y + v) * kWidth + x + u)] == red;
+            around += surfaces.instance[static_cast<std::size_t>((y + v) * kWidth + x + u)] == body;
         if (around != 0 && around != 9) continue;
-        const std::uint8_t* p = image.pixel(x, y);
-        const bool looks_red = p[0] > 2 * p[1] && p[0] > 2 * p[2];
         (around == 9 ? inside : outside) += 1;
         if (preset == Preset::kCinematic && around == 0) continue;  // the ground mirrors it
-        differing += looks_red != (around == 9);
+        const bool recoloured = reddish.pixel(x, y)[0] - greenish.pixel(x, y)[0] > 20;
+        differing += recoloured != (around == 9);
       }
     EXPECT_GT(inside, 200);
     EXPECT_GT(outside, 40000);
     EXPECT_EQ(differing, 0) << nameOf(preset);
   }
+}
+
+TEST(SurfaceImage, LiesPixelOnPixelWithTheColourFrame) {
+  expectOutlineInColour(2);  // a box, whose bevels are narrower than a pixel here
+  expectOutlineInColour(4);  // a rounded box
 }
 
 TEST(SurfaceImage, IsEmptyBeforeAnyDrawAndFollowsTheLast) {
