@@ -47,7 +47,7 @@ inline constexpr double kSlidingSpeed = 1e-3;  // m/s along the contact; slower 
 // Resting mode (paper §2.5).
 inline constexpr double kRestSpeed = 0.02;         // m/s of any point: slower counts as lying still
 inline constexpr double kRestTime = 0.25;          // s of lying still before the test
-inline constexpr double kRestAcceleration = 1e-4;  // of gravity: forces balanced better than this hold a body
+inline constexpr double kRestAcceleration = 2e-5;  // of gravity: forces balanced better than this hold a body
 inline constexpr int kRestSweeps = 400;            // of the solver in that test, at most, and ...
 inline constexpr int kRestRowVisits = 3000000;     // ... more while these last
 

@@ -5,6 +5,7 @@
 
 #include "engine/foundation/tolerances.h"
 #include "engine/modes/support_polygon.h"
+#include "engine/response/standing_solver.h"
 
 namespace carom {
 namespace {
@@ -62,8 +63,10 @@ bool comesToBalance(const RestQuestion& q, std::span<ContactRow> rows, std::span
   const double converged = kConvergedShare * allowed;
   const auto most =
       std::max(tolerance::kRestSweeps, tolerance::kRestRowVisits / static_cast<int>(rows.size() + 1));
-  for (int sweeps = 0; sweeps < most; sweeps += kSweepsARound) {
-    const SolverReport report = solveContactsFinely(rows, bodies, {kSweepsARound, converged, true});
+  for (int sweeps = 0; sweeps < most;) {
+    const SolverReport report =
+        solveStandingContacts(rows, bodies, {.sweeps = kSweepsARound, .residual_mps = converged});
+    sweeps += report.sweeps;
     if (fastest(bodies, q.radii) <= allowed) return true;
     if (report.residual_mps <= converged) return false;
   }

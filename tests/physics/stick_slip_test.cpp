@@ -1,6 +1,6 @@
 // The threshold of friction: a block on a slope stays exactly when tan(angle) <= mu, to a thousandth. One
-// that would gain less than 1e-3 m/s^2 is held by the resting mode: it stays up to 0.05 % beyond mu = 0.2,
-// and up to 0.015 % beyond 0.9. What stays moves by less than a micrometre; what slides has the closed form's
+// that would gain less than 2e-4 m/s^2 is held by the resting mode: it stays up to 0.01 % beyond mu = 0.2,
+// and up to 0.003 % beyond 0.9. What stays moves by less than a micrometre; what slides has the closed form's
 // speed to 6e-5, and to the step in which it gets loose.
 
 #include "tests/physics/small_world.h"
