@@ -13,12 +13,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-Mat3 crossMatrix(const Vec3& r) {
-  Mat3 m;
-  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return m;
-}
-
 // The row's velocity of a point at arm r per velocity of its body.
 Eigen::Matrix<double, 3, 6> jacobian(const ContactRow& row, const Vec3& r) {
   Mat3 frame;

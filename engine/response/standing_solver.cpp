@@ -1,8 +1,6 @@
 #include "engine/response/standing_solver.h"
 
 #include <vector>
-#include <cstdio>
-#include <cstdlib>
 
 #include "engine/response/held_rows.h"
 
@@ -12,7 +10,6 @@ namespace {
 constexpr int kSteps = 4;           // each leaves a fifth to a fiftieth of the residual
 constexpr double kFiner = 0.1;      // of the residual that is enough: next steps start from here
 constexpr double kHopeless = 10.0;  // times the best residual: the held rows contradict each other
-constexpr int kRises = 3;           // so many in a row over the best: no use
 constexpr int kSweepsAfter = 16;    // fewer do not bring the impulses back into their cones
 
 // A solution, to return to.
@@ -50,28 +47,18 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
                                    const SolverSettings& settings) {
   SolverReport total = solveContactsFinely(rows, bodies, settings);
   const SolverSettings after{.sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps};
-  if (std::getenv("VERB"))
-    std::fprintf(stderr, "rows %zu sweeps %d res %.3g of %.3g\n", rows.size(), total.sweeps,
-                 total.residual_mps, settings.residual_mps);
   if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
   Saved best(rows, bodies, total.residual_mps);
-  for (int step = 0, rises = 0; step < kSteps && rises < kRises; ++step) {
+  for (int step = 0; step < kSteps; ++step) {
     if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFinely(rows, bodies, after);
-    if (std::getenv("VERB"))
-      std::fprintf(stderr, "   step %d res %.3g sweeps %d\n", step, report.residual_mps, report.sweeps);
     total.sweeps += report.sweeps;
     total.visits += report.visits;
     total.residual_mps = report.residual_mps;
     if (report.residual_mps > kHopeless * best.residual()) break;
     if (report.residual_mps <= settings.residual_mps) return total;
-    if (report.residual_mps < best.residual()) {
-      best = Saved(rows, bodies, report.residual_mps);
-      rises = 0;
-    } else {
-      ++rises;
-    }
+    if (report.residual_mps < best.residual()) best = Saved(rows, bodies, report.residual_mps);
   }
   best.restore(rows, bodies);
   total.residual_mps = best.residual();

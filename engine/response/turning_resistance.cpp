@@ -19,12 +19,6 @@ Mat3 frameOf(const ContactRow& row) {
   return frame;
 }
 
-Mat3 crossMatrix(const Vec3& r) {
-  Mat3 m;
-  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return m;
-}
-
 // How the relative angular velocity answers to a torque impulse, in the row's frame.
 Mat3 turnResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
   const Mat3 frame = frameOf(row);

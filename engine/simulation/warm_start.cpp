@@ -16,12 +16,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-Mat3 crossMatrix(const Vec3& r) {
-  Mat3 m;
-  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return m;
-}
-
 Vec3 inFrame(const ContactRow& row, const Vec3& v_W) {
   return {row.n.dot(v_W), row.t1.dot(v_W), row.t2.dot(v_W)};
 }
