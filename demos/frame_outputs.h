@@ -7,7 +7,8 @@
 //           beyond, 65535 for the sky. The unit is the same for all frames of a run.
 //   normal  16-bit RGB: 32768 + 32767 * (x, y, z) of the unit normal, world frame, rounded; 0 for the sky
 //   id      16-bit grey: 1 + the body's place in the scene, 0 for the sky
-// Tested in tests/demos/frame_outputs_test.cpp and, on all shipped scenes, tests/demos/scene_outputs_test.cpp
+// Tested in tests/demos/frame_outputs_test.cpp and, on all shipped scenes,
+// tests/demos/scene_outputs_test.cpp.
 
 #include <string>
 #include <vector>

@@ -21,7 +21,6 @@ struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   void include(double x) { low = std::min(low, x), high = std::max(high, x); }
-  bool meets(const Interval& other) const { return low <= other.high && other.low <= high; }
 };
 
 // Bounds seen from the sun: across the light twice, and towards it.

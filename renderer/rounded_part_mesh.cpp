@@ -30,13 +30,7 @@ class RoundedPart {
  private:
   using Index = std::uint32_t;
 
-  Index corner(int v, const Vec3& n) {
-    const Eigen::Vector3f p = (core_.vertex(v) + radius_m_ * n).cast<float>(), m = n.cast<float>();
-    mesh_.vertices.push_back({{p.x(), p.y(), p.z()}, {m.x(), m.y(), m.z()}, {}, 0.0f, kNoFace});
-    return static_cast<Index>(mesh_.vertices.size() - 1);
-  }
-
-  void triangle(Index a, Index b, Index c) { mesh_.indices.insert(mesh_.indices.end(), {a, b, c}); }
+  Index corner(int v, const Vec3& n) { return mesh_.addVertex(core_.vertex(v) + radius_m_ * n, n); }
 
   // The normals about an edge, from its left face's to its right one's.
   std::vector<Vec3> arc(int e) const {
@@ -53,7 +47,7 @@ class RoundedPart {
   void addFace(int f) {
     std::vector<Index> loop;
     for (const int v : core_.faceVertices(f)) loop.push_back(corner(v, core_.plane(f).normal));
-    for (std::size_t i = 2; i < loop.size(); ++i) triangle(loop[0], loop[i - 1], loop[i]);
+    mesh_.addFan(loop);
   }
 
   void addStrip(int e) {
@@ -63,8 +57,8 @@ class RoundedPart {
     for (const Vec3& n : arc(e)) {
       const Index next_tail = corner(edge.tail, n), next_head = corner(edge.head, n);
       if (!first) {
-        triangle(next_tail, head, tail);
-        triangle(next_tail, next_head, head);
+        mesh_.addTriangle(next_tail, head, tail);
+        mesh_.addTriangle(next_tail, next_head, head);
       }
       tail = next_tail, head = next_head, first = false;
     }
@@ -93,8 +87,8 @@ class RoundedPart {
       std::vector<Index> outer;
       for (const Vec3& n : rim) outer.push_back(corner(v, between(middle, n, ring, rings)));
       for (std::size_t i = 0; i + 1 < rim.size(); ++i) {
-        triangle(inner[i], outer[i], outer[i + 1]);
-        if (ring > 1) triangle(inner[i], outer[i + 1], inner[i + 1]);
+        mesh_.addTriangle(inner[i], outer[i], outer[i + 1]);
+        if (ring > 1) mesh_.addTriangle(inner[i], outer[i + 1], inner[i + 1]);
       }
       inner = outer;
     }

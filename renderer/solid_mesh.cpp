@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "renderer/rounded_part_mesh.h"
 
@@ -17,20 +16,6 @@ constexpr double kMaxVertexPull = 0.5;   // Of the bevel's width: needles are no
 constexpr double kUsableEdge = 0.9;      // Of an edge's length, what the bevels at its two ends may take.
 constexpr int kMaxBevelledFaces = 400;   // A part with more faces is round by itself.
 
-std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n) {
-  const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-  mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace});
-  return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-}
-
-void addTriangle(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  mesh.indices.insert(mesh.indices.end(), {a, b, c});
-}
-
-void addFan(TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
-  for (std::size_t i = 2; i < loop.size(); ++i) addTriangle(mesh, loop[0], loop[i - 1], loop[i]);
-}
-
 std::uint32_t faceBit(int face) {
   return static_cast<std::uint32_t>(std::min(face, kNoFace));
 }
@@ -39,8 +24,8 @@ void addSharpPart(TriangleMesh& mesh, const ConvexPolyhedron& core) {
   for (int f = 0; f < core.faceCount(); ++f) {
     std::vector<std::uint32_t> loop;
     for (const int v : core.faceVertices(f))
-      loop.push_back(append(mesh, core.vertex(v), core.plane(f).normal));
-    addFan(mesh, loop);
+      loop.push_back(mesh.addVertex(core.vertex(v), core.plane(f).normal));
+    mesh.addFan(loop);
     for (const std::uint32_t i : loop) mesh.vertices[i].face = faceBit(f);
   }
 }
@@ -80,8 +65,9 @@ double faceBevel(const ConvexPolyhedron& core, const std::vector<Corner>& corner
   return width;
 }
 
-std::uint32_t append(TriangleMesh& mesh, const Vec3& p, const Vec3& n, const Vec3& bend, double nearness) {
-  const std::uint32_t index = append(mesh, p, n);
+std::uint32_t addBentVertex(TriangleMesh& mesh, const Vec3& p, const Vec3& n, const Vec3& bend,
+                            double nearness) {
+  const std::uint32_t index = mesh.addVertex(p, n);
   MeshVertex& vertex = mesh.vertices[index];
   for (int i = 0; i < 3; ++i) vertex.bend[i] = static_cast<float>(bend[i]);
   vertex.nearness = static_cast<float>(nearness);
@@ -103,10 +89,11 @@ void addShadedFace(TriangleMesh& mesh, const ConvexPolyhedron& core, int f, doub
     const Corner& tail = corners[i];
     const Edge& edge = core.edge(tail.after);
     const Vec3 bend = (core.plane(edge.left).normal + core.plane(edge.right).normal).normalized() - n;
-    const std::uint32_t a = append(mesh, core.vertex(tail.vertex), n, bend, 1.0);
-    const std::uint32_t b = append(mesh, core.vertex(corners[(i + 1) % corners.size()].vertex), n, bend, 1.0);
-    const std::uint32_t c = append(mesh, middle, n, bend, 1.0 - toEdge(tail) / width);
-    addTriangle(mesh, a, b, c);
+    const std::uint32_t a = addBentVertex(mesh, core.vertex(tail.vertex), n, bend, 1.0);
+    const std::uint32_t b =
+        addBentVertex(mesh, core.vertex(corners[(i + 1) % corners.size()].vertex), n, bend, 1.0);
+    const std::uint32_t c = addBentVertex(mesh, middle, n, bend, 1.0 - toEdge(tail) / width);
+    mesh.addTriangle(a, b, c);
     for (const std::uint32_t vertex : {a, b, c}) mesh.vertices[vertex].face = faceBit(f);
   }
 }
@@ -157,7 +144,7 @@ class BevelledPart {
     const Vec3 shift = -kPullIn * edge_width_[at(e)] * std::tan(0.25 * phi) * n;
     const Vec3 tail = core_.vertex(edge.tail) + reach_[at(e)][0] * edge.direction;
     const Vec3 head = core_.vertex(edge.head) - reach_[at(e)][1] * edge.direction;
-    ridge_.push_back({append(mesh_, tail + shift, n), append(mesh_, head + shift, n)});
+    ridge_.push_back({mesh_.addVertex(tail + shift, n), mesh_.addVertex(head + shift, n)});
   }
 
   // The peak recedes towards the ball that touches the faces around the vertex, along the mean of its edges:
@@ -172,7 +159,7 @@ class BevelledPart {
     }
     lean = std::clamp(lean / static_cast<double>(core_.spokes(v).size()), 0.1, 1.0);
     const double depth = std::min(kMaxVertexPull, kPullIn * (1.0 / lean - 1.0)) * vertex_width_[at(v)];
-    peak_.push_back(append(mesh_, core_.vertex(v) + depth * inward.normalized(), n));
+    peak_.push_back(mesh_.addVertex(core_.vertex(v) + depth * inward.normalized(), n));
   }
 
   void addFace(int f) {
@@ -180,16 +167,16 @@ class BevelledPart {
     std::vector<std::uint32_t> loop;
     for (const Corner& c : corners)
       loop.push_back(
-          append(mesh_, core_.vertex(c.vertex) + face_width_[at(f)] * c.inward, core_.plane(f).normal));
-    addFan(mesh_, loop);
+          mesh_.addVertex(core_.vertex(c.vertex) + face_width_[at(f)] * c.inward, core_.plane(f).normal));
+    mesh_.addFan(loop);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Corner& c = corners[i];
       const std::size_t next = (i + 1) % corners.size();
       const std::uint32_t here = ridge_[at(c.after)][at(end(c.after, c.vertex))];
       const std::uint32_t there = ridge_[at(c.after)][at(end(c.after, corners[next].vertex))];
       const std::uint32_t before = ridge_[at(c.before)][at(end(c.before, c.vertex))];
-      addFan(mesh_, std::array{loop[i], here, there, loop[next]});
-      addFan(mesh_, std::array{loop[i], before, peak_[at(c.vertex)], here});
+      mesh_.addFan(std::array{loop[i], here, there, loop[next]});
+      mesh_.addFan(std::array{loop[i], before, peak_[at(c.vertex)], here});
     }
   }
 
@@ -220,7 +207,7 @@ void addRoundPart(TriangleMesh& mesh, const Vec3& a, const Vec3& b, double radiu
       const double level =
           i == 0 || i == 2 * quarter + 1 ? 0.0 : std::cos(latitude);  // Poles are single points.
       const Vec3 n = level * (c * basis.t1 + s * basis.t2) + std::sin(latitude) * axis;
-      ring.push_back(append(mesh, (upper ? b : a) + radius * n, n));
+      ring.push_back(mesh.addVertex((upper ? b : a) + radius * n, n));
     }
     rings.push_back(ring);
   }
@@ -229,8 +216,8 @@ void addRoundPart(TriangleMesh& mesh, const Vec3& a, const Vec3& b, double radiu
     if (equator && (b - a).norm() == 0.0) continue;
     for (std::size_t k = 0; k < rings[i].size(); ++k) {
       const std::size_t n = (k + 1) % rings[i].size();
-      if (i > 0) addTriangle(mesh, rings[i][k], rings[i][n], rings[i + 1][n]);
-      if (i + 2 < rings.size()) addTriangle(mesh, rings[i][k], rings[i + 1][n], rings[i + 1][k]);
+      if (i > 0) mesh.addTriangle(rings[i][k], rings[i][n], rings[i + 1][n]);
+      if (i + 2 < rings.size()) mesh.addTriangle(rings[i][k], rings[i + 1][n], rings[i + 1][k]);
     }
   }
 }
@@ -250,6 +237,20 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
 }
 
 }  // namespace
+
+std::uint32_t TriangleMesh::addVertex(const Vec3& p, const Vec3& n) {
+  const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
+  vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace});
+  return static_cast<std::uint32_t>(vertices.size() - 1);
+}
+
+void TriangleMesh::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  indices.insert(indices.end(), {a, b, c});
+}
+
+void TriangleMesh::addFan(std::span<const std::uint32_t> loop) {
+  for (std::size_t i = 2; i < loop.size(); ++i) addTriangle(loop[0], loop[i - 1], loop[i]);
+}
 
 TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail) {
   TriangleMesh mesh;

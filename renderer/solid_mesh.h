@@ -6,6 +6,7 @@
 // tests/renderer/solid_mesh_test.cpp.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/solid/solid.h"
@@ -24,6 +25,12 @@ struct MeshVertex {
 struct TriangleMesh {
   std::vector<MeshVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< Three a triangle, counter-clockwise seen from outside.
+
+  /// A vertex without bend or face; its index.
+  std::uint32_t addVertex(const Vec3& p, const Vec3& n);
+  void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  /// The triangles of a convex polygon, counter-clockwise seen from outside.
+  void addFan(std::span<const std::uint32_t> loop);
 };
 
 /// How an edge between flat faces looks.

@@ -86,8 +86,7 @@ bool conesBalanceGravity(const RestQuestion& q) {
   for (ContactRow& row : rows) {
     row.still_slip.setZero();
     if (row.impulse.x() > 0.0) row.lowest_speed = 0.0;
-    applyToRow(row, row.impulse, bodies);
-    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, bodies);
+    applyLoad(row, bodies);
   }
   const bool balanced = comesToBalance(q, rows, bodies);
   for (std::size_t i = 0; i < q.balance.size(); ++i) q.balance[i] = {rows[i].impulse, rows[i].torque};

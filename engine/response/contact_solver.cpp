@@ -22,8 +22,7 @@ std::size_t at(int i) {
 // cone forbids it. `miss`: the row's velocity less its bound.
 bool holds(const ContactRow& row, const Vec3& miss, Vec3& impulse) {
   impulse = row.impulse - row.inverse_response * miss;
-  const double limit = row.coefficient * impulse.x();
-  return impulse.x() >= 0.0 && impulse.tail<2>().squaredNorm() <= limit * limit;
+  return isInCone(row, impulse);
 }
 
 // The normal impulse that keeps the separating speed at or above its bound.
@@ -34,10 +33,8 @@ double normalImpulse(const ContactRow& row, const Vec3& miss) {
 // One step against the sliding velocity, scaled by one number so that its fixed point is parallel to that
 // velocity whatever the shape of K, then shortened to the cone.
 Vec2 frictionImpulse(const ContactRow& row, double normal_impulse, const Vec2& slip) {
-  const Vec2 step = row.impulse.tail<2>() - slip / row.largest_slip_response;
-  const double limit = row.coefficient * normal_impulse;
-  const double squared = step.squaredNorm();
-  return squared > limit * limit ? Vec2(step * (limit / std::sqrt(squared))) : step;
+  return shortened(row.impulse.tail<2>() - slip / row.largest_slip_response,
+                   row.coefficient * normal_impulse);
 }
 
 double largest(const Vec3& v) {
@@ -79,9 +76,7 @@ RowChange solvePoint(ContactRow& row, std::span<ImpulseBody> bodies, bool fricti
 // The same with a torque against turning: all held at once, or else each brought nearer with the other as it
 // is. Kept out of the way of the rows without.
 [[gnu::noinline]] RowChange solveTurningPoint(ContactRow& row, std::span<ImpulseBody> bodies) {
-  Vec3 miss = rowVelocity(row, bodies);
-  miss.x() -= row.lowest_speed;
-  miss.tail<2>() -= row.still_slip;
+  const Vec3 miss = rowMiss(row, bodies);
   RowLoad load;
   RowChange change;
   if (holdsTurning(row, bodies, miss, load)) {
@@ -197,9 +192,14 @@ void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
 }  // namespace
 
 Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  Mat3 frame;
-  frame << row.n, row.t1, row.t2;
+  const Mat3 frame = rowFrame(row);
   return frame.transpose() * collisionMatrix(bodies[at(row.a)], bodies[at(row.b)], row.r_a, row.r_b) * frame;
+}
+
+double largestTangentialResponse(const Mat3& response) {
+  const double half_difference = 0.5 * (response(1, 1) - response(2, 2));
+  return 0.5 * (response(1, 1) + response(2, 2)) +
+         std::sqrt(half_difference * half_difference + response(1, 2) * response(1, 2));
 }
 
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
@@ -209,9 +209,7 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   const Mat3 response = rowResponse(row, bodies);
   row.normal_response = response.col(0);
   row.inverse_response = response.inverse();
-  const double half_difference = 0.5 * (response(1, 1) - response(2, 2));
-  row.largest_slip_response = 0.5 * (response(1, 1) + response(2, 2)) +
-                              std::sqrt(half_difference * half_difference + response(1, 2) * response(1, 2));
+  row.largest_slip_response = largestTangentialResponse(response);
   const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
   row.coefficient = slides ? row.friction.dynamic_coefficient : row.friction.static_coefficient;
   if (row.resistance.acts()) prepareResistance(row, bodies);

@@ -6,6 +6,7 @@
 // one's. Order matters to the path, not to the converged answer; rows are swept forwards and backwards in
 // turn. Tested in tests/engine/response/contact_solver_test.cpp.
 
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -50,8 +51,20 @@ struct ContactRow {
 
 /// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
+/// R_WR of the row's frame: its columns are (n, t1, t2).
+inline Mat3 rowFrame(const ContactRow& row) {
+  Mat3 frame;
+  frame << row.n, row.t1, row.t2;
+  return frame;
+}
+/// A world vector as (n, t1, t2).
+inline Vec3 inRowFrame(const ContactRow& row, const Vec3& v_W) {
+  return {row.n.dot(v_W), row.t1.dot(v_W), row.t2.dot(v_W)};
+}
 /// K, 1/kg, in the row's frame (n, t1, t2).
 Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies);
+/// The largest eigenvalue of a response's part along (t1, t2).
+double largestTangentialResponse(const Mat3& response);
 /// World-frame impulse on B for an impulse in the row's frame.
 inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {
   return impulse.x() * row.n + impulse.y() * row.t1 + impulse.z() * row.t2;
@@ -63,14 +76,23 @@ inline void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<Imp
 }
 /// (separating, t1, t2) velocity of B relative to A, m/s.
 inline Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  const Vec3 v = bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
-                 bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a);
-  return {row.n.dot(v), row.t1.dot(v), row.t2.dot(v)};
+  return inRowFrame(row, bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
+                             bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a));
 }
-
 /// By how much the velocity misses what would hold the point: (separating, t1, t2), m/s.
 inline Vec3 rowMiss(const ContactRow& row, std::span<const ImpulseBody> bodies) {
   return rowVelocity(row, bodies) - Vec3(row.lowest_speed, row.still_slip.x(), row.still_slip.y());
+}
+
+/// Whether an impulse in the row's frame presses and is within the row's Coulomb cone.
+inline bool isInCone(const ContactRow& row, const Vec3& impulse) {
+  const double limit = row.coefficient * impulse.x();
+  return impulse.x() >= 0.0 && impulse.tail<2>().squaredNorm() <= limit * limit;
+}
+/// `v` in its direction, but no longer than `most`.
+inline Vec2 shortened(const Vec2& v, double most) {
+  const double squared = v.squaredNorm();
+  return squared > most * most ? Vec2(v * (most / std::sqrt(squared))) : v;
 }
 
 struct SolverSettings {

@@ -15,24 +15,30 @@ std::size_t at(int i) {
 
 // The row's velocity of a point at arm r per velocity of its body.
 Eigen::Matrix<double, 3, 6> jacobian(const ContactRow& row, const Vec3& r) {
-  Mat3 frame;
-  frame << row.n, row.t1, row.t2;
+  const Mat3 to_row = rowFrame(row).transpose();
   Eigen::Matrix<double, 3, 6> j;
-  j << frame.transpose(), -frame.transpose() * crossMatrix(r);
+  j << to_row, -to_row * crossMatrix(r);
   return j;
 }
 
-// What of the row is an equation; zero where it does not press.
+bool isHeld(const ContactRow& row) {
+  return row.impulse.x() > 0.0 && row.lowest_speed >= 0.0;
+}
+
+// What of a held row is an equation: if it slides, its normal part.
 Mat3 stiffnessOf(const ContactRow& row) {
-  Mat3 stiffness = Mat3::Zero();
-  if (!(row.impulse.x() > 0.0) || row.lowest_speed < 0.0) return stiffness;
   const bool slides = row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
-  if (slides)
-    stiffness(0, 0) = HeldRows::kStiffness / row.normal_response.x();
-  else
-    stiffness = HeldRows::kStiffness * row.inverse_response;
+  if (!slides) return HeldRows::kStiffness * row.inverse_response;
+  Mat3 stiffness = Mat3::Zero();
+  stiffness(0, 0) = HeldRows::kStiffness / row.normal_response.x();
   return stiffness;
 }
+
+struct Equation {
+  std::size_t row = 0;
+  Mat3 stiffness;
+  Vec3 miss;
+};
 
 // The order of elimination that keeps the factor sparse, found among bodies rather than their coordinates.
 std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, int>>& neighbours) {
@@ -142,10 +148,12 @@ bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   diagonal_ = inertia_;
   for (Block& block : blocks_) block.value.setZero();
   push_.setZero(6 * static_cast<int>(inertia_.size()));
-  std::vector<Vec3> misses(rows.size());
+  std::vector<Equation> equations;
+  equations.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    misses[i] = rowMiss(rows[i], bodies);
-    addRow(places_[i], stiffnessOf(rows[i]), misses[i]);
+    if (!isHeld(rows[i])) continue;
+    equations.push_back({i, stiffnessOf(rows[i]), rowMiss(rows[i], bodies)});
+    addRow(places_[i], equations.back().stiffness, equations.back().miss);
   }
   writeMatrix();
   if (!analyzed_) factor_.analyzePattern(matrix_);
@@ -154,14 +162,14 @@ bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   if (factor_.info() != Eigen::Success) return false;
   const Eigen::VectorXd change = factor_.solve(push_);
   if (!change.allFinite()) return false;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const RowPlace& place = places_[i];
-    Vec3 miss = misses[i];
+  for (const Equation& equation : equations) {
+    const RowPlace& place = places_[equation.row];
+    Vec3 miss = equation.miss;
     if (place.slot_a >= 0) miss += place.of_a * change.segment<6>(6 * place.slot_a);
     if (place.slot_b >= 0) miss += place.of_b * change.segment<6>(6 * place.slot_b);
-    const Vec3 impulse = -stiffnessOf(rows[i]) * miss;
-    rows[i].impulse += impulse;
-    applyToRow(rows[i], impulse, bodies);
+    const Vec3 impulse = -equation.stiffness * miss;
+    rows[equation.row].impulse += impulse;
+    applyToRow(rows[equation.row], impulse, bodies);
   }
   return true;
 }

@@ -19,8 +19,10 @@ struct ImpulseBody {
   /// Changes the velocity by an impulse (N s) at arm r from the centre of mass.
   void apply(const Vec3& impulse, const Vec3& r) {
     velocity.linear += inverse_mass * impulse;
-    velocity.angular += inverse_tensor * r.cross(impulse);
+    turn(r.cross(impulse));
   }
+  /// The same by a torque impulse (N m s).
+  void turn(const Vec3& torque) { velocity.angular += inverse_tensor * torque; }
 };
 
 /// K, 1/kg: the change of the relative velocity at a point is K times the impulse on B (and its opposite on

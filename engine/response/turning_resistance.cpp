@@ -13,22 +13,16 @@ const ImpulseBody& bodyOf(std::span<const ImpulseBody> bodies, int i) {
   return bodies[static_cast<std::size_t>(i)];
 }
 
-Mat3 frameOf(const ContactRow& row) {
-  Mat3 frame;
-  frame << row.n, row.t1, row.t2;
-  return frame;
-}
-
 // How the relative angular velocity answers to a torque impulse, in the row's frame.
 Mat3 turnResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  const Mat3 frame = frameOf(row);
+  const Mat3 frame = rowFrame(row);
   const Mat3 inverse = bodyOf(bodies, row.a).inverse_tensor + bodyOf(bodies, row.b).inverse_tensor;
   return frame.transpose() * inverse * frame;
 }
 
 // How the point's velocity answers to a torque impulse; transposed, the angular velocity to an impulse.
 Mat3 crossResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  const Mat3 frame = frameOf(row);
+  const Mat3 frame = rowFrame(row);
   const Mat3 response = crossMatrix(row.r_a) * bodyOf(bodies, row.a).inverse_tensor +
                         crossMatrix(row.r_b) * bodyOf(bodies, row.b).inverse_tensor;
   return -(frame.transpose() * response * frame);
@@ -45,14 +39,6 @@ void keepResisting(const TurningResistance& resistance, Mat3& response, Vec3& sp
   }
 }
 
-// Of the part along the contact.
-double largestRollResponse(const Mat3& turn_response) {
-  const double half_difference = 0.5 * (turn_response(1, 1) - turn_response(2, 2));
-  const double mixed = turn_response(1, 2);
-  return 0.5 * (turn_response(1, 1) + turn_response(2, 2)) +
-         std::sqrt(half_difference * half_difference + mixed * mixed);
-}
-
 // Scaled by one number along the contact, so that the fixed point is parallel to the rolling whatever the
 // shape of the bodies.
 Vec3 resistingTorque(const ContactRow& row, std::span<const ImpulseBody> bodies, const Mat3& response) {
@@ -63,40 +49,34 @@ Vec3 resistingTorque(const ContactRow& row, std::span<const ImpulseBody> bodies,
   Vec3 torque = Vec3::Zero();
   if (spinning > 0.0)
     torque.x() = std::clamp(row.torque.x() - spin.x() / response(0, 0), -spinning, spinning);
-  if (!(rolling > 0.0)) return torque;
-  const Vec2 step = row.torque.tail<2>() - spin.tail<2>() / largestRollResponse(response);
-  const double squared = step.squaredNorm();
-  torque.tail<2>() = squared > rolling * rolling ? Vec2(step * (rolling / std::sqrt(squared))) : step;
+  if (rolling > 0.0)
+    torque.tail<2>() =
+        shortened(row.torque.tail<2>() - spin.tail<2>() / largestTangentialResponse(response), rolling);
   return torque;
 }
 
 bool isWithin(const ContactRow& row, const RowLoad& load) {
   const double j = load.impulse.x();
-  const double friction = row.coefficient * j;
   const double rolling = row.resistance.rolling_m * j;
-  return j >= 0.0 && load.impulse.tail<2>().squaredNorm() <= friction * friction &&
-         load.torque.tail<2>().squaredNorm() <= rolling * rolling &&
+  return isInCone(row, load.impulse) && load.torque.tail<2>().squaredNorm() <= rolling * rolling &&
          std::abs(load.torque.x()) <= row.resistance.spinning_m * j;
 }
 
 }  // namespace
 
 Vec3 rowSpin(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  const Vec3 spin = bodyOf(bodies, row.b).velocity.angular - bodyOf(bodies, row.a).velocity.angular;
-  return {row.n.dot(spin), row.t1.dot(spin), row.t2.dot(spin)};
+  return inRowFrame(row, bodyOf(bodies, row.b).velocity.angular - bodyOf(bodies, row.a).velocity.angular);
 }
 
 void applyTorqueToRow(const ContactRow& row, const Vec3& torque, std::span<ImpulseBody> bodies) {
   const Vec3 on_b = rowImpulse(row, torque);
-  ImpulseBody& a = bodies[static_cast<std::size_t>(row.a)];
-  ImpulseBody& b = bodies[static_cast<std::size_t>(row.b)];
-  a.velocity.angular -= a.inverse_tensor * on_b;
-  b.velocity.angular += b.inverse_tensor * on_b;
+  bodies[static_cast<std::size_t>(row.a)].turn(-on_b);
+  bodies[static_cast<std::size_t>(row.b)].turn(on_b);
 }
 
 void prepareResistance(ContactRow& row, std::span<const ImpulseBody> bodies) {
   const Mat3 response = turnResponse(row, bodies);
-  row.largest_turn_response = std::max(response(0, 0), largestRollResponse(response));
+  row.largest_turn_response = std::max(response(0, 0), largestTangentialResponse(response));
   const Eigen::RowVector3d lift = crossResponse(row, bodies).row(0);
   const double undone =
       row.resistance.spinning_m * std::abs(lift.x()) + row.resistance.rolling_m * lift.tail<2>().norm();
@@ -128,9 +108,7 @@ RowLoad resistTurning(const ContactRow& row, std::span<const ImpulseBody> bodies
     const Mat3 held = row.inverse_response * cross;
     const Vec3 torque = resistingTorque(row, bodies, response - cross.transpose() * held);
     const Vec3 impulse = row.impulse - held * (torque - row.torque);
-    const double friction = row.coefficient * impulse.x();
-    if (impulse.x() >= 0.0 && impulse.tail<2>().squaredNorm() <= friction * friction)
-      return {impulse, torque};
+    if (isInCone(row, impulse)) return {impulse, torque};
   }
   return {row.impulse, resistingTorque(row, bodies, response)};
 }

@@ -13,6 +13,11 @@ namespace carom {
 Vec3 rowSpin(const ContactRow& row, std::span<const ImpulseBody> bodies);
 /// Gives B a torque impulse about (n, t1, t2), N m s, and A its opposite.
 void applyTorqueToRow(const ContactRow& row, const Vec3& torque, std::span<ImpulseBody> bodies);
+/// Gives the bodies all that the row has: its impulse and, where it resists turning, its torque.
+inline void applyLoad(const ContactRow& row, std::span<ImpulseBody> bodies) {
+  applyToRow(row, row.impulse, bodies);
+  if (row.resistance.acts()) applyTorqueToRow(row, row.torque, bodies);
+}
 /// Of `prepareRow`: what the resistance needs to know of the bodies. Cuts levers so long (longer than the
 /// bodies) that the torque of a normal impulse could undo half of what that does to the separating speed:
 /// pressed apart by what presses them together, contacts would have no impulses to agree on.

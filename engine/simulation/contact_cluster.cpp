@@ -300,9 +300,8 @@ void ContactCluster::releaseForces(int index) {
     const RememberedImpulse& acting = pair.remembered[at(i)];
     a.apply(restOfStep() * acting.force_W, acting.arm_a);
     b.apply(-restOfStep() * acting.force_W, acting.arm_b);
-    if (acting.torque_W.isZero(0.0)) continue;
-    a.velocity.angular += a.inverse_tensor * (restOfStep() * acting.torque_W);
-    b.velocity.angular -= b.inverse_tensor * (restOfStep() * acting.torque_W);
+    a.turn(restOfStep() * acting.torque_W);
+    b.turn(-restOfStep() * acting.torque_W);
   }
 }
 
@@ -335,13 +334,11 @@ void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
     for (int i = 0; i < pair.remembered_count; ++i) {
       const RememberedImpulse& acting = pair.remembered[at(i)];
       if (acting.id != sources_[k].id) continue;
-      const Vec3 impulse = restOfStep() * acting.force_W;
-      row.impulse = Vec3(std::max(0.0, row.n.dot(impulse)), row.t1.dot(impulse), row.t2.dot(impulse));
-      const Vec3 torque = restOfStep() * acting.torque_W;
-      if (row.resistance.acts()) row.torque = Vec3(row.n.dot(torque), row.t1.dot(torque), row.t2.dot(torque));
+      row.impulse = inRowFrame(row, restOfStep() * acting.force_W);
+      row.impulse.x() = std::max(0.0, row.impulse.x());
+      row.torque = inRowFrame(row, restOfStep() * acting.torque_W);
     }
-    applyToRow(row, row.impulse, ends_);
-    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, ends_);
+    applyLoad(row, ends_);
     row.lowest_speed = gapSpeeds(sources_[k].gap_m, pair, restOfStep(), row.impulse.x() > 0.0).momentum;
   }
 }
@@ -423,9 +420,11 @@ void ContactCluster::keepForces() {
     pair.remembered_count = 0;
     for (; end < sources_.size() && sources_[end].pair == sources_[first].pair; ++end) {
       const ContactRow& row = rows_[end];
-      RememberedImpulse now{sources_[end].id, Vec3::Zero(), rowImpulse(row, row.impulse) / restOfStep(),
-                            row.r_a, row.r_b};
-      if (row.resistance.acts()) now.torque_W = rowImpulse(row, row.torque) / restOfStep();
+      RememberedImpulse now{.id = sources_[end].id,
+                            .force_W = rowImpulse(row, row.impulse) / restOfStep(),
+                            .arm_a = row.r_a,
+                            .arm_b = row.r_b,
+                            .torque_W = rowImpulse(row, row.torque) / restOfStep()};
       for (int i = 0; i < known_count; ++i)
         if (known[at(i)].id == now.id) {
           now.impulse_W = known[at(i)].impulse_W;

@@ -9,7 +9,6 @@ namespace carom {
 namespace {
 
 constexpr double kTurningShare = 0.2;  // of the rest gap: an approach by turning that nobody notices
-constexpr double kSamePlace = 10.0;    // rest gaps: points this close are one
 constexpr double kLivelyGap = 0.4;     // of the rest gap: lively bodies lie still from here upwards
 constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks for more
 

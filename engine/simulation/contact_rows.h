@@ -17,6 +17,8 @@ struct SourcedRow {
   double gap_m = 0.0;
 };
 
+inline constexpr double kSamePlace = 10.0;  ///< Rest gaps: points this close are one.
+
 /// What of one pair to make rows of.
 struct RowRequest {
   int pair = -1;

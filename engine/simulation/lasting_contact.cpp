@@ -6,7 +6,6 @@
 #include "engine/modes/islands.h"
 #include "engine/modes/resting.h"
 #include "engine/response/standing_solver.h"
-#include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/midstep_rows.h"
 #include "engine/simulation/warm_start.h"
@@ -88,7 +87,8 @@ void sortByIsland(Assembly& assembly) {
   assembly.island_begin.push_back(assembly.sources.size());
 }
 
-// Whether an island lies still but for a few of its bodies: in the mean by mass.
+// Whether an island lies still but for a few of its bodies: in the mean by mass, where a body counts as often
+// as it has rows.
 bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
   double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
   double mass = 0.0;
@@ -105,34 +105,49 @@ bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
   return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
 }
 
-// With friction. Small islands to the fine residual, large ones to a coarser one: of what moves, as far as
-// their share of row visits goes; what has just come together there and would fall apart in a coarse step,
-// farther.
+// How many sweeps an island's share of row visits goes for.
+int shareOfSweeps(std::span<const ContactRow> rows) {
+  return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
+}
+
+// Small islands are solved to the fine residual, large ones to a coarser one.
+double residualOf(std::span<const ContactRow> rows, double coarser) {
+  return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
+}
+
+void solveStandingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed) {
+  // What presses holds at the gap it has: closing it would keep the rest from lying still.
+  for (ContactRow& row : rows)
+    if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
+  const double residual = residualOf(rows, tolerance::kSolverStandingResidual);
+  solveStandingContacts(rows, bodies,
+                        {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
+                         .residual_mps = residual * gravity_speed});
+}
+
+// Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
+// a coarse step, farther.
+void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed) {
+  const double residual = residualOf(rows, tolerance::kSolverCoarseResidual);
+  const int careful_sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps);
+  const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(rows.size());
+  solveContactsFinely(rows, bodies,
+                      {.sweeps = std::max(careful_sweeps, most_sweeps),
+                       .residual_mps = residual * gravity_speed,
+                       .careful_sweeps = careful_sweeps,
+                       .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
+}
+
+// With friction.
 void solveImpulses(const Assembly& assembly, const std::vector<Body>& bodies, double gravity_speed,
                    LastingContacts& contacts) {
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(assembly.island_begin[i], count);
-    const int share = tolerance::kSolverRowVisits / static_cast<int>(count);
-    const bool small = share >= tolerance::kSolverSweeps;
-    if (stands(rows, bodies)) {
-      const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverStandingResidual;
-      // What presses holds at the gap it has: closing it would keep the rest from lying still.
-      for (ContactRow& row : rows)
-        if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-      solveStandingContacts(rows, contacts.bodies,
-                            {.sweeps = std::max(share, tolerance::kSolverStandingSweeps),
-                             .residual_mps = residual * gravity_speed});
-      continue;
-    }
-    const double residual = small ? tolerance::kSolverResidual : tolerance::kSolverCoarseResidual;
-    const int careful_sweeps = std::max(share, tolerance::kSolverSweeps);
-    const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(count);
-    solveContactsFinely(rows, contacts.bodies,
-                        {.sweeps = std::max(careful_sweeps, most_sweeps),
-                         .residual_mps = residual * gravity_speed,
-                         .careful_sweeps = careful_sweeps,
-                         .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
+    if (stands(rows, bodies))
+      solveStandingIsland(rows, contacts.bodies, gravity_speed);
+    else
+      solveMovingIsland(rows, contacts.bodies, gravity_speed);
   }
 }
 
@@ -256,29 +271,31 @@ void remember(const Assembly& assembly, std::vector<ShapePair>& pairs, double st
     ShapePair& pair = pairs[at(assembly.sources[i].pair)];
     const ContactRow& row = assembly.contacts.rows[i];
     const Vec3 impulse_W = rowImpulse(row, row.impulse);
-    pair.remembered[at(pair.remembered_count++)] = {assembly.sources[i].id, impulse_W, impulse_W / step_s,
-                                                    row.r_a, row.r_b};
-    if (!row.resistance.acts()) continue;
-    RememberedImpulse& remembered = pair.remembered[at(pair.remembered_count - 1)];
-    remembered.torque_impulse_W = rowImpulse(row, row.torque);
-    remembered.torque_W = remembered.torque_impulse_W / step_s;
+    const Vec3 torque_impulse_W = rowImpulse(row, row.torque);
+    pair.remembered[at(pair.remembered_count++)] = {.id = assembly.sources[i].id,
+                                                    .impulse_W = impulse_W,
+                                                    .force_W = impulse_W / step_s,
+                                                    .arm_a = row.r_a,
+                                                    .arm_b = row.r_b,
+                                                    .torque_impulse_W = torque_impulse_W,
+                                                    .torque_W = torque_impulse_W / step_s};
   }
 }
 
 }  // namespace
 
-void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, const Vec3& torque_impulse_W,
-                    double step_s, std::vector<ShapePair>& pairs) {
+void correctLoad(const SourcedRow& sourced, const RowLoad& load, double step_s,
+                 std::vector<ShapePair>& pairs) {
   ShapePair& pair = pairs[at(sourced.pair)];
   // Pairs may have been collected anew since.
   if (pair.body_a != sourced.row.a || pair.body_b != sourced.row.b) return;
   for (int i = 0; i < pair.remembered_count; ++i) {
     RememberedImpulse& remembered = pair.remembered[at(i)];
     if (remembered.id != sourced.id) continue;
-    remembered.impulse_W = impulse_W;
-    remembered.force_W = impulse_W / step_s;
-    remembered.torque_impulse_W = torque_impulse_W;
-    remembered.torque_W = torque_impulse_W / step_s;
+    remembered.impulse_W = rowImpulse(sourced.row, load.impulse);
+    remembered.force_W = remembered.impulse_W / step_s;
+    remembered.torque_impulse_W = rowImpulse(sourced.row, load.torque);
+    remembered.torque_W = remembered.torque_impulse_W / step_s;
   }
 }
 
@@ -316,10 +333,7 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   Assembly assembly = assemble(bodies, shapes, pairs, settings, counters);
   LastingContacts& contacts = assembly.contacts;
   giveEnvironment(contacts, bodies, planner);
-  for (const ContactRow& row : contacts.rows) {
-    applyToRow(row, row.impulse, contacts.bodies);
-    if (row.resistance.acts()) applyTorqueToRow(row, row.torque, contacts.bodies);
-  }
+  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
   solveImpulses(assembly, bodies, settings.gravity.norm() * settings.step_s, contacts);
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/turning_resistance.h"
 #include "engine/simulation/contact_rows.h"
 #include "engine/simulation/flight_plan.h"
 
@@ -32,9 +32,9 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
                                      std::vector<ShapePair>& pairs, FlightPlanner& planner,
                                      const WorldSettings& settings, StepCounters& counters);
 
-/// The impulse that a row is remembered by, and acts with, instead of what it took in the step.
-void correctImpulse(const SourcedRow& sourced, const Vec3& impulse_W, const Vec3& torque_impulse_W,
-                    double step_s, std::vector<ShapePair>& pairs);
+/// The load that a row is remembered by, and acts with, instead of what it took in the step.
+void correctLoad(const SourcedRow& sourced, const RowLoad& load, double step_s,
+                 std::vector<ShapePair>& pairs);
 
 /// Makes a body that rested move again.
 void wake(Body& body);

@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/foundation/contract.h"
+
 namespace carom {
 namespace {
-
-constexpr double kSamePoint = 10.0;  // rest gaps: points this close are one
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-Vec3 inFrame(const ContactRow& row, const Vec3& v_W) {
-  return {row.n.dot(v_W), row.t1.dot(v_W), row.t2.dot(v_W)};
 }
 
 class Memory {
@@ -31,7 +27,7 @@ class Memory {
   }
   int nearestTo(const Vec3& arm_b) const {
     int nearest = -1;
-    double distance = kSamePoint * pair_.window.rest;
+    double distance = kSamePlace * pair_.window.rest;
     for (int i = 0; i < pair_.remembered_count; ++i) {
       const double d = (pair_.remembered[at(i)].arm_b - arm_b).norm();
       if (taken_[at(i)] || d >= distance) continue;
@@ -79,6 +75,7 @@ void spread(const Vec6& wrench, std::span<const SourcedRow> rows, std::span<Vec3
 }  // namespace
 
 void warmStart(const ShapePair& pair, bool still, std::span<SourcedRow> rows) {
+  REQUIRE(rows.size() <= ContactManifold::kMaxPoints, rows.size());
   if (rows.empty() || pair.remembered_count == 0) return;
   Memory memory(pair);
   std::array<const RememberedImpulse*, ContactManifold::kMaxPoints> known{};
@@ -95,9 +92,9 @@ void warmStart(const ShapePair& pair, bool still, std::span<SourcedRow> rows) {
   if (still && !rest.isZero(0.0)) spread(rest, rows, std::span(impulses_W).first(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ContactRow& row = rows[i].row;
-    row.impulse = inFrame(row, impulses_W[i]);
+    row.impulse = inRowFrame(row, impulses_W[i]);
     row.impulse.x() = std::max(0.0, row.impulse.x());
-    if (row.resistance.acts() && known[i] != nullptr) row.torque = inFrame(row, known[i]->torque_impulse_W);
+    if (known[i] != nullptr) row.torque = inRowFrame(row, known[i]->torque_impulse_W);
   }
 }
 

@@ -218,8 +218,7 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
       canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!balance[k].impulse.isZero(0.0))
-      correctImpulse(contacts.sources[source_of[k]], rowImpulse(rows[k], balance[k].impulse),
-                     rowImpulse(rows[k], balance[k].torque), settings.step_s, table.pairs());
+      correctLoad(contacts.sources[source_of[k]], balance[k], settings.step_s, table.pairs());
   return rests;
 }
 

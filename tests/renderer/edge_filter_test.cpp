@@ -126,6 +126,30 @@ TEST(EdgeFilter, EveryColumnIsTreatedAlike) {
   EXPECT_GT(changed, 1000);
 }
 
+// A step within the outermost row or column: white there up to kEnd, black elsewhere. The line through it
+// enters that row at kEnd / 2 and gives (2k + 1) / 2 kEnd of the k-th pixel from there to black.
+TEST(EdgeFilter, EdgesAlongTheBorderAreSmoothedToo) {
+  constexpr int kEnd = 12, kHeight = 40;
+  constexpr double kBytes = 0.006;  // of linear light: half a step of the bytes near white, and of 12 bits
+  const auto isOutermost = [](int side, int x, int y, int width) {
+    return std::array{x == 0, x == width - 1, y == 0, y == kHeight - 1}[static_cast<std::size_t>(side)];
+  };
+  for (const int width : {33, 64, 65, 97, 128})
+    for (int side = 0; side < 4; ++side) {
+      const bool upright = side < 2;
+      const Image image = filtered(width, kHeight, [&](int x, int y) {
+        return isOutermost(side, x, y, width) && (upright ? y : x) < kEnd ? 255 : 0;
+      });
+      const int across = side % 2 == 0 ? 0 : (upright ? width : kHeight) - 1;
+      for (int k = 0; k < kEnd / 2 - 1; ++k) {  // the last one is smoothed along the step's end as well
+        const int along = kEnd / 2 + k;
+        const int x = upright ? across : along, y = upright ? along : across;
+        EXPECT_NEAR(linear(*image.pixel(x, y)), 1.0 - (2 * k + 1) / (2.0 * kEnd), kBytes)
+            << x << "," << y << " of " << width;
+      }
+    }
+}
+
 TEST(EdgeFilter, RowsComeOutFromTopToBottom) {
   const Image image = filtered(5, 4, [](int x, int y) { return 3 * (5 * y + x); });
   for (int y = 0; y < 4; ++y)

@@ -31,16 +31,13 @@ struct Stack {
     const int upper = static_cast<int>(bodies.size()) - 1;
     for (double x : {-0.5, 0.5})
       for (double y : {-0.5, 0.5}) {
-        const Vec3 p = tilt * Vec3(shift.x() + x * size.x(), shift.y() + y * size.y(), top_);
-        ContactRow row;
-        row.a = upper - 1;
-        row.b = upper;
-        row.n = tilt * Vec3::UnitZ();
-        row.r_a = p - bodies[static_cast<std::size_t>(row.a)].center;
-        row.r_b = p - bodies[static_cast<std::size_t>(row.b)].center;
-        row.friction = {friction, friction};
-        prepareRow(row, bodies);
-        rows.push_back(row);
+        const Vec3 p_W = tilt * Vec3(shift.x() + x * size.x(), shift.y() + y * size.y(), top_);
+        rows.push_back(rowAt({.a = upper - 1,
+                              .b = upper,
+                              .n = tilt * Vec3::UnitZ(),
+                              .p_W = p_W,
+                              .friction = {friction, friction}},
+                             bodies));
       }
     top_ += size.z();
   }

@@ -20,11 +20,8 @@ struct BallOnFloor {
     bodies[1].velocity = {frame * velocity, frame * spin};
     bodies[1].inverse_mass = 1.0;
     bodies[1].inverse_tensor = 10.0 * Mat3::Identity();
-    row.a = 0;
-    row.b = 1;
-    row.n = frame * Vec3::UnitZ();
-    row.r_b = -0.5 * row.n;
-    prepareRow(row, bodies);
+    const Vec3 n = frame * Vec3::UnitZ();
+    row = rowAt({.n = n, .p_W = -0.5 * n}, bodies);
     row.impulse.x() = pressing;
   }
 };

@@ -41,14 +41,8 @@ BallBounce bounceBall(const Vec3& velocity, const Vec3& spin, double mu, double 
   const Inertia inertia = inertiaOf(1000.0, ball.volume(), ball.unitInertia());
   std::vector<ImpulseBody> bodies{
       immovable(), impulseBody(inertia, Quat::Identity(), Vec3::Zero(), {frame * velocity, frame * spin})};
-  ContactRow row;
-  row.a = 0;
-  row.b = 1;
-  row.n = frame * Vec3::UnitZ();
-  row.r_b = -radius * row.n;
-  row.friction = {mu, mu};
-  prepareRow(row, bodies);
-  std::vector<ContactRow> rows{row};
+  const Vec3 n = frame * Vec3::UnitZ();
+  std::vector<ContactRow> rows{rowAt({.n = n, .p_W = -radius * n, .friction = {mu, mu}}, bodies)};
   collide(rows, bodies, {{e}});
   return {frame.conjugate() * bodies[1].velocity.linear, frame.conjugate() * bodies[1].velocity.angular};
 }
@@ -92,16 +86,8 @@ TEST(Collide, OfAFlatBox_LeavesAtTheRestitutionOnAllCorners) {
                                  {Vec3(0, 0, -2), Vec3::Zero()})};
     std::vector<ContactRow> rows;
     for (double x : {-0.35, 0.35})
-      for (double y : {-0.15, 0.15}) {
-        ContactRow row;
-        row.a = 0;
-        row.b = 1;
-        row.r_a = Vec3(x, y, 0);
-        row.r_b = Vec3(x, y, -0.1);
-        row.friction = {0.5, 0.5};
-        prepareRow(row, bodies);
-        rows.push_back(row);
-      }
+      for (double y : {-0.15, 0.15})
+        rows.push_back(rowAt({.p_W = Vec3(x, y, 0), .friction = {0.5, 0.5}}, bodies));
     const std::vector<double> restitution(4, e);
     collide(rows, bodies, restitution);
     EXPECT_LT((bodies[1].velocity.linear - Vec3(0, 0, 2 * e)).norm(), 1e-10) << e;

@@ -85,16 +85,9 @@ TEST(SolveContacts, BrakesAlikeInEveryDirection) {
     m.bodies = {immovable(), impulseBody(inertia, oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, 0.1),
                                          {5.0 * heading - Vec3(0, 0, j_normal), Vec3::Zero()})};
     for (double x : {-0.35, 0.35})
-      for (double y : {-0.15, 0.15}) {
-        ContactRow row;
-        row.a = 0;
-        row.b = 1;
-        row.r_a = oracle::turned(Vec3::UnitZ(), 0.3) * Vec3(x, y, 0);
-        row.r_b = row.r_a - Vec3(0, 0, 0.1);
-        row.friction = {mu, mu};
-        prepareRow(row, m.bodies);
-        m.rows.push_back(row);
-      }
+      for (double y : {-0.15, 0.15})
+        m.rows.push_back(rowAt(
+            {.p_W = oracle::turned(Vec3::UnitZ(), 0.3) * Vec3(x, y, 0), .friction = {mu, mu}}, m.bodies));
     solveContacts(m.rows, m.bodies, kThorough);
     EXPECT_LT((m.bodies[1].velocity.linear - (5.0 - mu * j_normal) * heading).norm(), 1e-9) << degrees;
     EXPECT_LT(m.bodies[1].velocity.angular.norm(), 1e-8) << degrees;
@@ -108,16 +101,8 @@ TEST(SolveContacts, HoldsABlockThatTheConeCanHold) {
     m.bodies = {immovable(), impulseBody(inertia, Quat::Identity(), Vec3(0, 0, 0.1),
                                          {Vec3(0.8 * tangent, 0.6 * tangent, -1.0), Vec3::Zero()})};
     for (double x : {-0.35, 0.35})
-      for (double y : {-0.15, 0.15}) {
-        ContactRow row;
-        row.a = 0;
-        row.b = 1;
-        row.r_a = Vec3(x, y, 0);
-        row.r_b = Vec3(x, y, -0.1);
-        row.friction = {0.4, 0.4};
-        prepareRow(row, m.bodies);
-        m.rows.push_back(row);
-      }
+      for (double y : {-0.15, 0.15})
+        m.rows.push_back(rowAt({.p_W = Vec3(x, y, 0), .friction = {0.4, 0.4}}, m.bodies));
     solveContacts(m.rows, m.bodies, kThorough);
     EXPECT_LT(m.bodies[1].velocity.linear.norm() + m.bodies[1].velocity.angular.norm(), 1e-9) << tangent;
   }
@@ -136,17 +121,9 @@ TEST(SolveContacts, HoldsATallBlockHoweverRoughTheGround) {
       m.bodies = {immovable(),
                   impulseBody(boxInertia(2.0, size), tilt, center, {Vec3(0, 0, -1), Vec3::Zero()})};
       for (double x : {-0.15, 0.15})
-        for (double y : {-0.2, 0.2}) {
-          ContactRow row;
-          row.a = 0;
-          row.b = 1;
-          row.n = tilt * Vec3::UnitZ();
-          row.r_a = tilt * Vec3(x, y, 0);
-          row.r_b = row.r_a - center;
-          row.friction = {mu, mu};
-          prepareRow(row, m.bodies);
-          m.rows.push_back(row);
-        }
+        for (double y : {-0.2, 0.2})
+          m.rows.push_back(rowAt(
+              {.n = tilt * Vec3::UnitZ(), .p_W = tilt * Vec3(x, y, 0), .friction = {mu, mu}}, m.bodies));
       solveContacts(m.rows, m.bodies, {5000, 1e-13, true});
       EXPECT_LT(m.bodies[1].velocity.linear.norm() + m.bodies[1].velocity.angular.norm(), 1e-6)
           << "mu " << mu << " tan " << tangent;
@@ -164,13 +141,8 @@ TEST(SolveContacts, TellsStaticFrictionFromDynamic) {
       Meeting m;
       m.bodies = {immovable(), impulseBody(boxInertia(1.0, {1, 1, 1}), Quat::Identity(), Vec3::Zero(),
                                            slid ? pushed : Velocity{})};
-      ContactRow row;
-      row.a = 0;
-      row.b = 1;
-      row.friction = {mu_s, mu_d};  // the point is the centre: no lever
-      prepareRow(row, m.bodies);
+      m.rows = {rowAt({.friction = {mu_s, mu_d}}, m.bodies)};  // the point is the centre: no lever
       m.bodies[1].velocity = pushed;
-      m.rows = {row};
       solveContacts(m.rows, m.bodies, kThorough);
       EXPECT_NEAR(m.bodies[1].velocity.linear.x(), std::max(0.0, tangent - (slid ? mu_d : mu_s)), 1e-12)
           << tangent << slid;

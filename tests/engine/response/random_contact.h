@@ -36,6 +36,30 @@ inline Vec3 angularMomentum(const ImpulseBody& b) {
   return b.center.cross(linearMomentum(b)) + b.inverse_tensor.inverse() * b.velocity.angular;
 }
 
+/// A point of contact between two bodies of a list.
+struct RowSetting {
+  int a = 0;
+  int b = 1;
+  Vec3 n = Vec3::UnitZ();
+  Vec3 p_W = Vec3::Zero();
+  Friction friction = {};
+  TurningResistance resistance = {};
+};
+
+/// Its row, prepared.
+inline ContactRow rowAt(const RowSetting& s, std::span<const ImpulseBody> bodies) {
+  ContactRow row;
+  row.a = s.a;
+  row.b = s.b;
+  row.n = s.n;
+  row.r_a = s.p_W - bodies[static_cast<std::size_t>(s.a)].center;
+  row.r_b = s.p_W - bodies[static_cast<std::size_t>(s.b)].center;
+  row.friction = s.friction;
+  row.resistance = s.resistance;
+  prepareRow(row, bodies);
+  return row;
+}
+
 struct Meeting {
   std::vector<ImpulseBody> bodies;
   std::vector<ContactRow> rows;
@@ -54,16 +78,8 @@ inline Meeting randomMeeting(oracle::Random& random, int points, double friction
   }
   const TangentBasis t = tangentBasis(n);
   for (int i = 0; i < points; ++i) {
-    ContactRow row;
-    row.a = 0;
-    row.b = 1;
-    row.n = n;
-    const Vec3 p = random.uniform(-0.4, 0.4) * t.t1 + random.uniform(-0.4, 0.4) * t.t2;
-    row.r_a = p - m.bodies[0].center;
-    row.r_b = p - m.bodies[1].center;
-    row.friction = {friction, friction};
-    prepareRow(row, m.bodies);
-    m.rows.push_back(row);
+    const Vec3 p_W = random.uniform(-0.4, 0.4) * t.t1 + random.uniform(-0.4, 0.4) * t.t2;
+    m.rows.push_back(rowAt({.n = n, .p_W = p_W, .friction = {friction, friction}}, m.bodies));
   }
   return m;
 }

@@ -35,16 +35,9 @@ struct Masonry {
   void bed(int lower, int upper, double low, double high, double friction) {
     const double z = bodies[at(upper)].center.z() - 0.125;
     for (double x : {low, high})
-      for (double y : {-0.25, 0.25}) {
-        ContactRow row;
-        row.a = lower;
-        row.b = upper;
-        row.r_a = Vec3(x, y, z) - bodies[at(lower)].center;
-        row.r_b = Vec3(x, y, z) - bodies[at(upper)].center;
-        row.friction = {friction, friction};
-        prepareRow(row, bodies);
-        rows.push_back(row);
-      }
+      for (double y : {-0.25, 0.25})
+        rows.push_back(
+            rowAt({.a = lower, .b = upper, .p_W = Vec3(x, y, z), .friction = {friction, friction}}, bodies));
   }
   double fastest() const {
     double speed = 0.0;

@@ -185,13 +185,7 @@ TEST(TurningResistance, LeversThatWouldUndoTheirOwnNormalImpulseAreCut) {
   }
   Meeting ball;
   ball.bodies = {immovable(), {{}, Vec3(0, 0, 0.3), 1.0, 25.0 * Mat3::Identity()}};
-  ContactRow row;
-  row.a = 0;
-  row.b = 1;
-  row.r_b = Vec3(0, 0, -0.3);
-  row.resistance = {10.0, 10.0};
-  prepareRow(row, ball.bodies);
-  EXPECT_EQ(row.resistance.rolling_m, 10.0);
+  EXPECT_EQ(rowAt({.resistance = {10.0, 10.0}}, ball.bodies).resistance.rolling_m, 10.0);
 }
 
 TEST(TurningResistance, WhereTheSolveHasNoFriction_DoesNotAct) {
@@ -230,14 +224,7 @@ TEST(TurningResistance, OfARollingBallTakesItsLimitAtOnce) {
     m.bodies = {immovable(),
                 impulseBody(inertia, Quat::Identity(), Vec3(0, 0, radius),
                             {2.0 * along - Vec3(0, 0, j / mass), 2.0 / radius * Vec3::UnitZ().cross(along)})};
-    ContactRow row;
-    row.a = 0;
-    row.b = 1;
-    row.r_b = Vec3(0, 0, -radius);
-    row.friction = {0.5, 0.5};
-    row.resistance = {lever, 0.0};
-    prepareRow(row, m.bodies);
-    m.rows = {row};
+    m.rows = {rowAt({.friction = {0.5, 0.5}, .resistance = {lever, 0.0}}, m.bodies)};
     const SolverReport report = solveContactsFinely(m.rows, m.bodies, {100, 1e-15, true});
     EXPECT_LE(report.sweeps, 8);
     EXPECT_NEAR(m.rows[0].torque.norm(), lever * j, 1e-14);

@@ -49,12 +49,23 @@ inline Trial start(const Simulator& simulator, const ResistedBall& b) {
   return Trial(simulator, std::move(e));
 }
 
-/// Of what rolling loses in half its time, relative to the closed form.
+/// Of what a ball loses in half its time of a speed, which is asked of the trial, relative to the closed
+/// form.
+template <typename Speed>
+double lossError(Trial trial, double deceleration, const Speed& speed) {
+  const double begin = speed(trial);
+  trial.run(0.5 * begin / deceleration);
+  return (begin - speed(trial)) / (deceleration * trial.time()) - 1.0;
+}
+/// Of rolling.
 inline double rollingLossError(const Simulator& simulator, const ResistedBall& ball) {
-  Trial trial = start(simulator, ball);
-  trial.run(0.5 * ball.velocity_mps / ball.deceleration());
-  const double lost = ball.velocity_mps - trial.velocity(kOnSlope).dot(ball.along());
-  return lost / (ball.deceleration() * trial.time()) - 1.0;
+  return lossError(start(simulator, ball), ball.deceleration(),
+                   [&](const Trial& trial) { return trial.velocity(kOnSlope).dot(ball.along()); });
+}
+/// Of spinning on the spot.
+inline double spinLossError(const Simulator& simulator, const ResistedBall& ball) {
+  return lossError(start(simulator, ball), ball.spinDeceleration(),
+                   [&](const Trial& trial) { return trial.spin(kOnSlope).dot(ball.up()); });
 }
 
 /// Of the whole way of a ball that rolls to its stop, relative to v^2 / 2a; NaN while it still moves after
@@ -66,14 +77,6 @@ inline double rollingWayError(const Simulator& simulator, const ResistedBall& ba
   if (!(trial.velocity(kOnSlope).norm() < 1e-9)) return std::numeric_limits<double>::quiet_NaN();
   const double way = ball.velocity_mps * ball.velocity_mps / (2.0 * ball.deceleration());
   return (trial.position(kOnSlope) - begin).norm() / way - 1.0;
-}
-
-/// Of what spinning on the spot loses in half its time, relative to the closed form.
-inline double spinLossError(const Simulator& simulator, const ResistedBall& ball) {
-  Trial trial = start(simulator, ball);
-  trial.run(0.5 * ball.spin_radps / ball.spinDeceleration());
-  const double lost = ball.spin_radps - trial.spin(kOnSlope).dot(ball.up());
-  return lost / (ball.spinDeceleration() * trial.time()) - 1.0;
 }
 
 /// The time until it spins no more, over 2/5 r^2 w / (g s), less one; steps round it up.
