@@ -19,6 +19,12 @@ constexpr double kFewRowsShare = 1e-3;  // of what is safe
 constexpr int kSweepsARound = 4;        // between two looks at whom the impulses have reached
 constexpr int kFineSweeps = 20;         // at least, when they have reached all
 constexpr int kMostSweeps = 80;         // of one solve
+// A crowd: most of its rows are quiet, and only those that are not are visited; what has not settled after
+// these sweeps is left to the next step. Impulses and forces go on only to bodies that they move by so many
+// rest gaps in a step, and by more the larger the crowd has grown.
+constexpr std::size_t kCrowdRows = 100;
+constexpr int kCrowdSweeps = 20;
+constexpr double kCrowdRestGaps = 2.0;
 // Small clusters are solved to this share of the approach; when so many rows have been visited, and for
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
@@ -41,10 +47,13 @@ void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time
   body_joined_.resize(bodies_.size(), 0);
   body_member_.resize(bodies_.size(), 0);
   pair_joined_.resize(table_.pairs().size(), 0);
+  pair_seen_.resize(table_.pairs().size(), 0);
+  closest_.resize(table_.pairs().size());
   pair_released_.resize(table_.pairs().size(), 0);
   time_s_ = time_s;
   event_pair_ = pair;
   stage_ = Stage::kMomentum;
+  stops_short_ = false;
   members_.clear();
   momentum_.clear();
   ends_.clear();
@@ -55,7 +64,24 @@ void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time
   solve_before_.clear();
   sources_.clear();
   rows_.clear();
+  pair_seen_[at(pair)] = number_;
+  closest_[at(pair)] = closest;
   addPair(pair, closest);
+}
+
+const ClosestFeatures* ContactCluster::closestSeen(int pair, double time_s) const {
+  const bool seen = time_s == time_s_ && at(pair) < pair_seen_.size() && pair_seen_[at(pair)] == number_;
+  return seen ? &closest_[at(pair)] : nullptr;
+}
+
+const ClosestFeatures& ContactCluster::look(int index) {
+  if (pair_seen_[at(index)] == number_) return closest_[at(index)];
+  pair_seen_[at(index)] = number_;
+  ShapePair& pair = table_.pairs()[at(index)];
+  ++counters_.distance_queries;
+  return closest_[at(index)] = closestFeatures(
+             *shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
+             *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_), pair.tracked);
 }
 
 int ContactCluster::join(int index) {
@@ -75,10 +101,7 @@ int ContactCluster::join(int index) {
   momentum_.push_back(body.impulseBody(body.path.at(time_s_), member.momentum_before));
   paths_.push_back(momentum_.back());
   paths_.back().velocity = member.path_before;
-  if (body.travel == Travel::kHeld) {  // momentum may change, the path may not
-    paths_.back().inverse_mass = 0.0;
-    paths_.back().inverse_tensor.setZero();
-  }
+  if (body.travel == Travel::kHeld) fixPath(paths_.size() - 1);
   ends_.push_back(momentum_.back());
   const Velocity gain = gainedByForces(body);
   ends_.back().velocity = {member.momentum_before.linear + gain.linear,
@@ -88,6 +111,12 @@ int ContactCluster::join(int index) {
   bends_.push_back(0);
   solve_before_.push_back(stageBodies().back().velocity);
   return body_member_[at(index)];
+}
+
+// Its momentum may change, its path may not.
+void ContactCluster::fixPath(std::size_t i) {
+  paths_[i].inverse_mass = 0.0;
+  paths_[i].inverse_tensor.setZero();
 }
 
 Velocity ContactCluster::gainedByForces(const Body& body) const {
@@ -144,12 +173,8 @@ void ContactCluster::expand(int body) {
   for (int p : table_.pairsOf(body)) {
     if (pair_joined_[at(p)] == number_) continue;
     pair_joined_[at(p)] = number_;
-    ShapePair& pair = table_.pairs()[at(p)];
-    const ClosestFeatures closest = closestFeatures(
-        *shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
-        *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_), pair.tracked);
-    ++counters_.distance_queries;
-    if (closest.distance_m <= pair.window.manifold) addPair(p, closest);
+    const ClosestFeatures& closest = look(p);
+    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold) addPair(p, closest);
   }
 }
 
@@ -183,18 +208,14 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (bodies_[at(members_[i].body)].is_static) continue;
     for (int p : table_.pairsOf(members_[i].body)) {
-      ShapePair& pair = table_.pairs()[at(p)];
+      const ShapePair& pair = table_.pairs()[at(p)];
       if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
       pair_joined_[at(p)] = number_;
       const Body& a = bodies_[at(pair.body_a)];
       const Body& b = bodies_[at(pair.body_b)];
-      const Pose X_WA = a.path.at(time_s_);
-      const Pose X_WB = b.path.at(time_s_);
-      const ClosestFeatures closest = closestFeatures(*shapes_[at(pair.shapes.a)].part, X_WA,
-                                                      *shapes_[at(pair.shapes.b)].part, X_WB, pair.tracked);
-      ++counters_.distance_queries;
-      const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - X_WB.position) -
-                            a.velocityAt(time_s_).at(closest.p_A_W - X_WA.position);
+      const ClosestFeatures& closest = look(p);
+      const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
+                            a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
       if (closest.distance_m <= pair.window.ceiling &&
           std::abs(closest.n_W.dot(relative) - approach_mps) <= -kSameApproach * approach_mps)
         addPair(p, closest);
@@ -208,6 +229,20 @@ double ContactCluster::safeResidual() const {
   return kGapShare * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
 }
 
+double ContactCluster::noticeableSpeed() const {
+  if (!isCrowd() || stage_ == Stage::kPath) return safeResidual();
+  const double crowds = static_cast<double>(rows_.size()) / static_cast<double>(kCrowdRows);
+  return kCrowdRestGaps * crowds * crowds * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
+}
+
+bool ContactCluster::isCrowd() const {
+  return rows_.size() > kCrowdRows;
+}
+
+int ContactCluster::mostSweeps() const {
+  return isCrowd() ? kCrowdSweeps : kMostSweeps;
+}
+
 long ContactCluster::fewRowsVisits() const {
   return rows_.size() <= kFewRows ? kFewRowsVisits : 0;
 }
@@ -218,26 +253,26 @@ void ContactCluster::solveSpreading(double careful_mps) {
   long visits = 0;
   bool resumes = false;
   bool reached = false;  // all whom the impulses reach have joined
-  for (int sweeps = 0; visits < kCarefulVisits || sweeps < kMostSweeps || visits < fewRowsVisits();) {
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
     const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
                           : visits < fewRowsVisits() ? kFewRowsShare * safe
                                                      : safe;
     const int fine_sweeps =
         std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
-    const SolverSettings settings{.sweeps = reached ? fine_sweeps : kSweepsARound,
+    const bool fine = reached && !isCrowd();
+    const SolverSettings settings{.sweeps = fine ? fine_sweeps : kSweepsARound,
                                   .residual_mps = enough,
                                   .friction = friction,
                                   .resumes = resumes};
-    const SolverReport report = reached ? solveContactsFinely(rows_, stageBodies(), settings)
-                                        : solveContacts(rows_, stageBodies(), settings);
-    resumes = !reached;
+    const SolverReport report = fine ? solveContactsFinely(rows_, stageBodies(), settings)
+                                     : solveContacts(rows_, stageBodies(), settings);
+    resumes = !fine;
     sweeps += report.sweeps;
     visits += report.visits;
     visits_ += report.visits;
-    const bool grew = !isExhausted() && expandMoved(safe);
+    const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
     if (!grew && report.residual_mps <= enough) return;
     reached = !grew;
-    resumes = resumes && !reached;
   }
 }
 
@@ -397,6 +432,7 @@ void ContactCluster::support() {
     expand(members_[i].body);
   }
   solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
+  stops_short_ = isCrowd();
   releaseDistant();
   keepForces();
   findBends();
@@ -438,7 +474,10 @@ void ContactCluster::keepForces() {
 
 void ContactCluster::boundPaths(bool all) {
   stage_ = Stage::kPath;
-  for (std::size_t i = 0; i < members_.size(); ++i) solve_before_[i] = paths_[i].velocity;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    solve_before_[i] = paths_[i].velocity;
+    if (keepsPath(i)) fixPath(i);
+  }
   std::erase_if(sources_, [&](const SourcedRow& s) {
     return (!givesWay(s.row.a) && !givesWay(s.row.b)) || (!all && collidesLater(s.row, s));
   });

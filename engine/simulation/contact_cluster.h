@@ -50,6 +50,9 @@ class ContactCluster {
   std::span<const ContactRow> rows() const { return rows_; }
   std::span<const SourcedRow> sources() const { return sources_; }
 
+  /// The closest features of a pair, if the cluster of this time has looked at them; else null.
+  const ClosestFeatures* closestSeen(int pair, double time_s) const;
+
   std::size_t size() const { return members_.size(); }
   const Member& member(std::size_t i) const { return members_[i]; }
   /// What impulses have made of member i; what its path is to be.
@@ -60,6 +63,9 @@ class ContactCluster {
   /// Whether the path may bend with the momentum (carried_path.h).
   bool bends(std::size_t i) const { return bends_[i] != 0; }
   void setPath(std::size_t i, const Velocity& mean) { paths_[i].velocity = members_[i].path_before = mean; }
+  /// Whether impulses reach the body, but in a crowd where they go no further: it keeps its path in this
+  /// step.
+  bool keepsPath(std::size_t i) const { return stops_short_ && !members_[i].expanded; }
   const Velocity& path(std::size_t i) const { return paths_[i].velocity; }
   bool momentumChanged(std::size_t i) const { return differ(momentum(i), members_[i].momentum_before); }
   /// Noticeably, by `support`.
@@ -79,13 +85,18 @@ class ContactCluster {
   double restOfStep() const { return settings_.step_s - time_s_; }
   bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
   int join(int body);
+  const ClosestFeatures& look(int pair);
   void addPair(int pair, const ClosestFeatures& closest);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
   void joinSimultaneous(double approach_mps);
   bool isNear(const ShapePair& pair) const;
-  double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
-  long fewRowsVisits() const;   ///< Of rows, for a solve of few.
+  double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
+  double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.
+  bool isCrowd() const;
+  int mostSweeps() const;      ///< Of one solve.
+  long fewRowsVisits() const;  ///< Of rows, for a solve of few.
+  void fixPath(std::size_t i);
   void startAgain();
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
   void recallPoints();
@@ -109,6 +120,7 @@ class ContactCluster {
   long most_visits_ = 0;
   int event_pair_ = -1;
   Stage stage_ = Stage::kMomentum;
+  bool stops_short_ = false;  ///< Impulses and forces have been solved as those of a crowd.
   std::vector<Member> members_;
   std::vector<ImpulseBody> momentum_;
   std::vector<ImpulseBody> ends_;       ///< At the end of the step, by the forces that act; in kSupport.
@@ -124,7 +136,9 @@ class ContactCluster {
   std::vector<int> body_joined_;
   std::vector<int> body_member_;
   std::vector<int> pair_joined_;
-  std::vector<int> pair_released_;  ///< Likewise: its forces are those of the cluster's rows, or none.
+  std::vector<int> pair_seen_;
+  std::vector<ClosestFeatures> closest_;  ///< Of pairs seen, at this cluster's time.
+  std::vector<int> pair_released_;        ///< Likewise: its forces are those of the cluster's rows, or none.
 };
 
 }  // namespace carom

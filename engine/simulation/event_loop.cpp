@@ -78,8 +78,7 @@ class EventLoop {
     prediction.search = {pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s),
                          settings_.step_s, pair.restitution == 0.0};
     const double begin_s = prediction.search.begin_s;
-    prediction.found =
-        beginSearch(prediction.search, begin_s > 0.0 ? closestAt(pair, begin_s) : pair.closest);
+    prediction.found = beginSearch(prediction.search, closestAt(index, begin_s));
     events_.push({begin_s, index, prediction.version});
   }
 
@@ -108,7 +107,10 @@ class EventLoop {
     return {s.part, &bodies_[at(s.body)].path, s.reach_m, &ends_[at(s.body)]};
   }
 
-  ClosestFeatures closestAt(ShapePair& pair, double time_s) {
+  ClosestFeatures closestAt(int index, double time_s) {
+    ShapePair& pair = table_.pairs()[at(index)];
+    if (!(time_s > 0.0)) return pair.closest;
+    if (const ClosestFeatures* seen = cluster_.closestSeen(index, time_s)) return *seen;
     ++counters_.distance_queries;
     return closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
                            *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s),
@@ -185,12 +187,17 @@ class EventLoop {
       body.collided = body.collided || member.collided;
       if (body.is_static || !isTouched(i)) continue;
       if (body.resting) wakeInStep(member.body);
-      bring(member.body, time_s);
-      changed_.push_back(member.body);
-      body.momentum_velocity = cluster_.momentum(i);
       const double rest = settings_.step_s - time_s;
+      const bool goes_on = cluster_.keepsPath(i) && goesStraight(body);
+      bring(member.body, time_s);
+      if (!goes_on) changed_.push_back(member.body);
+      body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
+        continue;
+      }
+      if (cluster_.keepsPath(i)) {
+        keepPath(body, i, rest);
         continue;
       }
       const bool flies = body.travel == Travel::kBallistic || member.expanded || !(rest > 0.0);
@@ -209,6 +216,17 @@ class EventLoop {
       }
       cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
     }
+  }
+
+  static bool goesStraight(const Body& body) {
+    return body.travel == Travel::kCarried && body.path.acceleration.isZero(0.0);
+  }
+
+  // Straight on to where its path led, with the momentum and the forces that it has now.
+  void keepPath(Body& body, std::size_t member, double rest_of_step_s) {
+    body.travel = Travel::kCarried;
+    driveEvenly(body, {body.momentum_velocity, cluster_.end(member), rest_of_step_s});
+    carryAlong(body, cluster_.path(member), rest_of_step_s, false);
   }
 
   void straighten(Body& body, double rest_of_step_s) {

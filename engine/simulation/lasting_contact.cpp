@@ -105,6 +105,12 @@ bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
   return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
 }
 
+bool isStirred(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
+  return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
+    return !liesStill(bodies[at(row.a)]) || !liesStill(bodies[at(row.b)]);
+  });
+}
+
 // How many sweeps an island's share of row visits goes for.
 int shareOfSweeps(std::span<const ContactRow> rows) {
   return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
@@ -115,14 +121,24 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
   return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
 }
 
-void solveStandingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed) {
+// While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
+// taken as equations, would contradict each other.
+void solveStandingIsland(std::span<ContactRow> rows, bool stirred, std::span<ImpulseBody> bodies,
+                         double gravity_speed) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  const double residual = residualOf(rows, tolerance::kSolverStandingResidual);
-  solveStandingContacts(rows, bodies,
-                        {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
-                         .residual_mps = residual * gravity_speed});
+  if (stirred) {
+    solveContactsFinely(
+        rows, bodies,
+        {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps),
+         .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed});
+    return;
+  }
+  solveStandingContacts(
+      rows, bodies,
+      {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
+       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed});
 }
 
 // Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
@@ -145,7 +161,7 @@ void solveImpulses(const Assembly& assembly, const std::vector<Body>& bodies, do
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(assembly.island_begin[i], count);
     if (stands(rows, bodies))
-      solveStandingIsland(rows, contacts.bodies, gravity_speed);
+      solveStandingIsland(rows, isStirred(rows, bodies), contacts.bodies, gravity_speed);
     else
       solveMovingIsland(rows, contacts.bodies, gravity_speed);
   }
