@@ -81,6 +81,7 @@ struct World::Impl {
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
   PairTable table;
+  bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
@@ -127,6 +128,12 @@ void World::Impl::planFlight(PhaseClock* clock) {
 
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
+  const bool sleeps = std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.moves(); });
+  if (sleeps && pairs_sleep) {
+    counters.candidate_pairs = static_cast<int>(table.pairs().size());
+    return;
+  }
+  pairs_sleep = sleeps;
   table.updateBounds(bodies, shapes, settings.step_s);
   table.collect(bodies, shapes, settings, counters, clock);
 }
