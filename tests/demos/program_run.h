@@ -1,6 +1,7 @@
 #pragma once
 // Runs the built carom program as a person would, and holds what it said.
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -111,6 +112,14 @@ inline Files framesOf(const std::filesystem::path& folder) {
     if (entry.path().extension() != ".json")
       files[entry.path().filename().string()] = readTextFile(entry.path());
   return files;
+}
+
+/// How many whole frames are there: they are not finished in order.
+inline std::ptrdiff_t framesIn(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return 0;
+  const std::filesystem::directory_iterator entries(folder);
+  return std::count_if(begin(entries), end(entries),
+                       [](const auto& entry) { return entry.path().extension() == ".png"; });
 }
 
 }  // namespace carom::demos
