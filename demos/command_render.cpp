@@ -404,7 +404,10 @@ Sink sinkOf(const RenderOptions& options) {
   if (!options.ffmpeg.empty())
     return {[](FrameToWrite frame) { return DrawnFrame{frame.record, std::move(frame.image.rgb)}; }, {}};
   if (options.stream.empty())
-    return {[](FrameToWrite frame) { return DrawnFrame{*writeFrameFile(std::move(frame)), {}}; }, {}};
+    return {[encoder = std::make_shared<FrameEncoder>()](FrameToWrite frame) {
+              return DrawnFrame{*writeFrameFile(std::move(frame), *encoder), {}};
+            },
+            {}};
   const StreamFormat format = streamFormat(options.stream);
   return {[format](FrameToWrite frame) {
             return DrawnFrame{frame.record, frame.outputs.empty()

@@ -39,11 +39,15 @@ renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record)
 }
 
 EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText& text) {
+  return FrameEncoder().encode(image, text);
+}
+
+EncodedFrame FrameEncoder::encode(const renderer::Image& image, const renderer::PngText& text) {
   EncodedFrame frame;
   frame.pixel_hash = ContentHash().add(image.rgb.data(), image.rgb.size()).value();
   renderer::PngText signed_text = text;
   signed_text.emplace_back("Pixels", hexText(frame.pixel_hash));
-  frame.bytes = renderer::encodePng(image, signed_text);
+  frame.bytes = pictures_.encode(image, signed_text);
   return frame;
 }
 

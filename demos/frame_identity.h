@@ -24,6 +24,15 @@ struct EncodedFrame {
 };
 EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText& text);
 
+/// The same of one frame after the other: what stays as it was in the frame before is not packed again.
+class FrameEncoder {
+ public:
+  EncodedFrame encode(const renderer::Image& image, const renderer::PngText& text);
+
+ private:
+  renderer::PngSequence pictures_;
+};
+
 /// The bytes of the file of another output; its hash is that of the samples, low byte first.
 EncodedFrame encodedOutput(const renderer::Raster& raster, const renderer::PngText& text);
 

@@ -1,7 +1,6 @@
 #include "demos/frame_writer.h"
 
 #include "demos/atomic_file.h"
-#include "demos/frame_identity.h"
 #include "demos/progress.h"
 
 namespace carom::demos {
@@ -19,12 +18,17 @@ std::uint64_t writeEncoded(const EncodedFrame& encoded, const std::filesystem::p
 }  // namespace
 
 std::optional<FrameRecord> writeFrameFile(FrameToWrite frame) {
+  FrameEncoder encoder;
+  return writeFrameFile(std::move(frame), encoder);
+}
+
+std::optional<FrameRecord> writeFrameFile(FrameToWrite frame, FrameEncoder& encoder) {
   const double started_s = steadySeconds();
   for (OutputToWrite& output : frame.outputs) {
     output.record.pixel_hash = writeEncoded(encodedOutput(output.raster, output.text), output.path);
     frame.record.outputs.push_back(output.record);
   }
-  frame.record.pixel_hash = writeEncoded(encodedFrame(frame.image, frame.text), frame.path);
+  frame.record.pixel_hash = writeEncoded(encoder.encode(frame.image, frame.text), frame.path);
   frame.record.timings.encode_ms = 1000.0 * (steadySeconds() - started_s);
   return frame.record;
 }

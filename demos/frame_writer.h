@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "demos/frame_identity.h"
 #include "demos/manifest.h"
 #include "renderer/image.h"
 #include "renderer/png.h"
@@ -34,13 +35,14 @@ struct FrameToWrite {
 };
 
 /// Writes the files of the frame's outputs and then its own; its record, completed. Throws CannotWrite.
+std::optional<FrameRecord> writeFrameFile(FrameToWrite frame, FrameEncoder& encoder);
 std::optional<FrameRecord> writeFrameFile(FrameToWrite frame);
 
 class FrameWriter {
  public:
   /// What is done with a frame in the thread; a record it returns is kept for `finish`.
   using Write = std::function<std::optional<FrameRecord>(FrameToWrite)>;
-  explicit FrameWriter(Write write = writeFrameFile);
+  explicit FrameWriter(Write write = [](FrameToWrite frame) { return writeFrameFile(std::move(frame)); });
   /// Writes what was handed in, then ends; use `finish` to learn of failures.
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "renderer/offscreen_context.h"
+#include "renderer/scissor.h"
 #include "renderer/shader_program.h"
 
 namespace carom::renderer {
@@ -57,7 +58,8 @@ void Backdrop::createTarget() {
   }
 }
 
-void Backdrop::copyTo(GLuint target, const FrameBlock& block, bool with_ground) {
+void Backdrop::copyTo(GLuint target, const FrameBlock& block, bool with_ground,
+                      std::span<const GridBlock> blocks) {
   const Shown wanted{withoutShadows(block), with_ground};
   const bool same = shown_ && shown_->with_ground == with_ground &&
                     std::memcmp(&shown_->block, &wanted.block, sizeof(FrameBlock)) == 0;
@@ -69,8 +71,9 @@ void Backdrop::copyTo(GLuint target, const FrameBlock& block, bool with_ground) 
   }
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  const int w = request_.width, h = request_.height;
-  gl_.BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  for (const GridBlock& b : blocks)
+    gl_.BlitFramebuffer(b.x_begin, b.y_begin, b.x_end, b.y_end, b.x_begin, b.y_begin, b.x_end, b.y_end,
+                        GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target);
 }
 
@@ -94,7 +97,7 @@ void Backdrop::draw(bool with_ground) const {
 }
 
 // Drawn a little nearer than the ground, which has its depths already.
-void Backdrop::drawShadows(std::span<const std::array<float, 2>> triangles) {
+void Backdrop::drawShadows(std::span<const GroundTriangle> triangles, std::span<const GridBlock> blocks) {
   if (triangles.empty()) return;
   gl_.BindVertexArray(triangle_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, triangle_buffer_);
@@ -105,7 +108,12 @@ void Backdrop::drawShadows(std::span<const std::array<float, 2>> triangles) {
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(0.0f, -8.0f);
   gl_.UseProgram(shadowed_ground_program_);
-  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
+  gl_.Enable(GL_SCISSOR_TEST);
+  for (const GridBlock& block : blocks) {
+    setScissor(gl_, block);
+    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.size()));
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 

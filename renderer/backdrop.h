@@ -3,14 +3,15 @@
 // the light alone, so that it is drawn once and copied under frame after frame while they stand still; the
 // ground's shadows are drawn over it. Tested through the frames of tests/renderer/frame_renderer_test.cpp.
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "renderer/gl_functions.h"
+#include "renderer/grid_cover.h"
 #include "renderer/shaders.h"
+#include "renderer/shadow_cells.h"
 
 namespace carom::renderer {
 
@@ -25,13 +26,13 @@ class Backdrop {
   /// `gl` must outlive this.
   Backdrop(const GlFunctions& gl, const Request& request);
 
-  /// Fills `target`, of the same size, with colours and depths; with or without ground. `block` must be what
-  /// the uniform block `Frame` holds, and what the ground mirrors be bound.
-  void copyTo(GLuint target, const FrameBlock& block, bool with_ground);
+  /// Fills those blocks of `target`, of the same size, with colours and depths; with or without ground.
+  /// `block` must be what the uniform block `Frame` holds, and what the ground mirrors be bound.
+  void copyTo(GLuint target, const FrameBlock& block, bool with_ground, std::span<const GridBlock> blocks);
 
-  /// Draws the ground again within `triangles` (see ShadowCells), into the framebuffer that is bound, with
-  /// the shadows of the map that is bound, wherever the ground is seen.
-  void drawShadows(std::span<const std::array<float, 2>> triangles);
+  /// Draws the ground again within `triangles`, into those blocks of the framebuffer that is bound, with the
+  /// shadows of the map that is bound, wherever the ground is seen.
+  void drawShadows(std::span<const GroundTriangle> triangles, std::span<const GridBlock> blocks);
 
  private:
   void createTarget();

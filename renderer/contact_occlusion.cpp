@@ -122,7 +122,7 @@ class Collector {
       for (std::size_t k = 0; k < receiver.parts.size(); ++k) darkenPart(receiver, k, occluder);
   }
 
-  std::vector<OcclusionVertex> take() { return std::move(triangles_); }
+  std::vector<OcclusionTriangle> take() { return std::move(triangles_); }
 
  private:
   void darkenPart(const PlacedBody& receiver, std::size_t part, const PlacedPart& occluder) {
@@ -160,7 +160,9 @@ class Collector {
     }
     clipToReach(occluder, reach.seen);
     for (std::size_t i = 2; i < polygon_.size(); ++i)
-      for (const Vec3& p : {polygon_[0], polygon_[i - 1], polygon_[i]}) append(p, n, reach, occluder);
+      triangles_.push_back({vertex(polygon_[0], n, reach, occluder),
+                            vertex(polygon_[i - 1], n, reach, occluder),
+                            vertex(polygon_[i], n, reach, occluder)});
   }
 
   // Leaves what lies in the occluder's box, widened on all sides.
@@ -176,27 +178,28 @@ class Collector {
     }
   }
 
-  void append(const Vec3& p_E, const Vec3& n_E, const Reach& reach, const PlacedPart& occluder) {
+  static OcclusionVertex vertex(const Vec3& p_E, const Vec3& n_E, const Reach& reach,
+                                const PlacedPart& occluder) {
     const Eigen::Vector3f p = p_E.cast<float>(), h = occluder.box->half.cast<float>();
     const Eigen::Vector3f q = (occluder.R_RE * (p_E - occluder.center)).cast<float>();
     const Eigen::Vector3f n = (occluder.R_RE * n_E).cast<float>();
-    triangles_.push_back({{p.x(), p.y(), p.z()},
-                          {q.x(), q.y(), q.z()},
-                          {n.x(), n.y(), n.z()},
-                          {h.x(), h.y(), h.z()},
-                          static_cast<float>(occluder.box->radius),
-                          static_cast<float>(reach.whole),
-                          static_cast<float>(reach.strength)});
+    return {{p.x(), p.y(), p.z()},
+            {q.x(), q.y(), q.z()},
+            {n.x(), n.y(), n.z()},
+            {h.x(), h.y(), h.z()},
+            static_cast<float>(occluder.box->radius),
+            static_cast<float>(reach.whole),
+            static_cast<float>(reach.strength)};
   }
 
   double focal_px_;
   std::vector<Vec3> polygon_, kept_;
-  std::vector<OcclusionVertex> triangles_;
+  std::vector<OcclusionTriangle> triangles_;
 };
 
 }  // namespace
 
-std::vector<OcclusionVertex> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px) {
+std::vector<OcclusionTriangle> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px) {
   std::vector<PlacedBody> placed;
   for (const OcclusionBody& body : bodies) placed.push_back(place(body));
   std::vector<std::size_t> order(placed.size());

@@ -4,6 +4,7 @@
 // rounded box. Works alike for grounds, ramps, walls and piled bodies. Tested in
 // tests/renderer/contact_occlusion_test.cpp.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct OcclusionVertex {
   float strength;  ///< Of the light, what is lost where the box touches from straight above.
 };
 
+using OcclusionTriangle = std::array<OcclusionVertex, 3>;
+
 /// A body as seen by this pass.
 struct OcclusionBody {
   const Solid* solid = nullptr;
@@ -31,9 +34,9 @@ struct OcclusionBody {
   bool endless_ground = false;        ///< Its upward faces count as unbounded; it darkens nothing itself.
 };
 
-/// Triangles (three vertices each) to draw over the scene. Only faces turned to the eye count, and only
+/// Triangles to draw over the scene. Only faces turned to the eye count, and only
 /// effects that are larger than a pixel at `focal_px`, or than some pixels between bodies. Cost: bodies
 /// sorted along x, then pairs that overlap there.
-std::vector<OcclusionVertex> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px);
+std::vector<OcclusionTriangle> contactOcclusion(std::span<const OcclusionBody> bodies, double focal_px);
 
 }  // namespace carom::renderer

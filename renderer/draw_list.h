@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/frame_renderer.h"
+#include "renderer/grid_cover.h"
 #include "renderer/scene_geometry.h"
 
 namespace carom::renderer {
@@ -27,6 +28,12 @@ struct DrawGroup {
   BodyShader shader = BodyShader::kShadowed;
   int first = 0;
   int count = 0;
+};
+
+/// What is drawn within a block of pixels or texels.
+struct BlockGroups {
+  GridBlock block;
+  std::vector<DrawGroup> groups;
 };
 
 struct DrawList {

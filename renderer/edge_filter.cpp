@@ -102,21 +102,32 @@ int endSide(bool first_side, bool second_side) {
   return static_cast<int>(first_side) - static_cast<int>(second_side);
 }
 
+// The part of a run that is mixed: pixels [begin, end) of it, on either side or one.
+struct Part {
+  int begin = 0;
+  int end = 0;
+  bool side[2] = {true, true};
+};
+
 // Mixes what the line cuts off each pixel of the run: under half of it, of length n / 2 and height 1/2, pixel
 // k holds (n - 2k - 1) / 2n, and the middle one of an odd number 1 / 8n of either half.
-void mixRun(const Tables& t, const Run& run, const Pair& pair) {
+void mixRun(const Tables& t, const Run& run, const Part& part, const Pair& pair) {
   const int n = run.length;
   const float each = 0.5f * static_cast<float>(kWhole) / static_cast<float>(n);
-  for (int k = 0; k < n / 2; ++k) {
-    const int weight = static_cast<int>(each * static_cast<float>(n - 2 * k - 1));
-    if (run.enters != 0) pair.mixOne(t, k, run.enters > 0 ? 0 : 1, weight);
-    if (run.leaves != 0) pair.mixOne(t, n - 1 - k, run.leaves > 0 ? 0 : 1, weight);
-  }
-  if (n % 2 == 0) return;
+  const auto weight = [&](int k) { return static_cast<int>(each * static_cast<float>(n - 2 * k - 1)); };
+  const auto mixHalf = [&](int tells, int begin, int end, const auto& fromEnd) {
+    const int side = tells > 0 ? 0 : 1;
+    if (tells == 0 || !part.side[side]) return;
+    for (int i = std::max(begin, part.begin); i < std::min(end, part.end); ++i)
+      pair.mixOne(t, i, side, weight(fromEnd(i)));
+  };
+  mixHalf(run.enters, 0, n / 2, [](int i) { return i; });
+  mixHalf(run.leaves, n - n / 2, n, [n](int i) { return n - 1 - i; });
+  if (n % 2 == 0 || n / 2 < part.begin || n / 2 >= part.end) return;
   const int both = run.enters + run.leaves;
-  const int weight = static_cast<int>(0.25f * each * static_cast<float>(std::max(std::abs(both), 1)));
-  if (both >= 0) pair.mixOne(t, n / 2, 0, weight);
-  if (both <= 0) pair.mixOne(t, n / 2, 1, weight);
+  const int middle = static_cast<int>(0.25f * each * static_cast<float>(std::max(std::abs(both), 1)));
+  if (both >= 0 && part.side[0]) pair.mixOne(t, n / 2, 0, middle);
+  if (both <= 0 && part.side[1]) pair.mixOne(t, n / 2, 1, middle);
 }
 
 }  // namespace
@@ -128,26 +139,78 @@ EdgeFilter::EdgeFilter(int width, int height)
   begins_.assign(static_cast<std::size_t>(width), 0);
 }
 
-void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
+void EdgeFilter::check(const std::vector<std::uint8_t>& rgba) const {
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   REQUIRE(rgba.size() == 4 * pixels, rgba.size(), width_, height_);
-  image.width = width_;
-  image.height = height_;
-  image.rgb.resize(3 * pixels);
-  for (int y = 0; y < height_; ++y) {
-    takeRow(rgba.data(), y, image);
-    if (y > 0) mixRowPair(rgba.data(), y - 1, image);
-  }
-  mixColumnPairs(rgba.data(), image);
 }
 
-void EdgeFilter::takeRow(const std::uint8_t* rgba, int y, Image& image) {
+void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
+  check(rgba);
+  image.width = width_;
+  image.height = height_;
+  image.rgb.resize(rgba.size() / 4 * 3);
+  const Window whole{0, width_, 0, height_};
+  for (int y = 0; y < height_; ++y) {
+    markRow(rgba.data(), y);
+    takeRow(rgba.data(), y, whole, image);
+    if (y > 0) mixRowPair(rgba.data(), y - 1, whole, image);
+  }
+  mixColumnPairs(rgba.data(), whole, image);
+}
+
+void EdgeFilter::applyAgain(const std::vector<std::uint8_t>& rgba, std::span<const GridBlock> blocks,
+                            Image& image) {
+  check(rgba);
+  REQUIRE(image.width == width_ && image.height == height_, image.width, image.height);
+  std::vector<Window> changed;
+  for (const GridBlock& b : blocks)
+    if (!b.isEmpty()) changed.push_back({b.x_begin, b.x_end, height_ - b.y_end, height_ - b.y_begin});
+  for (const Window& window : changed)
+    for (int y = std::max(window.top - 1, 0); y < window.bottom; ++y) markRow(rgba.data(), y);
+  for (const Window& window : changed) filter(rgba.data(), reached(window), image);
+}
+
+// The pixels that are mixed on account of those in `changed`: as far as the runs go that pass near them. What
+// is marked outside of a change is what was marked there before, so that no run went farther then.
+EdgeFilter::Window EdgeFilter::reached(const Window& changed) const {
+  constexpr int kBeside = 2;  // A run that ends so near may owe its end to the change.
+  const Window near{std::max(changed.left - kBeside, 0), std::min(changed.right + kBeside, width_),
+                    std::max(changed.top - kBeside, 0), std::min(changed.bottom + kBeside, height_)};
+  Window window = near;
+  for (int y = near.top; y < near.bottom; ++y) {
+    int left = near.left, right = near.right;
+    while (left > 0 && isMarked(below_, left, y)) --left;
+    while (right < width_ && isMarked(below_, right - 1, y)) ++right;
+    window.left = std::min(window.left, left);
+    window.right = std::max(window.right, right);
+  }
+  for (int x = near.left; x < near.right; ++x) {
+    int top = near.top, bottom = near.bottom;
+    while (top > 0 && isMarked(right_, x, top)) --top;
+    while (bottom < height_ && isMarked(right_, x, bottom - 1)) ++bottom;
+    window.top = std::min(window.top, top);
+    window.bottom = std::max(window.bottom, bottom);
+  }
+  return window;
+}
+
+// Makes the image's pixels within `window` of `rgba`, whose pixels are all marked.
+void EdgeFilter::filter(const std::uint8_t* rgba, const Window& window, Image& image) {
+  for (int y = window.top; y < window.bottom; ++y) {
+    takeRow(rgba, y, window, image);
+    if (y > 0) mixRowPair(rgba, y - 1, window, image);
+  }
+  if (window.bottom < height_) mixRowPair(rgba, window.bottom - 1, window, image);
+  mixColumnPairs(rgba, window, image);
+}
+
+void EdgeFilter::takeRow(const std::uint8_t* rgba, int y, const Window& window, Image& image) const {
   const std::uint8_t* from = rgba + 4 * static_cast<std::ptrdiff_t>(width_) * (height_ - 1 - y);
   std::uint8_t* to = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(width_) * y;
-  // Four bytes at once; the fourth is overwritten by the next pixel, which the last one of a row has not.
-  for (std::ptrdiff_t x = 0; x + 1 < width_; ++x) std::memcpy(to + 3 * x, from + 4 * x, 4);
-  std::memcpy(to + 3 * (width_ - 1), from + 4 * (width_ - 1), 3);
-  markRow(rgba, y);
+  // Four bytes at once; the fourth is overwritten by the next pixel, which the last one has not.
+  const std::ptrdiff_t last = window.right - 1;
+  for (std::ptrdiff_t x = window.left; x < last; ++x) std::memcpy(to + 3 * x, from + 4 * x, 4);
+  std::memcpy(to + 3 * last, from + 4 * last, 3);
 }
 
 void EdgeFilter::markRow(const std::uint8_t* rgba, int y) {
@@ -175,7 +238,7 @@ bool EdgeFilter::isMarked(const std::vector<Bits>& bits, int x, int y) const {
 }
 
 // Runs along row y, between it (first side) and the row below.
-void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, Image& image) const {
+void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, const Window& window, Image& image) const {
   const Tables& t = tables();
   const Bits* bits = below_.data() + wordAt(y);
   const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
@@ -189,20 +252,22 @@ void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, Image& image) const
     while (found == 0 && word + 1 < words_) found = bits[++word] ^ like;
     return found == 0 ? width_ : static_cast<int>(64 * word) + std::countr_zero(found);
   };
-  for (int begin = firstFrom(0, 0), end = 0; begin < width_; begin = firstFrom(end, 0)) {
+  int first = window.left;
+  while (first > 0 && isMarked(below_, first, y)) --first;
+  for (int begin = firstFrom(first, 0), end = 0; begin < window.right; begin = firstFrom(end, 0)) {
     end = firstFrom(begin, ~Bits{0});
     const Run run{end - begin, endSide(isMarked(right_, begin - 1, y), isMarked(right_, begin - 1, y + 1)),
                   endSide(isMarked(right_, end - 1, y), isMarked(right_, end - 1, y + 1))};
     if (run.enters == 0 && run.leaves == 0) continue;
     const std::ptrdiff_t x = begin;
-    mixRun(t, run,
+    mixRun(t, run, {window.left - begin, window.right - begin, {window.hasRow(y), window.hasRow(y + 1)}},
            {{source + 4 * x, source - source_row + 4 * x}, {out + 3 * x, out + out_row + 3 * x}, 4, 3});
   }
 }
 
 // Runs along a column, between it (first side) and the column to its right. All columns are walked together,
-// row by row, to stay within the cache.
-void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image) {
+// row by row, to stay within the cache; a pixel is mixed by the run that ends first, then by the left one.
+void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, const Window& window, Image& image) {
   const Tables& t = tables();
   const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
                        out_row = 3 * static_cast<std::ptrdiff_t>(width_);
@@ -213,18 +278,39 @@ void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, Image& image) {
     const std::uint8_t* source =
         rgba + source_row * (height_ - 1 - begin) + 4 * static_cast<std::ptrdiff_t>(x);
     std::uint8_t* out = image.rgb.data() + out_row * begin + 3 * static_cast<std::ptrdiff_t>(x);
-    mixRun(t, run, {{source, source + 4}, {out, out + 3}, -source_row, out_row});
+    mixRun(t, run,
+           {window.top - begin, window.bottom - begin, {window.hasColumn(x), window.hasColumn(x + 1)}},
+           {{source, source + 4}, {out, out + 3}, -source_row, out_row});
   };
-  const auto forEach = [](std::size_t word, Bits bits, const auto& act) {
-    for (; bits != 0; bits &= bits - 1) act(static_cast<int>(64 * word) + std::countr_zero(bits));
+  const int left = std::max(window.left - 1, 0), right = window.right;
+  const std::size_t first_word = static_cast<std::size_t>(left) / 64,
+                    end_word = static_cast<std::size_t>(right - 1) / 64 + 1;
+  const auto forEach = [&](std::size_t word, Bits bits, const auto& act) {
+    const int at = static_cast<int>(64 * word);
+    if (at < left) bits = bits >> (left - at) << (left - at);
+    if (right - at < 64) bits &= (Bits{1} << (right - at)) - 1;
+    for (; bits != 0; bits &= bits - 1) act(at + std::countr_zero(bits));
   };
-  for (int y = 0; y < height_; ++y)
-    for (std::size_t word = 0; word < words_; ++word) {
+  open_.clear();
+  for (int y = window.top; y < window.bottom; ++y)
+    for (std::size_t word = first_word; word < end_word; ++word) {
       const Bits here = right_[wordAt(y) + word], next = right_[wordAt(y + 1) + word];
-      const Bits before = y > 0 ? right_[wordAt(y - 1) + word] : 0;
-      forEach(word, here & ~before, [&](int x) { begins_[static_cast<std::size_t>(x)] = y; });
+      const Bits before = y > window.top ? right_[wordAt(y - 1) + word] : 0;
+      forEach(word, here & ~before, [&](int x) {
+        int begin = y;
+        while (y == window.top && isMarked(right_, x, begin - 1)) --begin;
+        begins_[static_cast<std::size_t>(x)] = begin;
+      });
       forEach(word, here & ~next, [&](int x) { finish(x, begins_[static_cast<std::size_t>(x)], y + 1); });
+      if (y + 1 < window.bottom) continue;
+      forEach(word, here & next, [&](int x) {
+        int end = y + 1;
+        while (isMarked(right_, x, end)) ++end;
+        open_.emplace_back(end, x);
+      });
     }
+  std::sort(open_.begin(), open_.end());
+  for (const auto& [end, x] : open_) finish(x, begins_[static_cast<std::size_t>(x)], end);
 }
 
 }  // namespace carom::renderer

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -14,24 +15,25 @@
 #include "renderer/contact_occlusion.h"
 #include "renderer/draw_list.h"
 #include "renderer/edge_filter.h"
+#include "renderer/frame_block.h"
+#include "renderer/frame_damage.h"
+#include "renderer/mirror_pass.h"
 #include "renderer/multiple_exposure.h"
+#include "renderer/occlusion_pass.h"
 #include "renderer/scene_geometry.h"
+#include "renderer/scissor.h"
 #include "renderer/shader_program.h"
 #include "renderer/shaders.h"
 #include "renderer/shadow_cells.h"
 #include "renderer/shadow_fit.h"
+#include "renderer/shadow_map.h"
 #include "renderer/surface_pass.h"
 #include "renderer/water_pass.h"
 
 namespace carom::renderer {
 namespace {
 
-constexpr double kShadowLift = 2.2;  // Texels along a grazed surface's normal: the reach of the softening.
-constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
-constexpr double kHorizonOverDistance =
-    2000.0;  // Of the same distance: where the ground ends, long since all air.
 constexpr double kShadowsOverHorizon = 0.5;  // How far off the ground shows shadows.
-constexpr float kNoGround = -1e30f;
 
 Settings checked(const Settings& settings) {
   const auto fits = [](int side) { return side >= 1 && side <= kMaxImageSide; };
@@ -46,31 +48,39 @@ Settings checked(const Settings& settings) {
   return settings;
 }
 
-// Squares of 1 m as long as the camera is at a distance where they help.
-double checkerSquare(double distance_m) {
-  constexpr double kSmallest = 2.5, kLargest = 100.0;  // Camera distances between which a square is 1 m.
-  double square = 1.0;
-  while (distance_m < kSmallest * square && square > 1e-6) square *= 0.1;
-  while (distance_m > kLargest * square && square < 1e6) square *= 10.0;
-  return square;
+// Whether values have the same bits; unlike ==, of zeros and of what is no number too.
+template <typename Vector>
+bool sameBits(const Vector& a, const Vector& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(typename Vector::Scalar) * Vector::SizeAtCompileTime) == 0;
+}
+bool isSame(const Camera& a, const Camera& b) {
+  return sameBits(a.eye, b.eye) && sameBits(a.target, b.target) && a.fov_degrees == b.fov_degrees;
+}
+bool isSame(const Instance& a, const Instance& b) {
+  return a.solid == b.solid && a.checker == b.checker &&
+         std::memcmp(&a.color, &b.color, sizeof(Color)) == 0 &&
+         sameBits(a.X_WB.rotation.coeffs(), b.X_WB.rotation.coeffs()) &&
+         sameBits(a.X_WB.position, b.X_WB.position);
 }
 
-// Moves the image by `shift_px`, right and up.
-std::array<float, 16> shifted(std::array<float, 16> clip_from_E, const Vec2& shift_px,
-                              const Settings& settings) {
-  if (shift_px.isZero(0.0)) return clip_from_E;
-  const double x = 2.0 * shift_px.x() / settings.width, y = 2.0 * shift_px.y() / settings.height;
-  for (std::size_t column = 0; column < 4; ++column) {
-    const float w = clip_from_E[4 * column + 3];
-    clip_from_E[4 * column] += static_cast<float>(x) * w;
-    clip_from_E[4 * column + 1] += static_cast<float>(y) * w;
+// The bodies of each block in their order, as far as they may be seen in it; `boundsOf` tells where a body
+// is. Their records are appended.
+template <typename BoundsOf>
+std::vector<BlockGroups> groupsWithin(const std::vector<GridBlock>& blocks, std::span<const DrawnBody> bodies,
+                                      const BoundsOf& boundsOf, std::vector<InstanceRecord>& records) {
+  std::vector<GridBlock> seen;
+  for (const DrawnBody& body : bodies) seen.push_back(boundsOf(body));
+  std::vector<BlockGroups> within;
+  for (const GridBlock& block : blocks) {
+    within.push_back({block, {}});
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (seen[i].meets(block)) appendTo(within.back().groups, records, bodies[i]);
   }
-  return clip_from_E;
+  return within;
 }
 
-void copy(float (&to)[4], const Vec3& v, double w) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
-  to[3] = static_cast<float>(w);
+bool isWhole(std::span<const GridBlock> blocks, const Settings& settings) {
+  return blocks.size() == 1 && blocks.front() == GridBlock{0, settings.width, 0, settings.height};
 }
 
 }  // namespace
@@ -85,35 +95,37 @@ struct FrameRenderer::Impl {
         gl(context->gl()),
         geometry(gl, solids),
         filter(settings.width, settings.height),
+        shadow_map(gl, quality.shadow_texels),
+        occlusion_pass(gl),
         surface_pass(gl, {settings.width, settings.height}) {
-    linkPrograms();
     createTargets();
-    if (quality.mirror) createMirrorTarget();
-    createOcclusionBuffer();
+    if (quality.mirror)
+      mirror_pass =
+          std::make_unique<MirrorPass>(gl, linkBodies("mirrored body", "#define MIRROR\n#define CHECKER\n"),
+                                       settings.width, settings.height);
     gl.GenBuffers(1, &frame_buffer);
-    gl.GenVertexArrays(1, &no_attributes);
     pixels.resize(4 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   }
 
   std::string shaderVariant() const;
-  void linkPrograms();
   GLuint linkBodies(const char* name, const std::string& lines) const;
   GLuint bodyProgram(BodyShader shader);
   void createTargets();
-  void createMirrorTarget();
-  void createOcclusionBuffer();
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
                     const std::function<void()>& drawn, std::span<const WaterVolume> water);
-  void expose(const Sample& sample);
+  bool showsAlready(std::span<const Instance> instances, const Camera& camera,
+                    std::span<const WaterVolume> water) const;
+  std::vector<GridBlock> expose(const Sample& sample);
+  FrameDamage damageBy(const FrameInputs& inputs) const;
   ShadowCells castShadows(const Vec3& to_light);
-  FrameBlock uploadFrame(const ShadowView& shadow, const Sample& sample) const;
-  void drawShadows() const;
-  void drawMirrored() const;
-  void drawScene(const FrameBlock& block, const ShadowCells& shadows);
+  FrameInputs inputsOf(const Sample& sample, const ShadowCells& shadows) const;
+  FrameBlock blockOf(const Sample& sample, const ShadowView& shadow) const;
+  void uploadBlock(const FrameBlock& block) const;
+  void drawScene(const FrameInputs& inputs, std::span<const BlockGroups> bodies);
   void bindTextures() const;
-  std::vector<OcclusionVertex> occlusionTriangles() const;
-  void drawOcclusion() const;
-  void readBack();
+  std::vector<OcclusionTriangle> occlusionTriangles() const;
+  void drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks) const;
+  void readBack(std::span<const GridBlock> blocks);
   const SurfaceImage& knownSurfaces();
 
   // What the frame at hand shows.
@@ -123,8 +135,9 @@ struct FrameRenderer::Impl {
     std::optional<int> ground;
     ShadowView shadow;
     DrawList list;
-    std::vector<OcclusionVertex> occlusion;
+    std::vector<OcclusionTriangle> occlusion;
     std::vector<WaterVolume> water;
+    FrameInputs inputs;  // Of the exposure at hand.
   };
 
   Settings settings;
@@ -136,17 +149,20 @@ struct FrameRenderer::Impl {
   SceneGeometry geometry;
   EdgeFilter filter;
   MultipleExposure exposure;
+  ShadowMap shadow_map;
+  OcclusionPass occlusion_pass;
   SurfacePass surface_pass;
+  std::unique_ptr<MirrorPass> mirror_pass;  // Where the ground mirrors.
   std::unique_ptr<WaterPass> water_pass;
   std::unique_ptr<Backdrop> backdrop;
   std::array<GLuint, kBodyShaders> body_programs{};  // Linked when first needed.
-  GLuint shadow_program = 0, occlusion_program = 0, mirrored_program = 0;
-  GLuint scene_target = 0, shadow_target = 0, mirror_target = 0, shadow_map = 0, mirror_texture = 0;
-  int mirror_width = 0, mirror_height = 0;
-  GLuint frame_buffer = 0, no_attributes = 0, occlusion_array = 0, occlusion_buffer = 0;
+  GLuint scene_target = 0, frame_buffer = 0;
   std::vector<std::uint8_t> pixels;
   Image image;
   View view;
+  bool view_drawn = false;  // Whether `image` shows all of `view`.
+  std::optional<FrameInputs>
+      in_targets;  // What the targets and `pixels` were drawn from, if all from the same.
   SurfaceImage surfaces;
   bool surfaces_known = true;  // Those of a view that shows nothing yet: none.
 };
@@ -157,13 +173,6 @@ std::string FrameRenderer::Impl::shaderVariant() const {
   if (!quality.soft_look_up) variant += "#define SMALL_SHADOWS\n";
   if (quality.mirror) variant += "#define POLISHED\n";
   return variant;
-}
-
-void FrameRenderer::Impl::linkPrograms() {
-  shadow_program = linkProgram(gl, {"shadow", {kGlslHead, kShadowVertex}, {kGlslHead, kShadowFragment}});
-  occlusion_program =
-      linkProgram(gl, {"occlusion", {kGlslHead, kOcclusionVertex}, {kGlslHead, kOcclusionFragment}});
-  if (quality.mirror) mirrored_program = linkBodies("mirrored body", "#define MIRROR\n#define CHECKER\n");
 }
 
 GLuint FrameRenderer::Impl::linkBodies(const char* name, const std::string& lines) const {
@@ -202,78 +211,25 @@ void FrameRenderer::Impl::createTargets() {
   backdrop = std::make_unique<Backdrop>(
       gl, Backdrop::Request{settings.width, settings.height, shaderVariant(), quality.mirror});
 
-  gl.GenTextures(1, &shadow_map);
-  gl.BindTexture(GL_TEXTURE_2D, shadow_map);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, quality.shadow_texels, quality.shadow_texels, 0,
-                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  gl.GenFramebuffers(1, &shadow_target);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map, 0);
-  gl.DrawBuffer(GL_NONE);
-  const bool shadow_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  if (!scene_complete || !shadow_complete || gl.GetError() != GL_NO_ERROR) {
+  if (!scene_complete || !shadow_map.isComplete() || gl.GetError() != GL_NO_ERROR) {
     std::ostringstream message;
     message << "the GL driver has no room for an image of " << settings.width << "x" << settings.height;
     throw NoRenderer(message.str());
   }
 }
 
-void FrameRenderer::Impl::createOcclusionBuffer() {
-  gl.GenBuffers(1, &occlusion_buffer);
-  gl.GenVertexArrays(1, &occlusion_array);
-  gl.BindVertexArray(occlusion_array);
-  gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
-  constexpr std::size_t kTriple = 3 * sizeof(float);  // Attributes are three floats each.
-  static_assert(sizeof(OcclusionVertex) == 5 * kTriple);
-  for (GLuint i = 0; i < 5; ++i) {
-    gl.VertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(OcclusionVertex),
-                           reinterpret_cast<const void*>(kTriple * i));
-    gl.EnableVertexAttribArray(i);
-  }
-}
-
-// What the ground mirrors: bodies where alpha is one. Half as fine as the image: the exposures blur it
-// anyway.
-void FrameRenderer::Impl::createMirrorTarget() {
-  GLuint depth = 0;
-  mirror_width = (settings.width + 1) / 2;
-  mirror_height = (settings.height + 1) / 2;
-  gl.GenTextures(1, &mirror_texture);
-  gl.BindTexture(GL_TEXTURE_2D, mirror_texture);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, mirror_width, mirror_height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                nullptr);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl.GenRenderbuffers(1, &depth);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, depth);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, mirror_width, mirror_height);
-  gl.GenFramebuffers(1, &mirror_target);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, mirror_target);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mirror_texture, 0);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
-  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || gl.GetError() != GL_NO_ERROR) {
-    std::ostringstream message;
-    message << "the GL driver has no room for mirrored images of " << settings.width << "x"
-            << settings.height;
-    throw NoRenderer(message.str());
-  }
-}
-
-// One exposure or several, and their mean.
+// One exposure or several, and their mean; the image at hand, where it is of the same.
 const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera,
                                        const std::function<void()>& drawn,
                                        std::span<const WaterVolume> water) {
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
+  if (showsAlready(instances, camera, water)) {
+    if (drawn) drawn();
+    return image;
+  }
+  view_drawn = false;
   view.instances.assign(instances.begin(), instances.end());
   view.camera = camera;
   view.ground = findGround(instances, geometry);
@@ -282,29 +238,67 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   surfaces_known = false;
   context->makeCurrent();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    expose(samples[i]);
+    const std::vector<GridBlock> blocks = expose(samples[i]);
     if (drawn && i + 1 == samples.size()) {
       gl.Finish();
       drawn();
     }
-    readBack();
+    readBack(blocks);
     if (samples.size() > 1) exposure.add(image);
   }
   if (samples.size() > 1) exposure.develop(image);
+  if (samples.size() == 1 && view.water.empty()) in_targets = std::move(view.inputs);
+  view_drawn = true;
   return image;
 }
 
+// Whether a fresh drawing would be of the same values, bit by bit. Water moves; it is not worth comparing.
+bool FrameRenderer::Impl::showsAlready(std::span<const Instance> instances, const Camera& camera,
+                                       std::span<const WaterVolume> water) const {
+  return view_drawn && water.empty() && view.water.empty() && isSame(camera, view.camera) &&
+         std::equal(instances.begin(), instances.end(), view.instances.begin(), view.instances.end(),
+                    [](const Instance& a, const Instance& b) { return isSame(a, b); });
+}
+
 // The passes: shadow map, mirrored bodies, sky and ground, bodies, the ground's shadows, contact shadows,
-// water.
-void FrameRenderer::Impl::expose(const Sample& sample) {
+// water; each within the blocks that are not yet as they should be. Those of the image are returned.
+std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
   const ShadowCells shadows = castShadows(sample.to_light);
-  const FrameBlock block = uploadFrame(view.shadow, sample);
-  geometry.uploadInstances(gl, view.list.records);
-  drawShadows();
-  if (quality.mirror) drawMirrored();
-  drawScene(block, shadows);
-  drawOcclusion();
+  view.inputs = inputsOf(sample, shadows);
+  const FrameInputs& inputs = view.inputs;
+  const FrameDamage damage = damageBy(inputs);
+  in_targets.reset();
+  const std::vector<GridBlock> blocks = damage.image.blocks();
+  const ScreenBounds bounds(inputs.block, settings.width, settings.height);
+  std::vector<InstanceRecord> records;
+  const std::vector<BlockGroups> bodies = groupsWithin(
+      blocks, inputs.visible, [&](const DrawnBody& body) { return bounds.of(body); }, records);
+  const std::vector<BlockGroups> casters = groupsWithin(
+      damage.shadow_map.blocks(), inputs.casting,
+      [&](const DrawnBody& body) { return shadowMapBounds(inputs.block, body, quality.shadow_texels); },
+      records);
+  std::vector<DrawGroup> mirrored;
+  for (const DrawnBody& body : drawnBodies(view.list.mirrored, view.list.records))
+    appendTo(mirrored, records, body);
+
+  uploadBlock(inputs.block);
+  geometry.uploadInstances(gl, records);
+  shadow_map.draw(casters, geometry);
+  if (mirror_pass) {
+    bindTextures();
+    mirror_pass->draw(inputs.ground_seen ? mirrored : std::vector<DrawGroup>{}, geometry);
+  }
+  drawScene(inputs, bodies);
+  drawOcclusion(inputs, blocks);
   water_pass->draw(view.water, view.camera, view.list.depth);
+  return blocks;
+}
+
+// All of it where the targets hold something else than a frame of such inputs.
+FrameDamage FrameRenderer::Impl::damageBy(const FrameInputs& inputs) const {
+  const FrameSizes sizes{settings.width, settings.height, quality.shadow_texels};
+  if (in_targets && view.water.empty()) return frameDamage(*in_targets, inputs, sizes);
+  return wholeDamage(sizes);
 }
 
 // Decides what the shadow map shows, and with it which bodies are drawn how.
@@ -330,90 +324,45 @@ ShadowCells FrameRenderer::Impl::castShadows(const Vec3& to_light) {
   return {view.shadow, casters};
 }
 
-FrameBlock FrameRenderer::Impl::uploadFrame(const ShadowView& shadow, const Sample& sample) const {
-  const Camera& camera = view.camera;
+FrameInputs FrameRenderer::Impl::inputsOf(const Sample& sample, const ShadowCells& shadows) const {
   const DrawList& list = view.list;
-  const CameraAxes axes = cameraAxes(camera);
-  const double focal = focalLengthPixels(camera, settings.height);
-  const double distance = (camera.target - camera.eye).norm();
-  const double square = checkerSquare(distance);
-  FrameBlock block{};
-  const std::array<float, 16> clip =
-      shifted(clipFromE(camera, settings.width, settings.height, list.depth), sample.shift_px, settings);
-  std::copy(clip.begin(), clip.end(), block.clip_from_E);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 4; ++c) block.shadow_rows[r][c] = static_cast<float>(shadow.rows(r, c));
-  if (shadow.texel_m == 0.0) block.shadow_rows[0][3] = -1.0f;  // Outside the map everywhere: all is lit.
-  copy(block.to_light, sample.to_light, kShadowLift * shadow.texel_m);
-  const Vec3 x = axes.right / focal, y = axes.up / focal;
-  copy(block.ray_corner,
-       axes.forward - (0.5 * settings.width + sample.shift_px.x()) * x -
-           (0.5 * settings.height + sample.shift_px.y()) * y,
-       1.0 / (kFogOverDistance * distance));
-  copy(block.ray_x, x, quality.shadow_texels);
-  copy(block.ray_y, y, 0.0);
-  block.ground[0] = list.ground ? static_cast<float>(list.ground_z_E) : kNoGround;
-  block.ground[1] = static_cast<float>(1.0 / square);
-  block.ground[2] = static_cast<float>(std::fmod(camera.eye.x() / square, 2.0));
-  block.ground[3] = static_cast<float>(std::fmod(camera.eye.y() / square, 2.0));
-  for (int i = 0; i < 2; ++i) block.mirror[i] = static_cast<float>(sample.mirror_shear[i]);
-  block.mirror[2] = 1.0f / static_cast<float>(settings.width);
-  block.mirror[3] = 1.0f / static_cast<float>(settings.height);
-  block.reach[0] = static_cast<float>(kHorizonOverDistance * distance / (1 << (4 * kGroundRings)));
+  FrameInputs inputs;
+  inputs.block = blockOf(sample, view.shadow);
+  inputs.ground_seen = list.ground && list.ground_z_E < 0.0;
+  inputs.visible = drawnBodies(list.visible, list.records);
+  if (view.shadow.texel_m > 0.0) inputs.casting = drawnBodies(list.casting, list.records);
+  if (inputs.ground_seen && inputs.block.to_light[2] > 0.0f)
+    inputs.ground_shadows =
+        shadows.groundTriangles(list.ground_z_E, kShadowsOverHorizon * horizonDistance(view.camera));
+  inputs.occlusion = view.occlusion;
+  return inputs;
+}
+
+FrameBlock FrameRenderer::Impl::blockOf(const Sample& sample, const ShadowView& shadow) const {
+  const std::optional<double> ground_z_E =
+      view.list.ground ? std::optional(view.list.ground_z_E) : std::nullopt;
+  return frameBlock({view.camera, settings.width, settings.height, view.list.depth, shadow,
+                     quality.shadow_texels, sample, ground_z_E});
+}
+
+void FrameRenderer::Impl::uploadBlock(const FrameBlock& block) const {
   gl.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
-  return block;
-}
-
-void FrameRenderer::Impl::drawShadows() const {
-  if (view.shadow.texel_m == 0.0) return;
-  gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target);
-  gl.Viewport(0, 0, quality.shadow_texels, quality.shadow_texels);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Disable(GL_BLEND);
-  gl.DepthMask(GL_TRUE);
-  gl.DepthFunc(GL_LESS);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  gl.Enable(GL_CULL_FACE);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(1.5f, 4.0f);
-  gl.UseProgram(shadow_program);
-  for (const DrawGroup& group : view.list.casting) geometry.draw(gl, group.range, group.first, group.count);
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-}
-
-// The winding turns over in a mirror.
-void FrameRenderer::Impl::drawMirrored() const {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, mirror_target);
-  gl.Viewport(0, 0, mirror_width, mirror_height);
-  gl.Enable(GL_FRAMEBUFFER_SRGB);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Disable(GL_BLEND);
-  gl.DepthMask(GL_TRUE);
-  gl.DepthFunc(GL_LEQUAL);
-  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  bindTextures();
-  if (!view.list.ground || !(view.list.ground_z_E < 0.0)) return;
-  gl.Enable(GL_CULL_FACE);
-  gl.FrontFace(GL_CW);
-  gl.UseProgram(mirrored_program);
-  for (const DrawGroup& group : view.list.mirrored) geometry.draw(gl, group.range, group.first, group.count);
-  gl.FrontFace(GL_CCW);
 }
 
 void FrameRenderer::Impl::bindTextures() const {
   gl.ActiveTexture(GL_TEXTURE1);
-  gl.BindTexture(GL_TEXTURE_2D, mirror_texture);
+  gl.BindTexture(GL_TEXTURE_2D, mirror_pass ? mirror_pass->texture() : 0);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, shadow_map);
+  gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
 }
 
-void FrameRenderer::Impl::drawScene(const FrameBlock& block, const ShadowCells& shadows) {
-  const DrawList& list = view.list;
-  const bool ground_seen = list.ground && list.ground_z_E < 0.0;
+void FrameRenderer::Impl::drawScene(const FrameInputs& inputs, std::span<const BlockGroups> bodies) {
+  std::vector<GridBlock> blocks;
+  for (const BlockGroups& within : bodies) blocks.push_back(within.block);
   bindTextures();
-  backdrop->copyTo(scene_target, block, ground_seen);
+  backdrop->copyTo(scene_target, inputs.block, inputs.ground_seen, blocks);
   gl.Viewport(0, 0, settings.width, settings.height);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Enable(GL_DEPTH_TEST);
@@ -421,19 +370,19 @@ void FrameRenderer::Impl::drawScene(const FrameBlock& block, const ShadowCells& 
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);
-  for (const DrawGroup& group : list.visible) {
-    gl.UseProgram(bodyProgram(group.shader));
-    geometry.draw(gl, group.range, group.first, group.count);
+  gl.Enable(GL_SCISSOR_TEST);
+  for (const auto& [block, groups] : bodies) {
+    setScissor(gl, block);
+    for (const DrawGroup& group : groups) {
+      gl.UseProgram(bodyProgram(group.shader));
+      geometry.draw(gl, group.range, group.first, group.count);
+    }
   }
-  gl.Disable(GL_CULL_FACE);
-  gl.DepthMask(GL_FALSE);
-  if (ground_seen && block.to_light[2] > 0.0f) {
-    const double horizon_m = kHorizonOverDistance * (view.camera.target - view.camera.eye).norm();
-    backdrop->drawShadows(shadows.groundTriangles(list.ground_z_E, kShadowsOverHorizon * horizon_m));
-  }
+  gl.Disable(GL_SCISSOR_TEST);
+  backdrop->drawShadows(inputs.ground_shadows, blocks);
 }
 
-std::vector<OcclusionVertex> FrameRenderer::Impl::occlusionTriangles() const {
+std::vector<OcclusionTriangle> FrameRenderer::Impl::occlusionTriangles() const {
   std::vector<OcclusionBody> bodies;
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const Instance& instance = view.instances[i];
@@ -445,35 +394,38 @@ std::vector<OcclusionVertex> FrameRenderer::Impl::occlusionTriangles() const {
   return contactOcclusion(bodies, focalLengthPixels(view.camera, settings.height));
 }
 
-void FrameRenderer::Impl::drawOcclusion() const {
-  const std::vector<OcclusionVertex>& triangles = view.occlusion;
-  if (triangles.empty()) return;
-  gl.BindVertexArray(occlusion_array);
-  gl.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(OcclusionVertex)),
-                triangles.data(), GL_STREAM_DRAW);
-  gl.Disable(GL_FRAMEBUFFER_SRGB);  // Blending bytes is cheap; the shader accounts for their meaning.
-  gl.Enable(GL_BLEND);
-  gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(-1.0f, -8.0f);
-  gl.UseProgram(occlusion_program);
-  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  gl.Disable(GL_BLEND);
-  gl.Enable(GL_FRAMEBUFFER_SRGB);
+void FrameRenderer::Impl::drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks) const {
+  const ScreenBounds bounds(inputs.block, settings.width, settings.height);
+  std::vector<BlockOcclusion> within;
+  for (const GridBlock& block : blocks) within.push_back({block, {}});
+  for (const OcclusionTriangle& triangle : inputs.occlusion) {
+    const GridBlock seen = bounds.of(triangle);
+    for (BlockOcclusion& part : within)
+      if (seen.meets(part.block)) part.triangles.push_back(triangle);
+  }
+  occlusion_pass.draw(within);
 }
 
-void FrameRenderer::Impl::readBack() {
+void FrameRenderer::Impl::readBack(std::span<const GridBlock> blocks) {
   gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-  gl.ReadPixels(0, 0, settings.width, settings.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-  filter.apply(pixels, image);
+  gl.PixelStorei(GL_PACK_ROW_LENGTH, settings.width);
+  for (const GridBlock& b : blocks) {
+    const std::size_t first = static_cast<std::size_t>(b.y_begin) * static_cast<std::size_t>(settings.width) +
+                              static_cast<std::size_t>(b.x_begin);
+    gl.ReadPixels(b.x_begin, b.y_begin, b.x_end - b.x_begin, b.y_end - b.y_begin, GL_RGBA, GL_UNSIGNED_BYTE,
+                  pixels.data() + 4 * first);
+  }
+  gl.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  if (image.rgb.empty() || isWhole(blocks, settings))
+    filter.apply(pixels, image);
+  else
+    filter.applyAgain(pixels, blocks, image);
 }
 
 const SurfaceImage& FrameRenderer::Impl::knownSurfaces() {
   if (surfaces_known) return surfaces;
   context->makeCurrent();
-  uploadFrame({}, {});
+  uploadBlock(blockOf({}, {}));
   surface_pass.draw(view.instances, solids, view.camera, view.list, geometry, surfaces);
   surfaces_known = true;
   return surfaces;

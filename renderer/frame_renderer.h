@@ -1,8 +1,9 @@
 #pragma once
 // Draws frames off screen from plain values. The public face of the renderer: it knows shapes, poses, colours
 // and a camera, nothing of physics. One sun with soft shadows, light from sky and ground, contact shadows,
-// air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames.
-// Tested in tests/renderer/frame_renderer_test.cpp.
+// air between here and the horizon. Frames depend on the arguments of `draw` alone, not on earlier frames:
+// what of a frame is as in the one before is not drawn again, and would come out the same. Tested in
+// tests/renderer/frame_renderer_test.cpp and partial_drawing_test.cpp.
 
 #include <functional>
 #include <memory>
@@ -58,10 +59,10 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer&) = delete;
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  /// Draws one frame; the image is valid until the next call. From any thread, one at a time.
-  /// Throws InputError when the camera is impossible (see `cameraAxes`).
-  /// `drawn` is called when GL has finished and the image is about to be read back, to tell the two apart;
-  /// waiting for GL there changes no pixel. `water` is drawn over all of it; it is not in `surfaces()`.
+  /// Draws one frame, or what of it differs from the last; the image is valid until the next call. From any
+  /// thread, one at a time. Throws InputError when the camera is impossible (see `cameraAxes`). `drawn` is
+  /// called when GL has finished and the image is about to be read back, to tell the two apart; waiting for
+  /// GL there changes no pixel. `water` is drawn over all of it; it is not in `surfaces()`.
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
                     const std::function<void()>& drawn = {}, std::span<const WaterVolume> water = {});
 

@@ -312,9 +312,9 @@ std::vector<std::uint8_t> zlibFile(const Rows& rows, Zlib zlib, const PngText& t
   return bytes;
 }
 
-std::vector<std::uint8_t> quickFile(const Rows& rows, Filter filter, const PngText& text) {
+std::vector<std::uint8_t> packedFile(const Rows& rows, const std::vector<std::uint8_t>& packed,
+                                     const PngText& text) {
   std::vector<png_text> chunks = textChunks(text);
-  const std::vector<std::uint8_t> packed = quickDeflate(filtered(rows, filter));
   std::vector<std::uint8_t> bytes;
   bytes.reserve(packed.size() + 4096);
   ErrorText error;
@@ -326,15 +326,67 @@ std::vector<std::uint8_t> quickFile(const Rows& rows, Filter filter, const PngTe
   return bytes;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text, PngDeflate deflate) {
+Rows rowsOf(const Image& image) {
   REQUIRE(image.width > 0 && image.height > 0, image.width, image.height);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   REQUIRE(image.rgb.size() == 3 * pixels, image.rgb.size(), image.width, image.height);
-  const Rows rows{.width = image.width, .height = image.height, .data = image.rgb.data()};
-  if (deflate == PngDeflate::kBest && hasQuickDeflate()) return quickFile(rows, Filter::kSub, text);
-  return zlibFile(rows, Zlib::kSub, text);
+  return {.width = image.width, .height = image.height, .data = image.rgb.data()};
+}
+
+}  // namespace
+
+// A picture is packed in bands, none of which refers to another, so that the bytes of a band follow from its
+// pixels alone. Files get no larger by it.
+struct PngSequence::Bands {
+  static constexpr int kRows = 64;
+
+  // A zlib stream (RFC 1950) of the picture.
+  std::vector<std::uint8_t> pack(const Rows& rows) {
+    const std::size_t size = rows.rowBytes() * static_cast<std::size_t>(rows.height);
+    if (rows.width != width || rows.height != height) {
+      width = rows.width, height = rows.height;
+      pixels.assign(size, 0);
+      parts.clear();
+    }
+    const bool is_first = parts.empty();
+    parts.resize(static_cast<std::size_t>((height + kRows - 1) / kRows));
+    std::vector<std::uint8_t> stream = {0x78, 0x01};
+    uLong adler = 1;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Rows band = rows;
+      band.data = rows.row(static_cast<int>(i) * kRows);
+      band.height = std::min(kRows, height - static_cast<int>(i) * kRows);
+      const std::size_t bytes = band.rowBytes() * static_cast<std::size_t>(band.height);
+      std::uint8_t* known = pixels.data() + (band.data - rows.data);
+      if (is_first || std::memcmp(known, band.data, bytes) != 0) {
+        std::memcpy(known, band.data, bytes);
+        parts[i] = quickDeflatePart(filtered(band, Filter::kSub), i + 1 == parts.size());
+      }
+      stream.insert(stream.end(), parts[i].packed.begin(), parts[i].packed.end());
+      adler = adler32_combine(adler, parts[i].adler,
+                              static_cast<z_off_t>(bytes + static_cast<std::size_t>(band.height)));
+    }
+    for (const int shift : {24, 16, 8, 0}) stream.push_back(static_cast<std::uint8_t>(adler >> shift & 0xff));
+    return stream;
+  }
+
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;  // Of the picture before.
+  std::vector<DeflatedPart> parts;   // Its bands.
+};
+
+PngSequence::PngSequence() : bands_(std::make_unique<Bands>()) {}
+PngSequence::~PngSequence() = default;
+
+std::vector<std::uint8_t> PngSequence::encode(const Image& image, const PngText& text) {
+  const Rows rows = rowsOf(image);
+  if (!hasQuickDeflate()) return zlibFile(rows, Zlib::kSub, text);
+  return packedFile(rows, bands_->pack(rows), text);
+}
+
+std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text, PngDeflate deflate) {
+  if (deflate == PngDeflate::kBest) return PngSequence().encode(image, text);
+  return zlibFile(rowsOf(image), Zlib::kSub, text);
 }
 
 std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing,
@@ -355,7 +407,8 @@ std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, P
                   .srgb = raster.bits == 8,
                   .data = bytes.data()};
   if (packing == PngPacking::kSmall) return zlibFile(rows, Zlib::kSmall, text);
-  if (deflate == PngDeflate::kBest && hasQuickDeflate()) return quickFile(rows, Filter::kUp, text);
+  if (deflate == PngDeflate::kBest && hasQuickDeflate())
+    return packedFile(rows, quickDeflate(filtered(rows, Filter::kUp)), text);
   return zlibFile(rows, Zlib::kUp, text);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,21 @@ enum class PngDeflate { kBest, kZlib };
 /// is 1 to 79 ASCII characters; a text may be UTF-8.
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {},
                                     PngDeflate deflate = PngDeflate::kBest);
+
+/// Encodes pictures one after the other, to the bytes of `encodePng`: bands of rows that are those of the
+/// picture before are not packed again. Without a quick deflate all are.
+class PngSequence {
+ public:
+  PngSequence();
+  ~PngSequence();
+  PngSequence(const PngSequence&) = delete;
+  PngSequence& operator=(const PngSequence&) = delete;
+  std::vector<std::uint8_t> encode(const Image& image, const PngText& text);
+
+ private:
+  struct Bands;
+  std::unique_ptr<Bands> bands_;
+};
 
 enum class PngPacking { kSmall, kQuick };
 

@@ -16,7 +16,15 @@ bool hasQuickDeflate() {
   return true;
 }
 
-std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t> bytes) {
+namespace {
+
+struct Form {
+  std::uint16_t wrapped = IGZIP_ZLIB;
+  std::uint16_t flush = NO_FLUSH;
+  bool ends = true;  // The stream.
+};
+
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, const Form& form) {
   // The library's counts have 32 bits: input and output go in parts.
   constexpr std::size_t kMostIn = 1u << 30;
   constexpr std::size_t kLeastOut = 1u << 16;
@@ -26,17 +34,22 @@ std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t> bytes) {
   stream->level = 1;
   stream->level_buf = work.data();
   stream->level_buf_size = static_cast<std::uint32_t>(work.size());
-  stream->gzip_flag = IGZIP_ZLIB;
+  stream->gzip_flag = form.wrapped;
+  stream->flush = form.flush;
 
   std::vector<std::uint8_t> packed(std::min(bytes.size() / 4 + kLeastOut, kMostIn));
   std::size_t size = 0;
-  while (stream->internal_state.state != ZSTATE_END) {
+  const auto isDone = [&] {
+    if (form.ends) return stream->internal_state.state == ZSTATE_END;
+    return bytes.empty() && stream->avail_in == 0 && stream->avail_out > 0;
+  };
+  do {
     if (stream->avail_in == 0) {
       const std::span<const std::uint8_t> part = bytes.first(std::min(bytes.size(), kMostIn));
       bytes = bytes.subspan(part.size());
       stream->next_in = const_cast<std::uint8_t*>(part.data());
       stream->avail_in = static_cast<std::uint32_t>(part.size());
-      stream->end_of_stream = bytes.empty() ? 1 : 0;
+      stream->end_of_stream = form.ends && bytes.empty() ? 1 : 0;
     }
     if (packed.size() - size < kLeastOut) packed.resize(packed.size() + packed.size() / 2 + kLeastOut);
     stream->next_out = packed.data() + size;
@@ -45,9 +58,20 @@ std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t> bytes) {
     const int outcome = isal_deflate(stream.get());
     REQUIRE(outcome == COMP_OK, outcome);
     size += room - stream->avail_out;
-  }
+  } while (!isDone());
   packed.resize(size);
   return packed;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t> bytes) {
+  return deflated(bytes, {});
+}
+
+DeflatedPart quickDeflatePart(std::span<const std::uint8_t> bytes, bool is_last) {
+  return {deflated(bytes, {.wrapped = IGZIP_DEFLATE, .flush = FULL_FLUSH, .ends = is_last}),
+          isal_adler32(1, bytes.data(), bytes.size())};
 }
 
 }  // namespace carom::renderer
@@ -61,6 +85,11 @@ bool hasQuickDeflate() {
 }
 
 std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t>) {
+  REQUIRE(hasQuickDeflate());
+  return {};
+}
+
+DeflatedPart quickDeflatePart(std::span<const std::uint8_t>, bool) {
   REQUIRE(hasQuickDeflate());
   return {};
 }

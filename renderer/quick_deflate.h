@@ -15,4 +15,12 @@ bool hasQuickDeflate();
 /// `bytes` as a zlib stream (RFC 1950). Only where there is a quick deflate.
 std::vector<std::uint8_t> quickDeflate(std::span<const std::uint8_t> bytes);
 
+/// A part of such a stream that refers to no other: a stream's two bytes of head, its parts, the last one
+/// packed as such, and its checksum make it whole. Only where there is a quick deflate.
+struct DeflatedPart {
+  std::vector<std::uint8_t> packed;
+  std::uint32_t adler = 1;  ///< Of what was packed.
+};
+DeflatedPart quickDeflatePart(std::span<const std::uint8_t> bytes, bool is_last);
+
 }  // namespace carom::renderer

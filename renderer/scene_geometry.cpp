@@ -55,8 +55,15 @@ struct Pool {
   std::vector<std::uint32_t> indices;
 
   MeshRange add(const TriangleMesh& mesh) {
-    const MeshRange range{indices.size() * sizeof(std::uint32_t), static_cast<GLsizei>(mesh.indices.size()),
-                          static_cast<GLint>(vertices.size())};
+    MeshRange range{indices.size() * sizeof(std::uint32_t), static_cast<GLsizei>(mesh.indices.size()),
+                    static_cast<GLint>(vertices.size())};
+    for (int i = 0; i < 3 && !mesh.vertices.empty(); ++i) {
+      const auto [low, high] = std::minmax_element(
+          mesh.vertices.begin(), mesh.vertices.end(),
+          [i](const MeshVertex& a, const MeshVertex& b) { return a.position[i] < b.position[i]; });
+      range.center[i] = 0.5f * (low->position[i] + high->position[i]);
+      range.half[i] = 0.5f * (high->position[i] - low->position[i]);
+    }
     vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     return range;

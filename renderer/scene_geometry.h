@@ -23,11 +23,13 @@ int detailLevel(double radius_px);
 /// Whether the faces of a solid with lit faces can be drawn one without the other at this level.
 bool drawsSingleFaces(int level);
 
-/// A range of the index buffer.
+/// A range of the index buffer, and the box around its vertices in the solid's frame.
 struct MeshRange {
   std::size_t first_byte = 0;
   GLsizei count = 0;
   GLint base_vertex = 0;
+  float center[3] = {};
+  float half[3] = {};
   bool operator==(const MeshRange&) const = default;
 };
 

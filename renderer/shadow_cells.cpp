@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace carom::renderer {
 namespace {
@@ -16,14 +17,14 @@ constexpr double kOverlap = 0.02;  // Of a cell.
 ShadowCells::ShadowCells(const ShadowView& view, std::span<const ShadowCaster> casters) : view_(view) {
   if (view_.texel_m == 0.0) return;
   for (const ShadowCaster& caster : casters) {
-    const Block block = blockOf(caster);
+    const GridBlock block = blockOf(caster);
     for (int y = block.y_begin; y < block.y_end; ++y)
-      for (int x = block.x_begin; x < block.x_end; ++x) covered(x, y) = true;
+      for (int x = block.x_begin; x < block.x_end; ++x) covered_[static_cast<std::size_t>(kSide * y + x)] = 1;
   }
 }
 
 // The cells that the caster's bounds on the map touch.
-ShadowCells::Block ShadowCells::blockOf(const ShadowCaster& caster) const {
+GridBlock ShadowCells::blockOf(const ShadowCaster& caster) const {
   int begin[2], end[2];
   for (int i = 0; i < 2; ++i) {
     const Vec3 axis = view_.rows.block<1, 3>(i, 0).transpose();
@@ -37,46 +38,24 @@ ShadowCells::Block ShadowCells::blockOf(const ShadowCaster& caster) const {
   return {begin[0], end[0], begin[1], end[1]};
 }
 
-// Runs of cells with casters along the rows, joined with the same run of the row before.
-std::vector<ShadowCells::Block> ShadowCells::coveredBlocks() const {
-  std::vector<Block> blocks;
-  std::size_t before = 0;  // Where those begin that end at this row.
-  for (int y = 0; y < kSide; ++y) {
-    const std::size_t row = blocks.size();
-    std::vector<Block> runs;
-    for (int x = 0; x < kSide; ++x) {
-      if (!covered(x, y)) continue;
-      if (runs.empty() || runs.back().x_end != x) runs.push_back({x, x, y, y + 1});
-      runs.back().x_end = x + 1;
-    }
-    for (Block& run : runs)
-      for (std::size_t i = before; i < row; ++i)
-        if (blocks[i].y_end == y && blocks[i].x_begin == run.x_begin && blocks[i].x_end == run.x_end) {
-          run.y_begin = blocks[i].y_begin;
-          blocks[i].y_end = blocks[i].y_begin;  // Empty: the joined one stands for it.
-        }
-    before = row;
-    blocks.insert(blocks.end(), runs.begin(), runs.end());
-  }
-  std::erase_if(blocks, [](const Block& b) { return b.y_end == b.y_begin; });
-  return blocks;
-}
-
-std::vector<std::array<float, 2>> ShadowCells::groundTriangles(double ground_z_E, double reach_m) const {
-  std::vector<std::array<float, 2>> triangles;
+std::vector<GroundTriangle> ShadowCells::groundTriangles(double ground_z_E, double reach_m) const {
+  std::vector<GroundTriangle> triangles;
   if (view_.texel_m == 0.0) return triangles;
   const std::array<Vec2, 4> map = coveredGround(view_, ground_z_E);
   const auto corner = [&](double x, double y) {
     return Vec2(map[0] + (x / kSide) * (map[1] - map[0]) + (y / kSide) * (map[3] - map[0]));
   };
-  for (const Block& block : coveredBlocks()) {
+  for (const GridBlock& block : coverMarked(covered_, kSide)) {
     const double left = block.x_begin - kOverlap, right = block.x_end + kOverlap;
     const double low = block.y_begin - kOverlap, high = block.y_end + kOverlap;
     const std::array<Vec2, 4> at = {corner(left, low), corner(right, low), corner(right, high),
                                     corner(left, high)};
     if (!std::all_of(at.begin(), at.end(), [&](const Vec2& p) { return p.norm() < reach_m; })) continue;
-    for (const std::size_t i : {0u, 1u, 2u, 0u, 2u, 3u})
-      triangles.push_back({static_cast<float>(at[i].x()), static_cast<float>(at[i].y())});
+    const auto point = [&](std::size_t i) -> std::array<float, 2> {
+      return {static_cast<float>(at[i].x()), static_cast<float>(at[i].y())};
+    };
+    triangles.push_back({point(0), point(1), point(2)});
+    triangles.push_back({point(0), point(2), point(3)});
   }
   return triangles;
 }

@@ -4,13 +4,17 @@
 // tests/renderer/shadow_cells_test.cpp.
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "renderer/grid_cover.h"
 #include "renderer/shadow_fit.h"
 
 namespace carom::renderer {
+
+/// Three points of the ground, x and y in E.
+using GroundTriangle = std::array<std::array<float, 2>, 3>;
 
 class ShadowCells {
  public:
@@ -19,21 +23,15 @@ class ShadowCells {
   /// The map of `view`, with all that casts shadows on it.
   ShadowCells(const ShadowView& view, std::span<const ShadowCaster> casters);
 
-  /// Triangles (three points, x and y in E) that cover those parts of the level plane z = `ground_z_E` where
+  /// Triangles that cover those parts of the level plane z = `ground_z_E` where
   /// shadows may fall, within `reach_m` of the eye. Neighbours overlap a little, so that no gap shows.
-  std::vector<std::array<float, 2>> groundTriangles(double ground_z_E, double reach_m) const;
+  std::vector<GroundTriangle> groundTriangles(double ground_z_E, double reach_m) const;
 
  private:
-  struct Block {
-    int x_begin = 0, x_end = 0, y_begin = 0, y_end = 0;
-  };
-  Block blockOf(const ShadowCaster& caster) const;
-  std::vector<Block> coveredBlocks() const;
-  bool& covered(int x, int y) { return covered_[static_cast<std::size_t>(kSide * y + x)]; }
-  bool covered(int x, int y) const { return covered_[static_cast<std::size_t>(kSide * y + x)]; }
+  GridBlock blockOf(const ShadowCaster& caster) const;
 
   ShadowView view_;
-  std::array<bool, kSide * kSide> covered_{};  // By cell.
+  std::array<std::uint8_t, kSide * kSide> covered_{};  // By cell: whether a caster touches it.
 };
 
 }  // namespace carom::renderer

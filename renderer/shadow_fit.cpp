@@ -12,7 +12,8 @@ namespace {
 constexpr double kReceiverReach =
     1.6;  // Shadows are drawn up to this multiple of the farthest caster's distance.
 constexpr double kStepsPerDoubling = 4.0;
-constexpr int kBorderTexels = 6;  // Kept free around the casters: the filter's reach and the snapping.
+constexpr int kBorderTexels = 6;        // Kept free around the casters: the filter's reach.
+constexpr double kGridsPerSide = 16.0;  // How finely the map is placed, over its own size.
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -87,6 +88,11 @@ double steppedUp(double length_m) {
   return std::exp2(std::ceil(std::log2(length_m) * kStepsPerDoubling) / kStepsPerDoubling);
 }
 
+// The next lower place of a grid that is fixed in the world; places are relative to the eye.
+double snappedDown(double place_m, double grid_m, double eye_m) {
+  return std::floor((place_m + eye_m) / grid_m) * grid_m - eye_m;
+}
+
 }  // namespace
 
 ShadowView fitShadow(const ShadowRequest& request, std::span<const ShadowCaster> casters) {
@@ -107,20 +113,23 @@ ShadowView fitShadow(const ShadowRequest& request, std::span<const ShadowCaster>
   if (!(side > 0.0)) return view;
   const Range& depth = across[2];
 
-  const double size = steppedUp(side * request.texels / (request.texels - 2.0 * kBorderTexels));
+  // Placed on a grid that is fixed in the world: no shadow crawls with a moving camera, and while few bodies
+  // move most frames have the same map.
+  const double border = kBorderTexels / static_cast<double>(request.texels);
+  const double size = steppedUp(side / (1.0 - 2.0 * border - 1.0 / kGridsPerSide));
   view.texel_m = size / request.texels;
+  const auto eyeAlong = [&](int i) { return light.axis[i].dot(request.camera.eye); };
   for (int i = 0; i < 2; ++i) {
-    // Snapped in the world, so that a moving camera does not make shadows crawl either.
-    const double eye = light.axis[i].dot(request.camera.eye);
-    const double low = 0.5 * (across[i].low + across[i].high - size);
-    const double snapped = std::floor((low + eye) / view.texel_m) * view.texel_m - eye;
+    const double low = snappedDown(across[i].low - border * size, size / kGridsPerSide, eyeAlong(i));
     view.rows.block<1, 3>(i, 0) = light.axis[i].transpose() / size;
-    view.rows(i, 3) = -snapped / size;
+    view.rows(i, 3) = -low / size;
   }
   const double margin = 0.01 * depth.length() + view.texel_m;
-  const double length = depth.length() + 2.0 * margin;
-  view.rows.block<1, 3>(2, 0) = -light.axis[2].transpose() / length;
-  view.rows(2, 3) = (depth.high + margin) / length;
+  const double grid = steppedUp(depth.length() + 2.0 * margin) / kGridsPerSide;
+  const double low = snappedDown(depth.low - margin, grid, eyeAlong(2));
+  const double high = -snappedDown(-(depth.high + margin), grid, -eyeAlong(2));
+  view.rows.block<1, 3>(2, 0) = -light.axis[2].transpose() / (high - low);
+  view.rows(2, 3) = high / (high - low);
   return view;
 }
 

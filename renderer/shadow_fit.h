@@ -1,8 +1,8 @@
 #pragma once
 // Which part of the world the shadow map covers: the casters' bounds seen from the light, cut to what the
-// camera can see. The map's square is snapped to its own texels and grows in steps, so that shadows of still
-// bodies don't crawl while others move; nothing depends on earlier frames. Tested in
-// tests/renderer/shadow_fit_test.cpp.
+// camera can see. The map's square is snapped to a coarse grid of its own texels and grows in steps, so that
+// shadows of still bodies don't crawl while others move, and most frames have the map of the one before;
+// nothing depends on earlier frames. Tested in tests/renderer/shadow_fit_test.cpp.
 
 #include <array>
 #include <span>

@@ -29,7 +29,10 @@ struct Stage {
     std::vector<OcclusionBody> bodies;
     for (std::size_t i = 0; i < solids.size(); ++i)
       bodies.push_back({&solids[i], boxes[i], poses[i], solids[i].radius(), endless[i]});
-    return contactOcclusion(bodies, kFocal);
+    std::vector<OcclusionVertex> vertices;
+    for (const OcclusionTriangle& triangle : contactOcclusion(bodies, kFocal))
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    return vertices;
   }
 };
 

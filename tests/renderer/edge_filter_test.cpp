@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,54 @@ TEST(EdgeFilter, TinyImagesPass) {
 TEST(EdgeFilter, TheSamePictureGivesTheSameBytes) {
   const auto grey = [](int x, int y) { return (x * x + 3 * y * y) % 997 < 400 ? 210 : 40; };
   EXPECT_EQ(filtered(120, 90, grey).rgb, filtered(120, 90, grey).rgb);
+}
+
+// Blocks of few greys one over the other, so that runs are long and cross the changes; a few single pixels.
+class Patchwork {
+ public:
+  Patchwork(int width, int height, unsigned seed)
+      : rgba(4 * static_cast<std::size_t>(width * height)), width_(width), height_(height), random_(seed) {}
+
+  int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+  GridBlock someBlock(int most) {
+    const int x = below(width_), y = below(height_), widest = below(2) == 0 ? 2 : most;
+    return {x, std::min(x + 1 + below(widest), width_), y, std::min(y + 1 + below(most), height_)};
+  }
+  void paint(const GridBlock& block, int grey) {
+    for (int y = block.y_begin; y < block.y_end; ++y)
+      for (int x = block.x_begin; x < block.x_end; ++x)
+        for (int c = 0; c < 4; ++c)
+          rgba[4 * static_cast<std::size_t>(y * width_ + x) + static_cast<std::size_t>(c)] =
+              static_cast<std::uint8_t>(c == 3 ? 255 : grey);
+  }
+
+  std::vector<std::uint8_t> rgba;
+
+ private:
+  int width_, height_;
+  std::mt19937 random_;
+};
+
+TEST(EdgeFilter, FilteredAgainWhereItChangedAPictureIsAsIfFilteredAtOnce) {
+  for (const auto& [width, height] : {std::pair{150, 90}, {63, 200}, {64, 64}, {5, 4}, {1, 7}, {200, 1}}) {
+    Patchwork picture(width, height, 17);
+    EdgeFilter lasting(width, height), fresh(width, height);
+    Image image, expected;
+    picture.paint({0, width, 0, height}, 90);
+    for (int i = 0; i < 60; ++i) picture.paint(picture.someBlock(width), 60 * picture.below(4));
+    lasting.apply(picture.rgba, image);
+    for (int round = 0; round < 60; ++round) {
+      std::vector<GridBlock> blocks;
+      for (int i = picture.below(4); i > 0; --i) {
+        blocks.push_back(picture.someBlock(20));
+        for (int k = picture.below(5); k > 0; --k)
+          picture.paint(common(picture.someBlock(30), blocks.back()), 60 * picture.below(4));
+      }
+      lasting.applyAgain(picture.rgba, blocks, image);
+      fresh.apply(picture.rgba, expected);
+      ASSERT_EQ(image.rgb, expected.rgb) << width << "x" << height << ", round " << round;
+    }
+  }
 }
 
 }  // namespace

@@ -50,6 +50,22 @@ Image noise(int width, int height) {
   return image;
 }
 
+// One row, one pixel, nothing, all and the size change in turn; the oracle packs each picture by itself.
+TEST_F(PngFile, ASequenceHasTheBytesOfItsPicturesAlone) {
+  PngSequence sequence;
+  Image image = noise(60, 200);
+  for (const int height : {200, 200, 137, 200, 64, 1}) {
+    for (const int row : {0, 63, 64, 130, 199}) {
+      image = noise(60, height);
+      if (row < height) image.rgb[static_cast<std::size_t>(180 * row)] ^= 1;
+      const std::vector<std::uint8_t> bytes = sequence.encode(image, {{"Row", std::to_string(row)}});
+      EXPECT_EQ(bytes, encodePng(image, {{"Row", std::to_string(row)}})) << height << ", " << row;
+      EXPECT_EQ(readPng(write(bytes)).image.rgb, image.rgb) << height << ", " << row;
+      EXPECT_EQ(sequence.encode(image, {}), encodePng(image, {}));
+    }
+  }
+}
+
 TEST_F(PngFile, PixelsSurviveTheRoundTrip) {
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 1}, {1, 64}, {321, 181}}) {
     const Image image = noise(width, height);

@@ -32,13 +32,12 @@ Vec3 pointIn(const ShadowCaster& caster, std::mt19937& random) {
                             share(random) * caster.half.z());
 }
 
-bool within(const std::vector<std::array<float, 2>>& triangles, const Vec2& p) {
+bool within(const std::vector<GroundTriangle>& triangles, const Vec2& p) {
   const auto side = [&](const std::array<float, 2>& a, const std::array<float, 2>& b) {
     return (b[0] - a[0]) * (p.y() - a[1]) - (b[1] - a[1]) * (p.x() - a[0]);
   };
-  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const double s0 = side(triangles[i], triangles[i + 1]), s1 = side(triangles[i + 1], triangles[i + 2]),
-                 s2 = side(triangles[i + 2], triangles[i]);
+  for (const auto& [a, b, c] : triangles) {
+    const double s0 = side(a, b), s1 = side(b, c), s2 = side(c, a);
     if ((s0 >= 0.0 && s1 >= 0.0 && s2 >= 0.0) || (s0 <= 0.0 && s1 <= 0.0 && s2 <= 0.0)) return true;
   }
   return false;
@@ -68,10 +67,8 @@ TEST(ShadowCells, MostOfTheGroundIsNot) {
   const ShadowCells cells(fitShadow(kRequest, casters), casters);
   const auto triangles = cells.groundTriangles(kGround_E, 1e3);
   double covered_m2 = 0.0;
-  for (std::size_t i = 0; i < triangles.size(); i += 3)
-    covered_m2 +=
-        0.5 * std::abs((triangles[i + 1][0] - triangles[i][0]) * (triangles[i + 2][1] - triangles[i][1]) -
-                       (triangles[i + 1][1] - triangles[i][1]) * (triangles[i + 2][0] - triangles[i][0]));
+  for (const auto& [a, b, c] : triangles)
+    covered_m2 += 0.5 * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
   EXPECT_GT(covered_m2, 2.0 * 0.16);
   EXPECT_LT(covered_m2, 3.0);  // Of a map some five metres wide.
 }

@@ -1,0 +1,91 @@
+#include "renderer/sequence_difference.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "engine/foundation/contract.h"
+
+namespace carom::renderer {
+namespace {
+
+constexpr std::size_t kNone = ~std::size_t{0};
+
+// FNV-1a, four bytes at a time.
+std::uint64_t hashOf(const std::byte* value, std::size_t size) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (std::size_t i = 0; i < size; i += sizeof(std::uint32_t)) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, value + i, std::min(sizeof(word), size - i));
+    hash = (hash ^ word) * 1099511628211u;
+  }
+  return hash;
+}
+
+// For each of `now` its equal in `before`, no two the same.
+std::vector<std::size_t> partners(std::span<const std::byte> before, std::span<const std::byte> now,
+                                  std::size_t size) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> by_hash;
+  for (std::size_t i = 0; i < before.size() / size; ++i)
+    by_hash.emplace_back(hashOf(before.data() + i * size, size), i);
+  std::sort(by_hash.begin(), by_hash.end());
+  std::vector<std::size_t> used(by_hash.size());  // Of the values of one hash, where those begin.
+  std::vector<std::size_t> partner(now.size() / size, kNone);
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    const std::uint64_t hash = hashOf(now.data() + i * size, size);
+    const auto first = std::lower_bound(by_hash.begin(), by_hash.end(), std::pair(hash, std::size_t{0}));
+    const auto begin = static_cast<std::size_t>(first - by_hash.begin());
+    if (begin == by_hash.size()) continue;
+    const std::size_t next = begin + used[begin];
+    if (next == by_hash.size() || by_hash[next].first != hash) continue;
+    if (std::memcmp(before.data() + by_hash[next].second * size, now.data() + i * size, size) != 0) continue;
+    ++used[begin];
+    partner[i] = by_hash[next].second;
+  }
+  return partner;
+}
+
+// Leaves a longest ascending part of `partner`; the others lose theirs. Patience sorting: `piles` holds, by
+// length, the place with the least partner that ends an ascending part of that length.
+void keepAscending(std::vector<std::size_t>& partner) {
+  std::vector<std::size_t> piles, previous(partner.size(), kNone);
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    if (partner[i] == kNone) continue;
+    const auto at = std::lower_bound(piles.begin(), piles.end(), partner[i],
+                                     [&](std::size_t k, std::size_t p) { return partner[k] < p; });
+    if (at != piles.begin()) previous[i] = *(at - 1);
+    if (at == piles.end())
+      piles.push_back(i);
+    else
+      *at = i;
+  }
+  std::vector<std::size_t> kept(partner.size(), kNone);
+  for (std::size_t i = piles.empty() ? kNone : piles.back(); i != kNone; i = previous[i])
+    kept[i] = partner[i];
+  partner.swap(kept);
+}
+
+}  // namespace
+
+SequenceDifference differenceOfBytes(std::span<const std::byte> before, std::span<const std::byte> now,
+                                     std::size_t size, Order order) {
+  REQUIRE(size > 0 && before.size() % size == 0 && now.size() % size == 0, size, before.size(), now.size());
+  SequenceDifference difference;
+  if (before.size() == now.size() && (now.empty() || std::memcmp(before.data(), now.data(), now.size()) == 0))
+    return difference;
+  std::vector<std::size_t> partner = partners(before, now, size);
+  if (order == Order::kMatters) keepAscending(partner);
+  std::vector<std::uint8_t> stayed(before.size() / size);
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    if (partner[i] == kNone)
+      difference.come.push_back(i);
+    else
+      stayed[partner[i]] = 1;
+  }
+  for (std::size_t i = 0; i < stayed.size(); ++i)
+    if (stayed[i] == 0) difference.gone.push_back(i);
+  return difference;
+}
+
+}  // namespace carom::renderer
