@@ -136,9 +136,9 @@ class ContactCluster {
   std::vector<int> body_joined_;
   std::vector<int> body_member_;
   std::vector<int> pair_joined_;
-  std::vector<int> pair_seen_;
-  std::vector<ClosestFeatures> closest_;  ///< Of pairs seen, at this cluster's time.
-  std::vector<int> pair_released_;        ///< Likewise: its forces are those of the cluster's rows, or none.
+  std::vector<int> pair_released_;  ///< Likewise: its forces are those of the cluster's rows, or none.
+  std::vector<int> pair_seen_;      ///< Likewise: its closest features at the cluster's time are known.
+  std::vector<ClosestFeatures> closest_;
 };
 
 }  // namespace carom
