@@ -121,10 +121,12 @@ struct FrameRenderer::Impl {
   FrameInputs inputsOf(const Sample& sample, const ShadowCells& shadows) const;
   FrameBlock blockOf(const Sample& sample, const ShadowView& shadow) const;
   void uploadBlock(const FrameBlock& block) const;
-  void drawScene(const FrameInputs& inputs, std::span<const BlockGroups> bodies);
+  void drawScene(const FrameInputs& inputs, std::span<const GridBlock> blocks,
+                 std::span<const BlockGroups> bodies);
   void bindTextures() const;
   std::vector<OcclusionTriangle> occlusionTriangles() const;
-  void drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks) const;
+  void drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks,
+                     const ScreenBounds& bounds) const;
   void readBack(std::span<const GridBlock> blocks);
   const SurfaceImage& knownSurfaces();
 
@@ -288,8 +290,8 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
     bindTextures();
     mirror_pass->draw(inputs.ground_seen ? mirrored : std::vector<DrawGroup>{}, geometry);
   }
-  drawScene(inputs, bodies);
-  drawOcclusion(inputs, blocks);
+  drawScene(inputs, blocks, bodies);
+  drawOcclusion(inputs, blocks, bounds);
   water_pass->draw(view.water, view.camera, view.list.depth);
   return blocks;
 }
@@ -358,9 +360,8 @@ void FrameRenderer::Impl::bindTextures() const {
   gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
 }
 
-void FrameRenderer::Impl::drawScene(const FrameInputs& inputs, std::span<const BlockGroups> bodies) {
-  std::vector<GridBlock> blocks;
-  for (const BlockGroups& within : bodies) blocks.push_back(within.block);
+void FrameRenderer::Impl::drawScene(const FrameInputs& inputs, std::span<const GridBlock> blocks,
+                                    std::span<const BlockGroups> bodies) {
   bindTextures();
   backdrop->copyTo(scene_target, inputs.block, inputs.ground_seen, blocks);
   gl.Viewport(0, 0, settings.width, settings.height);
@@ -394,8 +395,8 @@ std::vector<OcclusionTriangle> FrameRenderer::Impl::occlusionTriangles() const {
   return contactOcclusion(bodies, focalLengthPixels(view.camera, settings.height));
 }
 
-void FrameRenderer::Impl::drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks) const {
-  const ScreenBounds bounds(inputs.block, settings.width, settings.height);
+void FrameRenderer::Impl::drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks,
+                                        const ScreenBounds& bounds) const {
   std::vector<BlockOcclusion> within;
   for (const GridBlock& block : blocks) within.push_back({block, {}});
   for (const OcclusionTriangle& triangle : inputs.occlusion) {

@@ -188,15 +188,16 @@ class EventLoop {
       if (body.is_static || !isTouched(i)) continue;
       if (body.resting) wakeInStep(member.body);
       const double rest = settings_.step_s - time_s;
-      const bool goes_on = cluster_.keepsPath(i) && goesStraight(body);
+      const bool keeps_path = cluster_.keepsPath(i);
+      const bool is_as_searched = keeps_path && goesStraight(body);
       bring(member.body, time_s);
-      if (!goes_on) changed_.push_back(member.body);
+      if (!is_as_searched) changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
         continue;
       }
-      if (cluster_.keepsPath(i)) {
+      if (keeps_path) {
         keepPath(body, i, rest);
         continue;
       }
