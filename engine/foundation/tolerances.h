@@ -20,6 +20,11 @@ inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre:
                                                    // tilted face keeps its far points while it settles
 inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatter than this lies on the face
 
+// Substeps of bodies that move in contact.
+inline constexpr double kFineStep = 1.0 / 240.0;  // s: substeps are no longer, unless ...
+inline constexpr int kMostSubsteps = 8;           // ... they are so many, or ...
+inline constexpr int kFinePairs = 200;  // times substeps: where more pairs are awake, these are fewer
+
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
 inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...

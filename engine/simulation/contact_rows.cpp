@@ -16,6 +16,21 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+// Where across the gap a pair's rows have their points, -1 on A's surface to 1 on B's. One point for both, so
+// that an impulse turns them by opposite moments. What is round rolls by its radius: the point is on its
+// surface, or where two of them miss their radii by the same share; halfway between two that are flat. On
+// what cannot turn nothing is missed.
+double leaningOf(const ShapePair& pair, const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
+  const bool a_static = bodies[at(pair.body_a)].is_static;
+  if (a_static != bodies[at(pair.body_b)].is_static) return a_static ? 1.0 : -1.0;
+  const double radius_a = shapes[at(pair.shapes.a)].part->radius_m;
+  const double radius_b = shapes[at(pair.shapes.b)].part->radius_m;
+  if (radius_a == radius_b) return 0.0;
+  if (radius_a == 0.0) return 1.0;
+  if (radius_b == 0.0) return -1.0;
+  return (radius_a - radius_b) / (radius_a + radius_b);
+}
+
 // Two parts that travel `dt_s` with these velocities from these poses.
 struct PairTravel {
   Pose X_WA;
@@ -57,17 +72,15 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
   const ContactManifold manifold =
       contactManifold(*request.closest, *shapes[at(pair.shapes.a)].part, request.X_WA,
                       *shapes[at(pair.shapes.b)].part, request.X_WB, window);
+  const double leaning = leaningOf(pair, bodies, shapes);
   const auto append = [&](const ManifoldPoint& point) {
-    SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m};
+    const double off_middle_m = 0.5 * point.gap_m * leaning;
+    SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m, off_middle_m};
     ContactRow& row = sourced.row;
     row.a = request.row_a;
     row.b = request.row_b;
     row.n = point.n_W;
-    // Points stand halfway across the gap, so that an impulse turns both bodies by the same moment. On what
-    // cannot turn they stand on the other's own surface: a ball rolls by its radius.
-    Vec3 p_W = point.p_W;
-    if (bodies[at(pair.body_a)].is_static) p_W += 0.5 * point.gap_m * point.n_W;
-    if (bodies[at(pair.body_b)].is_static) p_W -= 0.5 * point.gap_m * point.n_W;
+    const Vec3 p_W = point.p_W + off_middle_m * point.n_W;
     row.r_a = p_W - request.X_WA.position;
     row.r_b = p_W - request.X_WB.position;
     row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);

@@ -15,6 +15,7 @@ struct SourcedRow {
   int pair = -1;
   std::uint64_t id = 0;
   double gap_m = 0.0;
+  double off_middle_m = 0.0;  ///< The row's point lies so far from the gap's middle, towards B.
 };
 
 inline constexpr double kSamePlace = 10.0;  ///< Rest gaps: points this close are one.

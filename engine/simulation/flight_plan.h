@@ -20,8 +20,11 @@ class FlightPlanner {
 
   /// Once the world is complete: `solid_of` gives each body's solid.
   void begin(std::span<const Solid> solids, std::vector<int> solid_of);
-  /// The world's time at the beginning of the step that follows.
-  void beginStep(double time_s) { time_s_ = time_s; }
+  /// The world's time at the beginning of the step that follows, and its length.
+  void beginStep(double time_s, double step_s) {
+    time_s_ = time_s;
+    step_s_ = step_s;
+  }
 
   /// Plans body `index` from `path.start_s` with its momentum velocity, to the end of the step.
   void plan(int index, Body& body);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeastGravity = 0.01;          // m/s^2: 6 mm/s for parts a metre wide
 constexpr double kShortestBounce = 1.0 / 32.0;  // half a bounce, in steps
+constexpr double kNoticedBounce = 1.0;          // steps that a bounce lasts: from then on it is one
 constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
@@ -58,7 +59,7 @@ Bounds widened(Bounds bounds, double margin) {
 // contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
 // only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
 // gravity never brings them together again. A trace of it always remains, or the rounding of a finished
-// collision would be taken for another.
+// collision would be taken for another. A bounce that would last for steps is one, however slow.
 double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, const WorldSettings& settings) {
   const auto given = [&](double gravity) {
     return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling),
@@ -68,9 +69,11 @@ double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, co
   const double e = pair.restitution;
   if (e == 0.0) return given(gravity);
   const bool both_fall = !bodies[at(pair.body_a)].supported && !bodies[at(pair.body_b)].supported;
-  const double share = both_fall ? kFallingShare * (1.0 - e) : (1.0 - e) / (1.0 - tolerance::kLively);
-  const double shortest = both_fall ? 0.0 : kShortestBounce * gravity * settings.step_s;
-  return std::max({std::min(share, 1.0) * given(gravity), shortest, given(kLeastGravity)});
+  if (both_fall) return std::max(kFallingShare * (1.0 - e) * given(gravity), given(kLeastGravity));
+  const double step_speed = gravity * settings.step_s;
+  const double share = std::min((1.0 - e) / (1.0 - tolerance::kLively), 1.0);
+  const double noticed = std::min(share * given(gravity), kNoticedBounce * step_speed / (2.0 * e));
+  return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
 }
 
 double pairingMargin(const Shape& shape) {
@@ -180,6 +183,14 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
       ++counters.candidate_pairs;
     }
   }
+}
+
+void PairTable::scaleImpulses(double factor) {
+  for (ShapePair& pair : pairs_)
+    for (int i = 0; i < pair.remembered_count; ++i) {
+      pair.remembered[at(i)].impulse_W *= factor;
+      pair.remembered[at(i)].torque_impulse_W *= factor;
+    }
 }
 
 bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,

@@ -49,6 +49,8 @@ class PairTable {
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
   void extend(int body, double time_s, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+  /// For a step of another length: what was remembered of the impulses, so many times.
+  void scaleImpulses(double factor);
   /// Whether some body's path leaves the bounds it was paired by.
   bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         double end_s) const;

@@ -10,12 +10,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// Rows stand on the surface of what moves (contact_rows.cpp); what is shown stands halfway across the gap.
-Vec3 towardsMiddle(const Body& a, const Body& b, const ContactRow& row, double gap_m) {
-  const double side = (b.is_static ? 0.5 : 0.0) - (a.is_static ? 0.5 : 0.0);
-  return side * gap_m * row.n;
-}
-
 // What resting bodies took last, at the points of contact that their poses still give.
 void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& view) {
   const Body& a = world.bodies[at(pair.body_a)];
@@ -29,8 +23,8 @@ void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& 
       const RememberedImpulse& remembered = pair.remembered[at(i)];
       if (remembered.id != point.id) continue;
       view.lasting.push_back({pair.body_a, pair.body_b, a.X_WB.inverse() * point.p_W,
-                              b.X_WB.inverse() * point.p_W, point.n_W, point.gap_m, remembered.impulse_W,
-                              point.id, world.time_s});
+                              b.X_WB.inverse() * point.p_W, point.n_W, point.gap_m,
+                              world.substeps * remembered.impulse_W, point.id, world.time_s});
     }
 }
 
@@ -44,10 +38,10 @@ void recordContacts(const RecordedWorld& world, const LastingContacts& contacts,
     const SourcedRow& source = contacts.sources[i];
     const Quat& R_WA = world.bodies[at(row.a)].X_WB.rotation;
     const Quat& R_WB = world.bodies[at(row.b)].X_WB.rotation;
-    const Vec3 shift = towardsMiddle(world.bodies[at(row.a)], world.bodies[at(row.b)], row, source.gap_m);
+    const Vec3 shift = -source.off_middle_m * row.n;  // what is shown stands halfway across the gap
     view.lasting.push_back({row.a, row.b, R_WA.conjugate() * (row.r_a + shift),
                             R_WB.conjugate() * (row.r_b + shift), row.n, source.gap_m,
-                            rowImpulse(row, row.impulse), source.id, world.time_s});
+                            world.substeps * rowImpulse(row, row.impulse), source.id, world.time_s});
   }
   for (const ShapePair& pair : world.table.pairs()) recordResting(world, pair, view);
 }
@@ -62,7 +56,7 @@ void recordCollision(const std::vector<Body>& bodies, const ContactCluster& clus
     const Quat R_WA = bodies[at(a)].path.at(time_s).rotation;
     const Quat R_WB = bodies[at(b)].path.at(time_s).rotation;
     const SourcedRow& source = cluster.sources()[i];
-    const Vec3 shift = towardsMiddle(bodies[at(a)], bodies[at(b)], row, source.gap_m);
+    const Vec3 shift = -source.off_middle_m * row.n;
     view.collisions.push_back({a, b, R_WA.conjugate() * (row.r_a + shift),
                                R_WB.conjugate() * (row.r_b + shift), row.n, source.gap_m,
                                rowImpulse(row, row.impulse), source.id, view.begin_s + time_s});

@@ -14,11 +14,12 @@ struct RecordedWorld {
   const std::vector<Shape>& shapes;
   const PairTable& table;
   double time_s = 0.0;
+  int substeps = 1;
 };
 
-/// The lasting contacts just solved, of a step that begins at `world.time_s`.
+/// The lasting contacts just solved, of a substep that begins at `world.time_s`.
 void recordContacts(const RecordedWorld& world, const LastingContacts& contacts, StepView& view);
-/// The collision that the cluster has just solved, `time_s` after the step's beginning.
+/// The collision that the cluster has just solved, `time_s` after the substep's beginning.
 void recordCollision(const std::vector<Body>& bodies, const ContactCluster& cluster, double time_s,
                      StepView& view);
 /// Candidate pairs and swept bounds as the step leaves them.

@@ -19,7 +19,7 @@ struct ContactView {
   Vec3 p_B = Vec3::Zero();        ///< ... where the contact was, also at poses shown a little later.
   Vec3 n_W = Vec3::UnitZ();       ///< Unit, from A to B.
   double gap_m = 0.0;             ///< When the impulse acted.
-  Vec3 impulse_W = Vec3::Zero();  ///< N s on B; the opposite on A.
+  Vec3 impulse_W = Vec3::Zero();  ///< N s on B; the opposite on A. Of lasting contact, in a whole step.
   std::uint64_t id = 0;           ///< `contactId` of the two features.
   double time_s = 0.0;            ///< World time of the impulse.
 };
@@ -36,9 +36,9 @@ struct SweptView {
 };
 
 struct StepView {
-  double begin_s = 0.0;                   ///< World time at which the step began.
-  std::vector<ContactView> lasting;       ///< Lasting contacts of the step, those of resting bodies with what
-                                          ///< they took when they came to rest.
+  double begin_s = 0.0;              ///< World time at which the last substep began.
+  std::vector<ContactView> lasting;  ///< Lasting contacts of the last substep, those of resting bodies with
+                                     ///< what they took when they came to rest.
   std::vector<ContactView> collisions;    ///< Those of times of impact, oldest first; grows until whoever
                                           ///< watches takes them out.
   std::vector<CandidateView> candidates;  ///< One a pair of parts, by bodies.

@@ -24,6 +24,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+constexpr double kSameLength = 1e-9;  // relative: steps of one length but for rounding
+
 void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
   REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9,
@@ -75,6 +77,8 @@ const char* modeName(Mode mode) {
 
 struct World::Impl {
   WorldSettings settings;
+  int substeps = 1;       ///< Of the last step.
+  WorldSettings substep;  ///< The settings, with the length of one of them.
   std::vector<Solid> solids;
   std::vector<BodyDescription> descriptions;
   std::vector<Body> bodies;
@@ -89,6 +93,10 @@ struct World::Impl {
   bool started = false;
 
   void makeShapes();
+  void planSubstep(double begin_s, double length_s, PhaseClock* clock);
+  int substepsWanted() const;
+  void divideStep(int count);
+  void makeSubstep(double begin_s, PhaseClock* clock);
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
   bool pathsLeaveBounds(PhaseClock* clock) const;
@@ -118,7 +126,6 @@ void World::Impl::planFlight(PhaseClock* clock) {
     body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     body.momentum_velocity = body.velocity;
     body.events = 0;
-    body.collided = false;
     body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
     body.acceleration.setZero();
     body.torque.setZero();
@@ -134,18 +141,18 @@ void World::Impl::findPairs(PhaseClock* clock) {
     return;
   }
   pairs_sleep = sleeps;
-  table.updateBounds(bodies, shapes, settings.step_s);
-  table.collect(bodies, shapes, settings, counters, clock);
+  table.updateBounds(bodies, shapes, substep.step_s);
+  table.collect(bodies, shapes, substep, counters, clock);
 }
 
 bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  return table.pathsLeaveBounds(bodies, shapes, settings.step_s);
+  return table.pathsLeaveBounds(bodies, shapes, substep.step_s);
 }
 
 LastingContacts World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  return solveLastingContacts(bodies, shapes, table.pairs(), planner, settings, counters);
+  return solveLastingContacts(bodies, shapes, table.pairs(), planner, substep, counters);
 }
 
 // The state at the step's end, and the closest features there.
@@ -155,8 +162,8 @@ void World::Impl::finishStep(PhaseClock* clock) {
     const Vec3 spin_before = body.velocity.angular;
     const Quat rotation_before = body.X_WB.rotation;
     const bool flew_freely = body.flewFreely();
-    body.velocity = body.velocityAt(settings.step_s);
-    body.X_WB = body.path.at(settings.step_s);
+    body.velocity = body.velocityAt(substep.step_s);
+    body.X_WB = body.path.at(substep.step_s);
     if (!flew_freely || spin_before.isZero(0.0)) {
       body.kept_angular_momentum.reset();
       continue;
@@ -176,7 +183,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
 void World::Impl::accumulateStillness() {
   for (Body& body : bodies) {
     if (!body.moves()) continue;
-    body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + settings.step_s : 0.0;
+    body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + substep.step_s : 0.0;
   }
 }
 
@@ -221,11 +228,10 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
   }
   // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
   std::vector<RowLoad> balance(rows.size());
-  const bool rests =
-      canRest({rows, island_bodies, radii, settings.gravity, settings.step_s, pushes, balance});
+  const bool rests = canRest({rows, island_bodies, radii, substep.gravity, substep.step_s, pushes, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!balance[k].impulse.isZero(0.0))
-      correctLoad(contacts.sources[source_of[k]], balance[k], settings.step_s, table.pairs());
+      correctLoad(contacts.sources[source_of[k]], balance[k], substep.step_s, table.pairs());
   return rests;
 }
 
@@ -275,6 +281,60 @@ void World::Impl::updateModes(const LastingContacts& contacts) {
   }
 }
 
+// External forces and candidate pairs, with the closest features that ended the last substep.
+void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock) {
+  substep.step_s = length_s;
+  planner.beginStep(begin_s, length_s);
+  planFlight(clock);
+  findPairs(clock);
+}
+
+// Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
+// is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
+int World::Impl::substepsWanted() const {
+  int wanted = 1;
+  while (wanted < tolerance::kMostSubsteps &&
+         settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
+    wanted *= 2;
+  const bool stirred = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) {
+    return body.moves() && !liesStill(body.velocity, body.radius_m);
+  });
+  if (wanted == 1 || !stirred) return 1;
+  const auto awake = std::count_if(table.pairs().begin(), table.pairs().end(), [&](const ShapePair& pair) {
+    return bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
+  });
+  if (awake == 0) return 1;
+  while (wanted > 1 && wanted * awake > tolerance::kFinePairs) wanted /= 2;
+  return wanted;
+}
+
+void World::Impl::divideStep(int count) {
+  if (count != substeps) table.scaleImpulses(static_cast<double>(substeps) / count);
+  substeps = count;
+  counters.substeps = count;
+}
+
+void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
+  // Impulses of lasting contact; what they press awake takes part in them.
+  LastingContacts contacts = solveContacts(clock);
+  while (wakePressed(bodies, contacts)) {  // each time an island fewer rests
+    planFlight(clock);
+    contacts = solveContacts(clock);
+  }
+  if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
+  if (pathsLeaveBounds(clock)) findPairs(clock);
+
+  // Advance from one time of impact to the next.
+  runEvents(bodies, shapes, table, planner, substep, counters, clock, view);
+  finishStep(clock);
+
+  // Modes.
+  const PhaseScope phase(clock, StepPhase::kModes);
+  accumulateStillness();
+  if (settings.resting_mode) restIslands(contacts);
+  updateModes(contacts);
+}
+
 void World::Impl::publish() {
   states.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -286,6 +346,7 @@ World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
   REQUIRE(settings.gravity.allFinite());
   requireEnvironment(settings);
   impl_->settings = settings;
+  impl_->substep = settings;
   impl_->planner = FlightPlanner(settings);
 }
 World::~World() = default;
@@ -337,32 +398,18 @@ void World::step(PhaseClock* clock) {
   Impl& w = *impl_;
   REQUIRE(w.started);
   w.counters = {};
-
-  // External forces and candidate pairs, with the closest features that ended the last step.
-  w.planFlight(clock);
-  w.findPairs(clock);
-
-  // Impulses of lasting contact; what they press awake takes part in them.
-  LastingContacts contacts = w.solveContacts(clock);
-  while (wakePressed(w.bodies, contacts)) {  // each time an island fewer rests
-    w.planFlight(clock);
-    contacts = w.solveContacts(clock);
+  for (Body& body : w.bodies) body.collided = false;
+  w.planSubstep(time(), w.settings.step_s, clock);
+  w.divideStep(w.substepsWanted());
+  const double length_s = w.settings.step_s / w.substeps;
+  for (int k = 0; k < w.substeps; ++k) {
+    const double begin_s = time() + k * length_s;
+    if (w.substeps > 1) w.planSubstep(begin_s, length_s, clock);
+    w.makeSubstep(begin_s, clock);
   }
-  if (w.view != nullptr) recordContacts({w.bodies, w.shapes, w.table, time()}, contacts, *w.view);
-  if (w.pathsLeaveBounds(clock)) w.findPairs(clock);
-
-  // Advance from one time of impact to the next.
-  runEvents(w.bodies, w.shapes, w.table, w.planner, w.settings, w.counters, clock, w.view);
-  w.finishStep(clock);
-
-  // Modes.
-  const PhaseScope phase(clock, StepPhase::kModes);
-  w.accumulateStillness();
-  if (w.settings.resting_mode) w.restIslands(contacts);
-  w.updateModes(contacts);
   w.publish();
   ++w.steps;
-  w.planner.beginStep(time());
+  w.planner.beginStep(time(), w.substep.step_s);
   if (w.view != nullptr) recordPairs({w.bodies, w.shapes, w.table, time()}, *w.view);
 }
 

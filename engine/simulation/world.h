@@ -2,6 +2,7 @@
 // The world: bodies that share solids, and the fixed step of the paper:
 //   external forces -> candidate pairs -> closest features -> impulses -> advance to the next time of impact
 //   -> modes
+// A long step in which few bodies move in contact goes through them several times, in substeps.
 // Invariant: after `start` has accepted the bodies, every pair keeps a gap > 0 at every instant (DESIGN: the
 // collision window). Deterministic: the same calls give the same bits. Nothing in here draws, prints or reads
 // a clock. Tested in tests/engine/simulation/ and tests/physics/.
@@ -85,6 +86,7 @@ struct StepCounters {
   int newton_steps = 0;      ///< Of the searches for times of impact.
   int stopped_bodies = 0;    ///< Held at their last safe time because an event budget was reached.
   int iteration_limits = 0;  ///< Closest-feature walks that reached their bound.
+  int substeps = 1;          ///< The step was made in so many equal parts; sums are over all of them.
 };
 
 /// Sums over the bodies that can move.
@@ -112,7 +114,8 @@ class World {
   /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest
   /// first; when there are any the world must not be stepped.
   std::vector<Overlap> start();
-  /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome.
+  /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome. While
+  /// few bodies are in contact and move, a step longer than 1/240 s is made in substeps that are not longer.
   void step(PhaseClock* clock = nullptr);
 
   /// From now on `view` is told of every step (and at once of the pairs and bounds of the start), which

@@ -57,6 +57,20 @@ Figure wall(const Simulator& s) {
   return driftAndSag(standFor(Trial(s, brickWall(20, 31, 60.0, false)), 60.0));
 }
 
+// Peers are not asked: an hour of theirs, awake, takes longer than the rest of the table.
+Row hourRow(const char* name, const char* what, const Experiment& e) {
+  const auto measure = [=](const Simulator& s) {
+    if (!s.keeps_gaps) return Figure{"-", false};
+    const Rest rest = restFor(Trial(s, e), 3600.0);
+    Figure figure = allOf({within("rest %.2f s", rest.rest_s, 0.0, 1.0), lengthWithin(rest.moved_m, 0.0)});
+    figure.met = figure.met && rest.unturned;
+    return figure;
+  };
+  return {name,    std::string(what) + ", 60 Hz, an hour: rest / moved from then on",
+          "0",     "1 s / no bit",
+          measure, true};
+}
+
 }  // namespace
 
 std::vector<Row> pileRows() {
@@ -71,7 +85,10 @@ std::vector<Row> pileRows() {
       {"stack-turned", "the same, each cube turned by 0.05 on the one below: drift / sag", "0",
        "< 1 mm / <= 10 mm", turnedStack},
       {"pyramid", "pyramid of 210, resting off, 60 s: drift / sag", "0", "< 1 mm / <= 10 mm", pyramid, true},
-      {"wall", "wall of 610, resting off, 60 s: drift / sag", "0", "< 1 mm / <= 10 mm", wall, true}};
+      {"wall", "wall of 610, resting off, 60 s: drift / sag", "0", "< 1 mm / <= 10 mm", wall, true},
+      hourRow("stack-hour", "stack of 10 cubes", boxStack(10, 60.0, true)),
+      hourRow("pyramid-hour", "pyramid of 210", boxPyramid(20, 60.0, true)),
+      hourRow("wall-hour", "wall of 610", brickWall(20, 31, 60.0, true))};
 }
 
 }  // namespace carom::bench

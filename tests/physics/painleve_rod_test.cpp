@@ -1,9 +1,5 @@
 // Painlevé's rod (experiments/painleve_rod.h): in the region without a finite force the tip is stopped by a
 // finite impulse, and nothing gains energy.
-//
-// From 240 steps a second on nothing gains at all. Below, the first blow gains nothing, but the rod, which is
-// only 0.02 m thick, does in later landings: at 120 25 % with mu = 1.2 and nothing with 0.5, 1.4 and 2; at 60
-// 11 % with mu = 0.5, 54 % with 1.2, 325 % with 1.4 and 45 % with 2; at 30 up to 418 %.
 
 #include "tests/physics/experiments/painleve_rod.h"
 
@@ -18,7 +14,7 @@ class Painleve : public testing::TestWithParam<std::tuple<double, double>> {};  
 
 TEST_P(Painleve, RodIsStoppedByAFiniteImpulse_WithoutGainOfEnergy) {
   const auto [friction, heading] = GetParam();
-  for (double rate_hz : {240.0, 1000.0}) {
+  for (double rate_hz : {30.0, 60.0, 120.0, 240.0, 1000.0}) {
     const PainleveRod rod{.rate_hz = rate_hz, .friction = friction, .heading = heading};
     const PainleveOutcome outcome = slidePainleveRod(kCarom, rod);
     EXPECT_LE(outcome.energy_gain, 1e-12) << rate_hz;
@@ -33,16 +29,6 @@ INSTANTIATE_TEST_SUITE_P(FrictionAndHeading, Painleve,
 TEST(PainleveRegion, BeginsAtFourThirds) {
   EXPECT_GT(PainleveRod{.friction = 1.33}.inverseMass(), 0.0);
   EXPECT_LT(PainleveRod{.friction = 1.34}.inverseMass(), 0.0);
-}
-
-TEST(PainleveRegion, TheFirstBlowGainsNothing_AtCoarseSteps) {
-  for (double friction : {1.4, 2.0})
-    for (double rate_hz : {30.0, 60.0, 120.0}) {
-      const PainleveRod rod{.rate_hz = rate_hz, .friction = friction};
-      const PainleveOutcome outcome = slidePainleveRod(kCarom, rod, 0.1);
-      EXPECT_LE(outcome.energy_gain, 1e-12) << rate_hz << " mu " << friction;
-      EXPECT_LT(outcome.end_energy, 0.9) << rate_hz << " mu " << friction;
-    }
 }
 
 }  // namespace

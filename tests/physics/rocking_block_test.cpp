@@ -1,10 +1,7 @@
 // Housner's rocking block (experiments/rocking_block.h): between landings it keeps its energy, and at each
 // it keeps the closed form's share, 0.8313 for 1 x 4.
 //
-// GOALS' +-0.5 % is met (0.831 to 0.835) from 1 m of height on at 120 steps a second, and with the square of
-// the step: from 4 m at 60, from 0.25 m at 240. A lower block lands wrongly: at 60 one of 1 m keeps 0.72,
-// 0.60 and 0.63, one of 0.5 m 0.48 to 0.58 and one of 2.4 m 0.96 to 0.97; at 120 one of 0.5 m keeps 0.96,
-// 0.98 and 1.01, and so gains.
+// GOALS' +-0.5 % is met (0.831 to 0.835) by blocks of 0.25 to 4 m, also at 30 steps a second.
 
 #include "tests/physics/experiments/rocking_block.h"
 
@@ -39,22 +36,15 @@ TEST_P(RockingBlock, KeepsHousnersShareOfItsEnergy) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(RatesAndSizes, RockingBlock,
-                         testing::Values(Block{60, 4.0, 0.25}, Block{120, 1.0, 0.25}, Block{120, 2.4, 0.25},
-                                         Block{120, 4.0, 0.25}, Block{240, 0.25, 0.25}, Block{240, 0.5, 0.25},
-                                         Block{240, 1.0, 0.25}, Block{240, 2.4, 0.25},
-                                         Block{240, 3.0, 1.0 / 3.0}, Block{1000, 0.5, 0.25},
-                                         Block{1000, 1.0, 0.25}, Block{1000, 2.4, 0.25},
-                                         Block{1000, 3.0, 1.0 / 3.0}));
-
-// At 60 steps a second: not the closed form, but never a gain.
-TEST(RockingBlockCoarse, OfLessThanFourMetres_LosesEnergyAtCoarseSteps) {
-  for (double height_m : {0.5, 1.0, 2.4})
-    for (double ratio : rockingRatios(kCarom, height_m, 60.0, 3)) {
-      EXPECT_GE(ratio, 0.4) << height_m;
-      EXPECT_LE(ratio, 0.98) << height_m;
-    }
+std::vector<Block> blocks() {
+  std::vector<Block> blocks;
+  for (double rate_hz : {30.0, 60.0, 120.0, 240.0, 1000.0})
+    for (double height_m : {0.5, 1.0, 2.4, 4.0}) blocks.push_back({rate_hz, height_m, 0.25});
+  for (double rate_hz : {60.0, 240.0, 1000.0}) blocks.push_back({rate_hz, 3.0, 1.0 / 3.0});
+  blocks.push_back({240.0, 0.25, 0.25});
+  return blocks;
 }
+INSTANTIATE_TEST_SUITE_P(RatesAndSizes, RockingBlock, testing::ValuesIn(blocks()));
 
 class Swing : public testing::TestWithParam<std::tuple<double, double>> {};  // Hz, heading
 

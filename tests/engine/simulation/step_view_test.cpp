@@ -11,10 +11,12 @@ namespace {
 
 constexpr double kG = 9.81;
 
-int addBox(World& world, const Vec3& size_m, const Vec3& position, bool is_static, double restitution = 0.0) {
+int addBox(World& world, const Vec3& size_m, const Vec3& position, bool is_static, double restitution = 0.0,
+           const Vec3& velocity = Vec3::Zero()) {
   BodyDescription body{world.addSolid(Solid::box(size_m)), {}, Vec3::Zero(), Vec3::Zero(), {}, is_static};
   body.X_WB.position = position;
   body.material.restitution = restitution;
+  body.linear_velocity = velocity;
   return world.addBody(body);
 }
 
@@ -93,6 +95,47 @@ TEST(StepView, LastingContactsCarryTheWeightOfAStepAlsoAtRest) {
   for (int i = 0; i < 200; ++i) world.step();
   ASSERT_EQ(world.states()[1].mode, Mode::kResting);
   expectWeight();
+}
+
+// A block slides at 60 steps a second: four substeps bear a quarter of its weight each.
+TEST(StepView, LastingContactsCarryTheWeightOfAWholeStepAlsoInSubsteps) {
+  World world({1.0 / 60.0, Vec3(0.0, 0.0, -kG), true});
+  addBox(world, {40.0, 4.0, 1.0}, {0.0, 0.0, -0.5}, true);
+  addBox(world, {0.6, 0.4, 0.3}, {0.0, 0.0, 0.1503}, false, 0.0, Vec3(2.0, 0.0, 0.0));
+  ASSERT_TRUE(world.start().empty());
+  StepView view;
+  world.watch(&view);
+  const double weight = world.mass(1) * kG / 60.0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    double up = 0.0;
+    for (const ContactView& contact : view.lasting) up += contact.impulse_W.z();
+    EXPECT_NEAR(up, weight, 1e-3 * weight)
+        << world.time() << " s, substeps " << world.audit().last_step.substeps;
+  }
+}
+
+// A box comes to rest while another slides, in substeps; later, nothing is divided any more.
+TEST(StepView, WhatRestsKeepsItsWeightWhateverTheSubsteps) {
+  World world({1.0 / 60.0, Vec3(0.0, 0.0, -kG), true});
+  addBox(world, {40.0, 4.0, 1.0}, {0.0, 0.0, -0.5}, true);
+  addBox(world, {0.6, 0.4, 0.3}, {0.0, 0.0, 0.1503}, false);
+  addBox(world, {0.6, 0.4, 0.3}, {2.0, 0.0, 0.1503}, false, 0.0, Vec3(3.0, 0.0, 0.0));
+  ASSERT_TRUE(world.start().empty());
+  StepView view;
+  world.watch(&view);
+  const double weight = world.mass(1) * kG / 60.0;
+  int rested_in_substeps = 0;
+  for (int i = 0; i < 120; ++i) {
+    world.step();
+    double up = 0.0;
+    for (const ContactView& contact : view.lasting)
+      if (contact.body_b == 1) up += contact.impulse_W.z();
+    EXPECT_NEAR(up, weight, 1e-3 * weight) << world.time() << " s";
+    rested_in_substeps += world.states()[1].mode == Mode::kResting && world.audit().last_step.substeps > 1;
+  }
+  EXPECT_GT(rested_in_substeps, 10);
+  EXPECT_EQ(world.audit().last_step.substeps, 1);
 }
 
 TEST(StepView, SweptBoundsHoldTheBodyThroughoutTheStepAndCandidatesAreThoseThatMeet) {

@@ -28,6 +28,37 @@ inline Standing standFor(Trial trial, double seconds) {
   return standing;
 }
 
+struct Rest {
+  double rest_s = 0.0;   ///< When the last box was put to rest; as long as the run when one never was.
+  double moved_m = 0.0;  ///< Farthest way of a box from then on, ...
+  bool unturned = true;  ///< ... and whether all kept their attitudes to the last bit.
+};
+
+inline Rest restFor(Trial trial, double seconds) {
+  const std::size_t bodies = trial.experiment().bodies.size();
+  const auto all_rest = [&] {
+    for (std::size_t i = 1; i < bodies; ++i)
+      if (!trial.atRest(static_cast<int>(i))) return false;
+    return true;
+  };
+  const long steps = trial.stepsOf(seconds);
+  long n = 0;
+  while (n < steps && !all_rest()) trial.step(), ++n;
+  Rest rest{.rest_s = trial.time()};
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < bodies; ++i) poses.push_back(trial.motion(static_cast<int>(i)).X_WB);
+  for (; n < steps; ++n) {
+    trial.step();
+    for (std::size_t i = 1; i < bodies; ++i) {
+      const Pose X_WB = trial.motion(static_cast<int>(i)).X_WB;
+      const double moved_m = (X_WB.position - poses[i].position).norm();
+      if (!(moved_m <= rest.moved_m)) rest.moved_m = moved_m;
+      rest.unturned = rest.unturned && X_WB.rotation.coeffs() == poses[i].rotation.coeffs();
+    }
+  }
+  return rest;
+}
+
 inline void layBox(Experiment& e, const Vec3& size, const Vec3& position, double turn = 0.0) {
   e.add({.shape = Shape::box(size),
          .X_WB = {rotatedBy(Vec3::UnitZ(), turn), position},
