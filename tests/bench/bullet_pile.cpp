@@ -76,7 +76,7 @@ class BulletHeap {
 
 std::vector<double> bulletStepTimes(const PlainPile& pile, int steps) {
   BulletHeap heap(pile);
-  return timedSteps(steps, [&] { heap.step(pile.step_s); });
+  return settledSteps(pile, steps, [&] { heap.step(pile.step_s); });
 }
 
 }  // namespace carom::bench

@@ -135,7 +135,7 @@ class OdeHeap {
 
 std::vector<double> odeStepTimes(const PlainPile& pile, int steps) {
   OdeHeap heap(pile);
-  return timedSteps(steps, [&] { heap.step(pile.step_s); });
+  return settledSteps(pile, steps, [&] { heap.step(pile.step_s); });
 }
 
 }  // namespace carom::bench

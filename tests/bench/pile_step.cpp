@@ -41,7 +41,7 @@ std::vector<double> caromStepTimes(const PlainPile& pile, int steps) {
                    {pile.friction, pile.friction, 0.0, 1000.0},
                    body.is_static});
   REQUIRE(world.start().empty());
-  return timedSteps(steps, [&] { world.step(); });
+  return settledSteps(pile, steps, [&] { world.step(); });
 }
 
 }  // namespace

@@ -103,7 +103,6 @@ void printCosts(const PileCounts& counts, double rate_hz) {
   std::transform(counts.steps.begin(), counts.steps.end(), ms.begin(),
                  [](const FrameCost& c) { return c.total_ms; });
   printCost("all", ms, rate_hz);
-  std::printf("  p99 / median %.1f (bar 3)\n", percentile(ms, 0.99) / percentile(ms, 0.5));
   for (std::size_t phase = 0; phase < kStepPhases; ++phase) {
     std::transform(counts.steps.begin(), counts.steps.end(), ms.begin(),
                    [phase](const FrameCost& c) { return c.phase_ms[phase]; });
@@ -138,10 +137,12 @@ bool printCounts(const PilePlan& plan, const PileCounts& counts, double seconds)
 
 void compareSettled(const BinPile& pile, int steps) {
   const PlainPile plain = plainPile(pile.world());
-  std::printf("  settled, resting off, %d steps of 1/60 s: median ms a step\n", steps);
+  std::printf("  settled, resting off, %d steps of 1/60 s: ms a step (p99 / median: bar 3)\n", steps);
   for (const PileStepper& stepper : pileSteppers()) {
     const std::vector<double> ms = stepper.stepTimes_ms(plain, steps);
-    std::printf("    %-8s %9.3f  (p99 %.3f)\n", stepper.name, percentile(ms, 0.5), percentile(ms, 0.99));
+    const double median = percentile(ms, 0.5), p99 = percentile(ms, 0.99);
+    std::printf("    %-8s %9.3f  p99 %9.3f  (%.1f)\n", stepper.name, median, p99, p99 / median);
+    std::fflush(stdout);
   }
 }
 
