@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeastGravity = 0.01;          // m/s^2: 6 mm/s for parts a metre wide
 constexpr double kShortestBounce = 1.0 / 32.0;  // half a bounce, in steps
-constexpr double kNoticedBounce = 1.0;          // steps that a bounce lasts: from then on it is one
+constexpr double kNoticedBounce = 1.0;          // steps: a bounce that would last longer is one
 constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 

@@ -228,7 +228,7 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
   }
   // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
   std::vector<RowLoad> balance(rows.size());
-  const bool rests = canRest({rows, island_bodies, radii, substep.gravity, substep.step_s, pushes, balance});
+  const bool rests = canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!balance[k].impulse.isZero(0.0))
       correctLoad(contacts.sources[source_of[k]], balance[k], substep.step_s, table.pairs());

@@ -32,20 +32,25 @@ JSON
 box='{ "box": [0.6, 0.6, 0.6] }'
 still='{ "eye": [7, -13, 8], "target": [0, 0, 0.3], "fovDegrees": 36 }'
 scene boxes-200 "$box" 20 10 0.8 "$still"
-scene polyhedra-200 "{ \"hull\": { \"file\": \"$root/assets/meshes/dodecahedron.ply\", \"scale\": 0.7 } }" 20 10 0.8 "$still"
-scene boxes-1000 "$box" 40 25 0.8 '{ "eye": [14, -26, 16], "target": [0, 0, 0.3], "fovDegrees": 36 }'
+polyhedron="{ \"hull\": { \"file\": \"$root/assets/meshes/dodecahedron.ply\", \"scale\": 0.7 } }"
+far='{ "eye": [14, -26, 16], "target": [0, 0, 0.3], "fovDegrees": 36 }'
+scene polyhedra-200 "$polyhedron" 20 10 0.8 "$still"
+scene boxes-1000 "$box" 40 25 0.8 "$far"
 scene bouncing-200 "$box" 20 10 0.8 "$still" 1.5 0.95
+scene bouncing-polyhedra-200 "$polyhedron" 20 10 0.8 "$still" 1.5 0.95
+scene bouncing-1000 "$box" 40 25 0.8 "$far" 1.5 0.95
 scene orbit-200 "$box" 20 10 0.8 \
   '{ "orbit": { "target": [0, 0, 0.3], "radius": 14.8, "height": 7.7, "degreesPerSecond": 20 }, "fovDegrees": 36 }'
 
 for case in boxes-200:1280x720 polyhedra-200:1280x720 boxes-1000:1280x720 boxes-200:1920x1080 \
-  bouncing-200:1280x720 orbit-200:1280x720; do
+  bouncing-200:1280x720 bouncing-polyhedra-200:1280x720 bouncing-1000:1280x720 bouncing-200:1920x1080 \
+  orbit-200:1280x720; do
   for workers in $(seq 1 "$most"); do
     for _ in $(seq 1 "$runs"); do
       "$carom" render "$work/${case%:*}.json" --size "${case#*:}" --fps 60 --workers "$workers" -q \
         -o "$work/out/f_%04d.png"
     done | sed 's/.*png  //; s/  smallest gap.*//' |
       awk -v what="$case, $workers worker(s)" '{ fps = $5 + 0; for (i = 1; i < NF; ++i) if ($(i + 1) == "fps") fps = $i
-        if (fps > best) { best = fps; line = $0 } } END { printf "%-40s %s\n", what ":", line }'
+        if (fps > best) { best = fps; line = $0 } } END { printf "%-46s %s\n", what ":", line }'
   done
 done
