@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/foundation/contract.h"
+#include "renderer/shader_cache.h"
 
 namespace carom::renderer {
 namespace {
@@ -25,18 +26,27 @@ void checkDriver() {
                       " is no driver that draws here; accepted: llvmpipe, or unset it");
 }
 
-// Mesa keeps compiled shaders on disk keyed neither by CPU nor by vector width, so that a home shared between
-// machines can serve code this CPU cannot run: the cache is off unless somebody asked for it. It would save
-// 0.2 s a process. A GPU draws other pixels, so EGL is told not to look for one.
+// Golden frames shall depend on nothing that an earlier run has left, so portable pixels use no cache.
+void placeShaderCache(PixelPolicy policy) {
+  if (policy == PixelPolicy::kPortable) {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    return;
+  }
+  if (std::getenv("MESA_SHADER_CACHE_DIR") != nullptr) return;
+  if (const std::optional<std::filesystem::path> folder = shaderCacheFolder())
+    setenv("MESA_SHADER_CACHE_DIR", folder->c_str(), 1);
+  else
+    setUnlessSet("MESA_SHADER_CACHE_DISABLE", "true");
+}
+
+// A GPU draws other pixels, so EGL is told not to look for one.
 void setMesaEnvironment(PixelPolicy policy, int threads) {
   checkDriver();
   if (policy == PixelPolicy::kPortable) {
     setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 1);
     setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-  } else if (std::getenv("MESA_SHADER_CACHE_DIR") == nullptr) {
-    setUnlessSet("MESA_SHADER_CACHE_DISABLE", "true");
   }
+  placeShaderCache(policy);
   if (threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
 }
