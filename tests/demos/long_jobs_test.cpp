@@ -157,6 +157,9 @@ TEST_F(LongJob, AfterEditingTheSceneExactlyTheStaleFramesAreRedrawn) {
 TEST_F(LongJob, KilledAtRandomMomentsAndResumedIsTheSingleRun) {
   render("single");
   const Files whole = files("single");
+  const auto begin = std::chrono::steady_clock::now();  // of a run that finds its shaders compiled
+  render("timed");
+  const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begin;
   const unsigned seed = std::random_device{}();
   RecordProperty("seed", std::to_string(seed));
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -165,7 +168,7 @@ TEST_F(LongJob, KilledAtRandomMomentsAndResumedIsTheSingleRun) {
   int killed = 0;
   for (int round = 0; round < kRounds; ++round) {
     const Program program(arguments("killed", {"--resume"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution<>(20, 300)(random)));
+    std::this_thread::sleep_for(std::uniform_real_distribution<>(0.05, 0.5)(random) * length);
     program.signal(SIGKILL);
     killed += program.wait().code == 128 + SIGKILL;
     if (!fs::exists(folder.path() / "killed")) continue;
