@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "renderer/offscreen_context.h"
+#include "renderer/texture_filter.h"
 
 namespace carom::renderer {
 
@@ -12,10 +13,7 @@ MirrorPass::MirrorPass(const GlFunctions& gl, GLuint program, int width, int hei
   gl_.GenTextures(1, &texture_);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width_, height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  readSmoothly(gl_);
   gl_.GenRenderbuffers(1, &depth);
   gl_.BindRenderbuffer(GL_RENDERBUFFER, depth);
   gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_, height_);

@@ -3,6 +3,7 @@
 #include "renderer/scissor.h"
 #include "renderer/shader_program.h"
 #include "renderer/shaders.h"
+#include "renderer/texture_filter.h"
 
 namespace carom::renderer {
 
@@ -12,10 +13,7 @@ ShadowMap::ShadowMap(const GlFunctions& gl, int texels) : gl_(gl), texels_(texel
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, texels_, texels_, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                  nullptr);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  readSmoothly(gl_);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   gl_.GenFramebuffers(1, &target_);

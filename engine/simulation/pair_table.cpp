@@ -59,7 +59,8 @@ Bounds widened(Bounds bounds, double margin) {
 // contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
 // only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
 // gravity never brings them together again. A trace of it always remains, or the rounding of a finished
-// collision would be taken for another. A bounce that would last for steps is one, however slow.
+// collision would be taken for another. A bounce that would last longer than a step, 2 e v / g, is one,
+// however slow.
 double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, const WorldSettings& settings) {
   const auto given = [&](double gravity) {
     return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling),

@@ -300,9 +300,11 @@ int World::Impl::substepsWanted() const {
     return body.moves() && !liesStill(body.velocity, body.radius_m);
   });
   if (wanted == 1 || !stirred) return 1;
-  const auto awake = std::count_if(table.pairs().begin(), table.pairs().end(), [&](const ShapePair& pair) {
-    return bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
-  });
+  int awake = 0;
+  for (const ShapePair& pair : table.pairs()) {
+    awake += bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
+    if (2 * awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
+  }
   if (awake == 0) return 1;
   while (wanted > 1 && wanted * awake > tolerance::kFinePairs) wanted /= 2;
   return wanted;

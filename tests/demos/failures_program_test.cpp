@@ -191,10 +191,10 @@ TEST_F(Failures, AGoldenFileThatFindsNoSpaceKeepsItsOldContent) {
 // shows it depends on the last bits.
 TEST_F(Failures, ARunWhoseNumbersGiveOutEndsWith5AndSaysWhen) {
   const auto scene = [this](double spin) {
-    const std::string w = std::to_string(spin),
-                      grain =
-                          "\"shape\": { \"box\": [1e-4, 1e-4, 1e-4] }, "
-                          "\"repeat\": { \"count\": [1, 101, 1], \"step\": [0, 1, 0] }, ";
+    const std::string w = std::to_string(spin);
+    const std::string grain =
+        "\"shape\": { \"box\": [1e-4, 1e-4, 1e-4] }, "
+        "\"repeat\": { \"count\": [1, 101, 1], \"step\": [0, 1, 0] }, ";
     return folder
         .file("grains.json",
               "{ \"format\": 1, \"rate\": 10, \"duration\": 600, \"gravity\": [1000, 0, 1000], \"bodies\": [ "
