@@ -1,7 +1,9 @@
 #include "engine/contact/time_of_impact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "engine/contact/approach.h"
 
@@ -14,7 +16,8 @@ constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 
 constexpr double kSmallestShare =
     1e-10;                              // of the searched interval: less progress than this is standing still
 constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an impact there has landed
-constexpr double kFloorSlack = 0.02;    // of the floor: a slow approach is stopped this near to it
+constexpr double kStruckShare = 0.9;
+constexpr double kFloorSlack = 0.02;  // of the floor: a slow approach is stopped this near to it
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
 // derivative is at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
@@ -25,14 +28,21 @@ double lowerBound(double begin, double end, double k) {
   return begin - (k - rise) * (k - rise) / (4.0 * k);
 }
 
+// The largest gap at which a fast approach is an impact.
+double highestImpact(const ImpactSearch& search) {
+  return search.lands ? (1.0 + kLandingSlack) * search.window.landing : search.window.ceiling;
+}
+
+// A unit direction that turns with one of the parts, or with none.
+struct Direction {
+  const MovingPart* frame = nullptr;
+  Vec3 n_F;  // in the frame's axes, or the world's
+};
+
 class Look {
  public:
   Look(const MovingPart& a, const MovingPart& b, const ImpactSearch& search)
       : a_(a), b_(b), search_(search) {}
-
-  Pose poseOf(const MovingPart& moving, double t) const {
-    return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
-  }
 
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
     const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};
@@ -40,28 +50,105 @@ class Look {
     return c.n_W.dot(vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
   }
 
-  // The gap between the parts along a fixed direction; at most their distance.
-  double gapAlong(const Vec3& n, double t) {
+  // The longest interval from `begin`, among those Newton proposes, over which the gap stays >= floor.
+  double provenInterval(double begin, const ClosestFeatures& c, double speed, double floor,
+                        int& newton_steps) {
+    const double gap = c.distance_m;
+    const double landing = search_.window.landing;
+    // Aim at the landing gap; what is in the window already, or far, comes down by three quarters.
+    const double low = floor + 0.25 * (gap - floor);
+    const double aim = gap > highestImpact(search_) ? std::max(low, landing) : low;
+    // What comes down fast beside a point in contact is to be struck at the height of that point.
+    const double target = std::min(landing, floor + kStruckShare * (gap - floor));
+    const double whole = search_.end_s - begin;
+    // Far apart for their speeds: clear without a look at the end.
+    const double clear = search_.lands ? std::max(floor, target) : floor;
+    const double curvature = curvatureBound({nullptr, c.n_W}, begin, whole);
+    if (gap + (slowestSpeed(begin, c.n_W) - 0.5 * curvature * whole) * whole >= clear) return whole;
+    Chord chord = bestChord(begin, c, whole, floor);
+    for (int i = 0; i < kProposals; ++i) {
+      if (chord.lower_bound >= floor) {
+        // Safe; but what ends deep in the window and fast has passed its landing.
+        if (!search_.lands || chord.end_gap >= (1.0 - kLandingSlack) * target) return chord.interval;
+        const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
+        if (end_speed >= -search_.collision_speed_mps) return chord.interval;
+        ++newton_steps;
+        const double back = std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
+        chord = chordAlong(chord.direction, begin, gap, chord.interval - back);
+        continue;
+      }
+      ++newton_steps;
+      double proposal = kLinearShrink * chord.interval;
+      if (chord.end_gap < aim)
+        proposal = std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));
+      if (speed < 0.0)
+        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
+      else
+        proposal *= 0.5;
+      chord = chordAlong(chord.direction, begin, gap, proposal);
+    }
+    return 0.0;
+  }
+
+ private:
+  // The gap along a direction at the end of an interval, and the least that it can be within it.
+  struct Chord {
+    Direction direction;
+    double interval = 0.0;
+    double end_gap = 0.0;
+    double lower_bound = -std::numeric_limits<double>::infinity();
+  };
+
+  Pose poseOf(const MovingPart& moving, double t) const {
+    return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
+  }
+
+  static Vec3 directionAt(const Direction& direction, const Pose& X_WF) {
+    return direction.frame == nullptr ? direction.n_F : Vec3(X_WF.rotation * direction.n_F);
+  }
+
+  // The gap between the parts along a direction; at most their distance.
+  double gapAlong(const Direction& direction, double t) {
     const Pose X_WA = poseOf(a_, t);
     const Pose X_WB = poseOf(b_, t);
+    const Vec3 n = directionAt(direction, direction.frame == &a_ ? X_WA : X_WB);
     support_a_ = a_.part->core.support(X_WA.rotation.conjugate() * n, support_a_);
     support_b_ = b_.part->core.support(X_WB.rotation.conjugate() * -n, support_b_);
     return n.dot(X_WB * b_.part->core.vertex(support_b_) - X_WA * a_.part->core.vertex(support_a_)) -
            a_.part->radius_m - b_.part->radius_m;
   }
 
-  // How fast the two vertices that `gapAlong` found last part along n.
-  double supportSpeed(const Vec3& n, double t) const {
-    const auto speedOf = [&](const MovingPart& moving, int vertex) {
-      const Vec3 r = poseOf(moving, t).rotation * moving.part->core.vertex(vertex);
-      return n.dot(Velocity{moving.path->velocityAt(t), moving.path->angularVelocityAt(t)}.at(r));
-    };
-    return speedOf(b_, support_b_) - speedOf(a_, support_a_);
+  // How fast the gap between the two vertices that `gapAlong` found last opens.
+  double supportSpeed(const Direction& direction, double t) const {
+    const Pose X_WA = poseOf(a_, t);
+    const Pose X_WB = poseOf(b_, t);
+    const Vec3 n = directionAt(direction, direction.frame == &a_ ? X_WA : X_WB);
+    const Vec3 v_A = X_WA * a_.part->core.vertex(support_a_);
+    const Vec3 v_B = X_WB * b_.part->core.vertex(support_b_);
+    const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};
+    const Velocity vb{b_.path->velocityAt(t), b_.path->angularVelocityAt(t)};
+    // In a frame that turns, its body's plane passes the other's vertex.
+    const Vec3& at_a = direction.frame == &a_ ? v_B : v_A;
+    const Vec3& at_b = direction.frame == &b_ ? v_A : v_B;
+    return n.dot(vb.at(at_b - X_WB.position) - va.at(at_a - X_WA.position));
   }
 
-  double curvatureBound(const Vec3& n) const {
-    return std::abs(n.dot(b_.path->acceleration - a_.path->acceleration)) +
-           a_.path->turningAcceleration() * a_.reach_m + b_.path->turningAcceleration() * b_.reach_m;
+  // M, for an interval from `begin`. What a frame turns by itself stands still in it; for the other's
+  // vertices x, seen from its centre, (n . x)'' = n'' . x + 2 n' . x' + n . x'', with |n'| <= spin.
+  double curvatureBound(const Direction& direction, double begin, double interval) const {
+    const double turning_a = a_.path->turningAcceleration() * a_.reach_m;
+    const double turning_b = b_.path->turningAcceleration() * b_.reach_m;
+    const Vec3 acceleration = b_.path->acceleration - a_.path->acceleration;
+    if (direction.frame == nullptr) return std::abs(direction.n_F.dot(acceleration)) + turning_a + turning_b;
+    const Trajectory& frame = *direction.frame->path;
+    const MovingPart& other = direction.frame == &a_ ? b_ : a_;
+    const double fastest =
+        (b_.path->velocityAt(begin) - a_.path->velocityAt(begin)).norm() + acceleration.norm() * interval;
+    const double farthest =
+        (b_.path->positionAt(begin) - a_.path->positionAt(begin)).norm() + fastest * interval;
+    return frame.turningAcceleration() * (farthest + other.reach_m) +
+           2.0 * frame.fastestSpin() * (fastest + other.path->fastestSpin() * other.reach_m) +
+           acceleration.norm() + (direction.frame == &a_ ? turning_b : turning_a);
   }
 
   static double turningSpeed(const Trajectory& path, const Vec3& n) {
@@ -74,47 +161,34 @@ class Look {
            turningSpeed(*b_.path, n) * b_.reach_m;
   }
 
-  // The longest interval from `begin`, among those Newton proposes, over which the gap along n stays >=
-  // floor.
-  double provenInterval(double begin, double gap, double speed, const Vec3& n, double floor,
-                        int& newton_steps) {
-    const double curvature = curvatureBound(n);
-    // Aim between floor and gap when already low, else at the landing gap.
-    const double landing = search_.window.landing;
-    const double low = floor + 0.75 * (gap - floor);
-    const double near =
-        search_.lands && gap > (1.0 + kLandingSlack) * landing ? landing : std::min(landing, low);
-    const double aim = std::max(floor + 0.25 * (gap - floor), near);
-    double interval = search_.end_s - begin;
-    // Far apart for their speeds: clear without a look at the end.
-    const double target = std::min(aim, landing);
-    const double clear = search_.lands ? std::max(floor, target) : floor;
-    if (gap + (slowestSpeed(begin, n) - 0.5 * curvature * interval) * interval >= clear) return interval;
-    for (int i = 0; i < kProposals; ++i) {
-      const double end_gap = gapAlong(n, begin + interval);
-      if (lowerBound(gap, end_gap, 0.5 * curvature * interval * interval) >= floor) {
-        // Safe; but what ends deep in the window and fast has passed its landing.
-        if (!search_.lands || end_gap >= (1.0 - kLandingSlack) * target) return interval;
-        const double end_speed = supportSpeed(n, begin + interval);
-        if (end_speed >= -search_.collision_speed_mps) return interval;
-        ++newton_steps;
-        interval -= std::min(0.5 * interval, (end_gap - target) / end_speed);
-        continue;
-      }
-      ++newton_steps;
-      double proposal = kLinearShrink * interval;
-      if (end_gap < aim)
-        proposal = std::min(proposal, interval * (gap - aim) / (gap - end_gap));  // the chord
-      if (speed < 0.0)
-        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
-      else
-        proposal *= 0.5;
-      interval = proposal;
-    }
-    return 0.0;
+  Direction turningWith(const MovingPart* frame, double begin, const Vec3& n) const {
+    if (frame == nullptr || frame->path->fastestSpin() == 0.0) return {nullptr, n};
+    return {frame, frame->path->at(begin).rotation.conjugate() * n};
   }
 
- private:
+  Chord chordAlong(const Direction& direction, double begin, double gap, double interval) {
+    const double end_gap = gapAlong(direction, begin + interval);
+    const double k = 0.5 * curvatureBound(direction, begin, interval) * interval * interval;
+    return {direction, interval, end_gap, lowerBound(gap, end_gap, k)};
+  }
+
+  // A face turns with its part, and so does the gap below it: the direction that turns with who has the face,
+  // else with the larger one; where that does not prove the interval, with the other or none, if it is
+  // better.
+  Chord bestChord(double begin, const ClosestFeatures& c, double interval, double floor) {
+    const bool face_a = c.features.a.kind == FeatureKind::kFace;
+    const bool face_b = c.features.b.kind == FeatureKind::kFace;
+    const bool a_first = face_a || (!face_b && a_.reach_m >= b_.reach_m);
+    const std::array<const MovingPart*, 3> frames{a_first ? &a_ : &b_, a_first ? &b_ : &a_, nullptr};
+    Chord best;
+    for (const MovingPart* frame : frames) {
+      const Chord chord = chordAlong(turningWith(frame, begin, c.n_W), begin, c.distance_m, interval);
+      if (chord.lower_bound > best.lower_bound) best = chord;
+      if (best.lower_bound >= floor) break;
+    }
+    return best;
+  }
+
   const MovingPart& a_;
   const MovingPart& b_;
   const ImpactSearch& search_;
@@ -144,8 +218,7 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   const double gap = found.closest.distance_m;
   const double speed = look.separatingSpeedAt(found.time_s, found.closest);
   const bool fast = speed < -search.collision_speed_mps;
-  const double highest = search.lands ? (1.0 + kLandingSlack) * search.window.landing : search.window.ceiling;
-  if (fast && gap <= highest) {
+  if (fast && gap <= highestImpact(search)) {
     found.outcome = TimeOfImpact::Outcome::kImpact;
     return;
   }
@@ -156,7 +229,7 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   found.outcome = TimeOfImpact::Outcome::kStopped;
   if ((speed < 0.0 && gap < (1.0 + kFloorSlack) * found.floor) || found.looks > kAdvances) return;
   const double interval =
-      look.provenInterval(found.time_s, gap, speed, found.closest.n_W, found.floor, found.newton_steps);
+      look.provenInterval(found.time_s, found.closest, speed, found.floor, found.newton_steps);
   if (interval <= kSmallestShare * (search.end_s - search.begin_s)) {
     if (fast && gap <= search.window.ceiling) found.outcome = TimeOfImpact::Outcome::kImpact;
     return;

@@ -2,14 +2,15 @@
 // Collision time searching (paper §2.3, figs. 6 and 7): the first time at which two moving parts come into
 // the collision window fast enough to collide, or can be carried no further without leaving it downwards.
 //
-// The search never trusts d(t) between two looks at it. With the direction n of the closest features held
-// fixed, the gap along n between the parts bounds d(t) from below, and every vertex moves along n with a
-// second derivative of at most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B (twice the latter for bodies
-// that tumble). A function with that bound
-// stays above its chord less M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower
-// bound for all of it. Newton's step towards the landing gap (with the paper's linear correction as its
-// guard) only proposes the interval. Invariant: up to the returned time the distance is >= the floor. Valid
-// for any speed and any rotation. Tested in tests/engine/contact/time_of_impact_test.cpp.
+// The search never trusts d(t) between two looks at it. The gap between the parts along any direction n(t)
+// bounds d(t) from below. Where n stands still, every vertex moves along it with a second derivative of at
+// most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B (twice the latter for bodies that tumble). A function
+// with that bound stays above its chord less M t (dt - t) / 2, so from the gap at the two ends of an interval
+// follows a lower bound for all of it. What slides over a face that turns stays near it, but not along a
+// direction that stands still, in which the face's far corners dip at once: there n turns with the face's
+// part, and M holds what a turning frame adds. Newton's step towards the landing gap (with the paper's linear
+// correction as its guard) only proposes the interval. Invariant: up to the returned time the distance is >=
+// the floor. Valid for any speed and any rotation. Tested in tests/engine/contact/time_of_impact_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 #include "engine/contact/collision_window.h"

@@ -314,6 +314,43 @@ TEST(TimeOfImpact, OfTwoThatTravelTogether_IsClearWithoutAQuery) {
   EXPECT_EQ(found.queries, 0);
 }
 
+// In a crowd: a box stands with a corner, an edge or a face near another's face and slides over it while both
+// turn, each as it likes, but so that the contact neither opens nor closes. What turns with the contact sees
+// the gap stay; in directions that stand still, faces would seem to sweep through each other at once.
+TEST(TimeOfImpact, OfTwoThatSlideAndTurnInContact_NeedsFewQueries) {
+  Random random(83);
+  const auto within = [&random](double most) {
+    const Vec3 direction = random.direction();
+    return Vec3(random.uniform(0, most) * direction);
+  };
+  const Solid box = Solid::box(Vec3::Constant(0.5));
+  long queries = 0, pairs = 0, stopped = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Quat R_WA = random.rotation();
+    const Quat R_WB = i % 4 == 0 ? R_WA : random.rotation();
+    const Vec3 n = R_WA * Vec3::UnitZ();
+    const double x = random.uniform(-0.2, 0.2);
+    const double y = random.uniform(-0.2, 0.2);
+    const Vec3 r_a = R_WA * Vec3(x, y, 0.25);  // of the contact, on A
+    const Velocity of_a{within(1.0), within(2.0)};
+    const Mover a = Mover::of(box, {R_WA, Vec3(1, 2, 3)}, of_a.linear, of_a.angular);
+    Mover b = Mover::of(box, {R_WB, Vec3::Zero()}, Vec3::Zero(), within(2.0));
+    const Vec3 r_b = R_WB * b.part.core.vertex(b.part.core.support(R_WB.conjugate() * -n, 0));
+    const double gap = random.uniform(0.8, 1.1) * collisionWindow(a.part, b.part).rest;
+    b.path.X_WB.position = a.path.X_WB.position + r_a + gap * n - r_b;
+    b.path.velocity = of_a.at(r_a + gap * n) + n.cross(within(0.3)) - b.path.spin.cross(r_b);
+    const ImpactSearch search = searchOf(a, b, 1.0 / 60.0);
+    const TimeOfImpact found = find(a, b, search);
+    ++pairs;
+    queries += found.queries;
+    stopped += found.outcome != Outcome::kClear;
+    for (int k = 0; k <= 50; ++k)
+      ASSERT_GE(closestAt(a, b, k * found.time_s / 50).distance_m, search.window.floor * (1 - 1e-9)) << i;
+  }
+  EXPECT_LT(static_cast<double>(queries), 2.0 * static_cast<double>(pairs));
+  EXPECT_LT(stopped, pairs / 4) << "few turn so that another corner comes down";
+}
+
 // Bodies keep time on their own: paths that started earlier, searched from a later instant.
 TEST(TimeOfImpact, WithPathsOfDifferentStarts_IsTheSameInstant) {
   const Mover ground = floorBox();
