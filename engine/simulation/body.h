@@ -90,7 +90,7 @@ inline void turnFreely(Body& body, double dt_s) {
     body.path.tumbling = tumbling(body.inertia, R, omega, dt_s);
 }
 
-/// One convex part of one body: what the broad phase pairs.
+/// One convex part of one body: what the broad phase pairs. The shapes of a world ascend by body.
 struct Shape {
   int body = -1;
   const ConvexPart* part = nullptr;

@@ -85,6 +85,7 @@ double pairingMargin(const Shape& shape) {
 
 void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                              double end_s) {
+  tree_.clear();
   const bool first = proxies_.size() != shapes.size();
   proxies_.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -157,17 +158,22 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
 void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
                        const std::vector<Shape>& shapes, const WorldSettings& settings,
                        StepCounters& counters, PhaseClock* clock) {
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].body != body) continue;
+  const auto first = std::lower_bound(shapes.begin(), shapes.end(), body,
+                                      [](const Shape& shape, int b) { return shape.body < b; });
+  for (auto i = static_cast<std::size_t>(first - shapes.begin()); i < shapes.size(); ++i) {
+    if (shapes[i].body != body) break;
     const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
     const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
     proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
-    for (std::size_t j = 0; j < shapes.size(); ++j) {
-      if (!canPair(proxies_[i], proxies_[j])) continue;
-      const int low = static_cast<int>(std::min(i, j));
-      const int high = static_cast<int>(std::max(i, j));
+    const int shape = static_cast<int>(i);
+    if (!tree_.isBuilt()) tree_.build(proxies_);
+    tree_.grow(shape, onwards);
+    tree_.findPartners(proxies_, shape, partners_);
+    for (int partner : partners_) {
+      const int low = std::min(shape, partner);
+      const int high = std::max(shape, partner);
       const std::vector<int>& known = of_body_[at(body)];
       if (std::any_of(known.begin(), known.end(), [&](int p) {
             return pairs_[at(p)].shapes == IndexPair{low, high};

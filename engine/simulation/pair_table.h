@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/broad_phase/bounds_tree.h"
 #include "engine/broad_phase/candidate_pairs.h"
 #include "engine/contact/contact_manifold.h"
 #include "engine/contact/time_of_impact.h"
@@ -70,8 +71,10 @@ class PairTable {
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;
+  BoundsTree tree_;               ///< Of the proxies; built when a path first leaves its bounds.
   std::vector<ShapePair> pairs_;  ///< Ascending by shapes, but for those added within a step.
   std::vector<std::vector<int>> of_body_;
+  std::vector<int> partners_;  ///< Scratch of `extend`.
 };
 
 }  // namespace carom

@@ -1,0 +1,109 @@
+// The pairs that a step's events add, against asking all shapes.
+
+#include "engine/simulation/pair_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/oracle/test_shapes.h"
+
+namespace carom {
+namespace {
+
+using oracle::Random;
+
+// Bodies of one or two parts, some of them static, thrown anew into a room for every step.
+class Crowd {
+ public:
+  Crowd(Random& random, int bodies) : random_(random), bodies_(static_cast<std::size_t>(bodies)) {
+    settings_.step_s = 0.1;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const int body = static_cast<int>(i);
+      bodies_[i].is_static = i % 10 == 9;
+      bodies_[i].X_WB = bodies_[i].path.X_WB = random_.pose(kRoom);
+      shapes_.push_back({body, &block_.parts()[0], block_.radius()});
+      if (i % 3 == 0) shapes_.push_back({body, &beam_.parts()[0], beam_.radius()});
+    }
+  }
+
+  void beginStep() {
+    for (Body& body : bodies_) {
+      if (body.is_static) continue;
+      body.path = Trajectory{0.0, random_.pose(kRoom), random_.direction()};
+      body.X_WB = body.path.X_WB;
+    }
+    table_.updateBounds(bodies_, shapes_, settings_.step_s);
+    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+  }
+
+  // A body goes elsewhere; the pairs that this adds.
+  std::vector<IndexPair> turnOne(double time_s, int index) {
+    Body& body = bodies_[static_cast<std::size_t>(index)];
+    const Pose X_WB = body.path.at(time_s);
+    const double speed_mps = random_.logUniform(1.0, 100.0);
+    body.path = Trajectory{time_s, X_WB, speed_mps * random_.direction()};
+    const std::size_t before = table_.pairs().size();
+    table_.extend(index, time_s, bodies_, shapes_, settings_, counters_, nullptr);
+    std::vector<IndexPair> added;
+    for (std::size_t i = before; i < table_.pairs().size(); ++i) added.push_back(table_.pairs()[i].shapes);
+    return added;
+  }
+
+  // The pairs of a body that are not known yet, by its shapes, and for each by the other one.
+  std::vector<IndexPair> missing(int body, const std::vector<IndexPair>& known) const {
+    std::vector<IndexPair> pairs;
+    const std::vector<Proxy>& proxies = table_.proxies();
+    for (std::size_t i = 0; i < proxies.size(); ++i)
+      for (std::size_t j = 0; j < proxies.size(); ++j) {
+        if (shapes_[i].body != body || !canPair(proxies[i], proxies[j])) continue;
+        const IndexPair pair{static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))};
+        if (std::find(known.begin(), known.end(), pair) == known.end()) pairs.push_back(pair);
+      }
+    return pairs;
+  }
+
+  std::vector<IndexPair> pairs() const {
+    std::vector<IndexPair> pairs;
+    for (const ShapePair& pair : table_.pairs()) pairs.push_back(pair.shapes);
+    return pairs;
+  }
+  bool pathsLeaveBounds() const { return table_.pathsLeaveBounds(bodies_, shapes_, settings_.step_s); }
+  const PairTable& table() const { return table_; }
+
+ private:
+  static constexpr double kRoom = 8.0;
+
+  Random& random_;
+  Solid block_ = Solid::box({0.5, 0.6, 0.7});
+  Solid beam_ = Solid::box({3.0, 0.2, 0.2});
+  std::vector<Body> bodies_;
+  std::vector<Shape> shapes_;
+  WorldSettings settings_;
+  StepCounters counters_;
+  PairTable table_;
+};
+
+TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
+  Random random(44);
+  Crowd crowd(random, 100);
+  std::size_t added_in_all = 0;
+  for (int step = 0; step < 10; ++step) {
+    crowd.beginStep();
+    for (int event = 0; event < 40; ++event) {
+      const int body = 10 * random.integer(0, 9) + random.integer(0, 8);  // not a static one
+      const std::vector<IndexPair> known = crowd.pairs();
+      const std::vector<IndexPair> added = crowd.turnOne(0.002 * event, body);
+      ASSERT_EQ(added, crowd.missing(body, known)) << "step " << step << " event " << event;
+      ASSERT_FALSE(crowd.pathsLeaveBounds());
+      added_in_all += added.size();
+    }
+    std::vector<IndexPair> pairs = crowd.pairs();
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(pairs, candidatePairs(crowd.table().proxies())) << "step " << step;
+  }
+  EXPECT_GT(added_in_all, 1000u);
+}
+
+}  // namespace
+}  // namespace carom
