@@ -60,6 +60,7 @@ std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, i
 HeldRows::HeldRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
   placeBodies(rows, bodies);
   placeBlocks(rows);
+  factor_.emplace(static_cast<int>(inertia_.size()), blocks_);
 }
 
 void HeldRows::placeBodies(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
@@ -124,29 +125,9 @@ void HeldRows::addRow(const RowPlace& place, const Mat3& stiffness, const Vec3& 
     blocks_[at(place.block)].value += place.of_b.transpose() * on_a;
 }
 
-void HeldRows::writeMatrix() {
-  const int bodies = static_cast<int>(inertia_.size());
-  matrix_.resize(6 * bodies, 6 * bodies);
-  matrix_.reserve(21 * bodies + 36 * static_cast<int>(blocks_.size()));
-  std::size_t first = 0;
-  for (int slot = 0; slot < bodies; ++slot) {
-    std::size_t last = first;
-    while (last < blocks_.size() && blocks_[last].column == slot) ++last;
-    for (int c = 0; c < 6; ++c) {
-      matrix_.startVec(6 * slot + c);
-      for (int r = c; r < 6; ++r) matrix_.insertBack(6 * slot + r, 6 * slot + c) = diagonal_[at(slot)](r, c);
-      for (std::size_t k = first; k < last; ++k)
-        for (int r = 0; r < 6; ++r)
-          matrix_.insertBack(6 * blocks_[k].row + r, 6 * slot + c) = blocks_[k].value(r, c);
-    }
-    first = last;
-  }
-  matrix_.finalize();
-}
-
 bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   diagonal_ = inertia_;
-  for (Block& block : blocks_) block.value.setZero();
+  for (OffDiagonalBlock& block : blocks_) block.value.setZero();
   push_.setZero(6 * static_cast<int>(inertia_.size()));
   std::vector<Equation> equations;
   equations.reserve(rows.size());
@@ -155,12 +136,9 @@ bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
     equations.push_back({i, stiffnessOf(rows[i]), rowMiss(rows[i], bodies)});
     addRow(places_[i], equations.back().stiffness, equations.back().miss);
   }
-  writeMatrix();
-  if (!analyzed_) factor_.analyzePattern(matrix_);
-  analyzed_ = true;
-  factor_.factorize(matrix_);
-  if (factor_.info() != Eigen::Success) return false;
-  const Eigen::VectorXd change = factor_.solve(push_);
+  if (!factor_->factorize(diagonal_, blocks_)) return false;
+  Eigen::VectorXd& change = push_;
+  factor_->solve(change);
   if (!change.allFinite()) return false;
   for (const Equation& equation : equations) {
     const RowPlace& place = places_[equation.row];

@@ -5,14 +5,14 @@
 //   (M + J' S J) dv = -J' S (J v - b),   change of the impulses = -S (J (v + dv) - b),
 // J the rows' velocities, b their bounds, S the inverse of each row's own response times kStiffness. A row
 // that slides is an equation in its normal part; its friction is left to the sweeps, and so are the cones,
-// resistance to turning, and rows whose gap may still close (a bound below zero): several of these at one face
-// would contradict each other.
-// Tested in tests/engine/response/standing_solver_test.cpp.
+// resistance to turning, and rows whose gap may still close (a bound below zero): several of these at one
+// face would contradict each other. Tested in tests/engine/response/standing_solver_test.cpp.
 
-#include <Eigen/SparseCholesky>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/response/block_cholesky.h"
 #include "engine/response/contact_solver.h"
 
 namespace carom {
@@ -33,7 +33,6 @@ class HeldRows {
 
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
-  using Mat6 = Eigen::Matrix<double, 6, 6>;
   using RowJacobian = Eigen::Matrix<double, 3, 6>;  ///< (separating, t1, t2) per (linear, angular) velocity.
 
   struct RowPlace {
@@ -43,26 +42,17 @@ class HeldRows {
     int slot_b = -1;
     int block = -1;  ///< Of the pair of bodies, in `blocks_`; -1: one of them cannot move.
   };
-  struct Block {
-    int row = 0;  ///< Slots, row > column.
-    int column = 0;
-    Mat6 value;
-  };
-
   void placeBodies(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies);
   void placeBlocks(std::span<const ContactRow> rows);
   void addRow(const RowPlace& place, const Mat3& stiffness, const Vec3& miss);
-  void writeMatrix();
 
   std::vector<int> slots_;     ///< One a body; -1: it cannot move, or no row refers to it.
   std::vector<Mat6> inertia_;  ///< One a slot.
   std::vector<RowPlace> places_;
-  std::vector<Mat6> diagonal_;  ///< One a slot.
-  std::vector<Block> blocks_;   ///< Below the diagonal, by column and row.
+  std::vector<Mat6> diagonal_;            ///< One a slot.
+  std::vector<OffDiagonalBlock> blocks_;  ///< By slots, column before row.
   Eigen::VectorXd push_;
-  Eigen::SparseMatrix<double> matrix_;  ///< The lower triangle.
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
-  bool analyzed_ = false;
+  std::optional<BlockCholesky> factor_;  ///< Made once places are known.
 };
 
 }  // namespace carom
