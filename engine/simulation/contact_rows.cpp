@@ -124,7 +124,7 @@ GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool press
   const double lowest = pair.restitution > tolerance::kLively ? kLivelyGap * window.rest : window.rest - band;
   const double missing = lowest - gap_m;
   if (missing <= 0.0) return {};
-  return {0.0, std::min(tolerance::kGapGain * missing / dt_s, tolerance::kGapSpeed)};
+  return {0.0, std::min(missing / dt_s, tolerance::kGapSpeed)};
 }
 
 bool raiseForTurning(const PathBounds& bounds, std::span<const SourcedRow> sources,
