@@ -34,6 +34,9 @@ inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what 
 inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
 inline constexpr int kSolverMostVisits = 50000;   // of what moves, where the coarse one is not reached
 inline constexpr int kSolverStandingSweeps = 20;  // of what stands, before its rows are solved at once
+inline constexpr int kSolverPatientRows = 6000;   // From so many rows on, what has not converged at once ...
+inline constexpr int kSolverPatience = 8;         // ... in so many steps more often than it has ...
+inline constexpr int kSolverPause = 120;          // ... is swept alone for so many.
 inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already
 inline constexpr double kGapSpeed = 0.1;  // m/s at most while reopening a gap, which is done within a step
 

@@ -32,6 +32,8 @@ struct Body {
   Vec3 contact_torque = Vec3::Zero();  ///< N m about the centre of mass, world frame.
   double still_s = 0.0;                ///< For how long it has lain still.
   Mode mode = Mode::kFree;
+  int in_vain = 0;      ///< How much more often its island, solved at once, has not converged than it has.
+  int swept_alone = 0;  ///< Steps for which that is not tried again.
 
   Pose X_WB;          ///< At the time of the last finished step.
   Velocity velocity;  ///< At the time of the last finished step.

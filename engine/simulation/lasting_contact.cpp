@@ -8,6 +8,7 @@
 #include "engine/response/standing_solver.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/midstep_rows.h"
+#include "engine/simulation/solver_patience.h"
 #include "engine/simulation/warm_start.h"
 
 namespace carom {
@@ -121,24 +122,36 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
   return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
 }
 
+// What lies still, all of it.
+void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                      std::span<ImpulseBody> solver_bodies, double gravity_speed) {
+  const SolverSettings settings{
+      .sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
+      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed};
+  SolverPatience patience(rows, bodies);
+  if (patience.isLost()) {
+    solveContactsFinely(rows, solver_bodies, settings);
+    patience.waitAStep();
+    return;
+  }
+  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
+  if (report.sweeps > settings.sweeps) patience.learn(report.residual_mps <= settings.residual_mps);
+}
+
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
 // taken as equations, would contradict each other.
-void solveStandingIsland(std::span<ContactRow> rows, bool stirred, std::span<ImpulseBody> bodies,
-                         double gravity_speed) {
+void solveStandingIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                         std::span<ImpulseBody> solver_bodies, double gravity_speed) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (stirred) {
-    solveContactsFinely(
-        rows, bodies,
-        {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps),
-         .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed});
+  if (!isStirred(rows, bodies)) {
+    solveStillIsland(rows, bodies, solver_bodies, gravity_speed);
     return;
   }
-  solveStandingContacts(
-      rows, bodies,
-      {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
-       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed});
+  solveContactsFinely(rows, solver_bodies,
+                      {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps),
+                       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed});
 }
 
 // Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
@@ -155,13 +168,13 @@ void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies
 }
 
 // With friction.
-void solveImpulses(const Assembly& assembly, const std::vector<Body>& bodies, double gravity_speed,
+void solveImpulses(const Assembly& assembly, std::vector<Body>& bodies, double gravity_speed,
                    LastingContacts& contacts) {
   for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
     const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(assembly.island_begin[i], count);
     if (stands(rows, bodies))
-      solveStandingIsland(rows, isStirred(rows, bodies), contacts.bodies, gravity_speed);
+      solveStandingIsland(rows, bodies, contacts.bodies, gravity_speed);
     else
       solveMovingIsland(rows, contacts.bodies, gravity_speed);
   }

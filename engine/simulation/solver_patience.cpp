@@ -1,0 +1,45 @@
+#include "engine/simulation/solver_patience.h"
+
+#include <algorithm>
+
+#include "engine/foundation/tolerances.h"
+
+namespace carom {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Body>& bodies)
+    : bodies_(bodies) {
+  if (rows.size() < at(tolerance::kSolverPatientRows)) return;
+  rows_ = rows;
+  for (const ContactRow& row : rows_)
+    for (const int i : {row.a, row.b}) {
+      in_vain_ = std::max(in_vain_, bodies_[at(i)].in_vain);
+      swept_alone_ = std::max(swept_alone_, bodies_[at(i)].swept_alone);
+    }
+}
+
+void SolverPatience::learn(bool converged) {
+  if (converged)
+    keep(std::max(0, in_vain_ - 1), 0);
+  else if (in_vain_ + 1 < tolerance::kSolverPatience)
+    keep(in_vain_ + 1, 0);
+  else
+    keep(in_vain_, tolerance::kSolverPause);
+}
+
+void SolverPatience::keep(int in_vain, int swept_alone) {
+  for (const ContactRow& row : rows_)
+    for (const int i : {row.a, row.b}) {
+      if (!bodies_[at(i)].moves()) continue;
+      bodies_[at(i)].in_vain = in_vain;
+      bodies_[at(i)].swept_alone = swept_alone;
+    }
+}
+
+}  // namespace carom
