@@ -16,7 +16,10 @@ constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 
 constexpr double kSmallestShare =
     1e-10;                              // of the searched interval: less progress than this is standing still
 constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an impact there has landed
+// Of what a gap has above the floor: what comes down fast beside a point in contact is to be struck at the
+// height of that point, and what is in the window already comes down to this share in one look.
 constexpr double kStruckShare = 0.9;
+constexpr double kNextShare = 0.25;
 constexpr double kFloorSlack = 0.02;  // of the floor: a slow approach is stopped this near to it
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
@@ -55,10 +58,9 @@ class Look {
                         int& newton_steps) {
     const double gap = c.distance_m;
     const double landing = search_.window.landing;
-    // Aim at the landing gap; what is in the window already, or far, comes down by three quarters.
-    const double low = floor + 0.25 * (gap - floor);
+    // Aim at the landing gap; what is in the window already, or far, comes down by most of its gap.
+    const double low = floor + kNextShare * (gap - floor);
     const double aim = gap > highestImpact(search_) ? std::max(low, landing) : low;
-    // What comes down fast beside a point in contact is to be struck at the height of that point.
     const double target = std::min(landing, floor + kStruckShare * (gap - floor));
     const double whole = search_.end_s - begin;
     // Far apart for their speeds: clear without a look at the end.
@@ -80,7 +82,8 @@ class Look {
       ++newton_steps;
       double proposal = kLinearShrink * chord.interval;
       if (chord.end_gap < aim)
-        proposal = std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));
+        proposal =
+            std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));  // down the chord
       if (speed < 0.0)
         proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
       else
@@ -103,15 +106,17 @@ class Look {
     return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
   }
 
-  static Vec3 directionAt(const Direction& direction, const Pose& X_WF) {
-    return direction.frame == nullptr ? direction.n_F : Vec3(X_WF.rotation * direction.n_F);
+  // With the parts in these poses, world frame.
+  Vec3 directionAt(const Direction& direction, const Pose& X_WA, const Pose& X_WB) const {
+    if (direction.frame == nullptr) return direction.n_F;
+    return (direction.frame == &a_ ? X_WA : X_WB).rotation * direction.n_F;
   }
 
   // The gap between the parts along a direction; at most their distance.
   double gapAlong(const Direction& direction, double t) {
     const Pose X_WA = poseOf(a_, t);
     const Pose X_WB = poseOf(b_, t);
-    const Vec3 n = directionAt(direction, direction.frame == &a_ ? X_WA : X_WB);
+    const Vec3 n = directionAt(direction, X_WA, X_WB);
     support_a_ = a_.part->core.support(X_WA.rotation.conjugate() * n, support_a_);
     support_b_ = b_.part->core.support(X_WB.rotation.conjugate() * -n, support_b_);
     return n.dot(X_WB * b_.part->core.vertex(support_b_) - X_WA * a_.part->core.vertex(support_a_)) -
@@ -122,7 +127,7 @@ class Look {
   double supportSpeed(const Direction& direction, double t) const {
     const Pose X_WA = poseOf(a_, t);
     const Pose X_WB = poseOf(b_, t);
-    const Vec3 n = directionAt(direction, direction.frame == &a_ ? X_WA : X_WB);
+    const Vec3 n = directionAt(direction, X_WA, X_WB);
     const Vec3 v_A = X_WA * a_.part->core.vertex(support_a_);
     const Vec3 v_B = X_WB * b_.part->core.vertex(support_b_);
     const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};

@@ -324,8 +324,9 @@ TEST(TimeOfImpact, OfTwoThatSlideAndTurnInContact_NeedsFewQueries) {
     return Vec3(random.uniform(0, most) * direction);
   };
   const Solid box = Solid::box(Vec3::Constant(0.5));
-  long queries = 0, pairs = 0, stopped = 0;
-  for (int i = 0; i < 400; ++i) {
+  constexpr int kPairs = 400;
+  int queries = 0, unclear = 0;
+  for (int i = 0; i < kPairs; ++i) {
     const Quat R_WA = random.rotation();
     const Quat R_WB = i % 4 == 0 ? R_WA : random.rotation();
     const Vec3 n = R_WA * Vec3::UnitZ();
@@ -341,14 +342,13 @@ TEST(TimeOfImpact, OfTwoThatSlideAndTurnInContact_NeedsFewQueries) {
     b.path.velocity = of_a.at(r_a + gap * n) + n.cross(within(0.3)) - b.path.spin.cross(r_b);
     const ImpactSearch search = searchOf(a, b, 1.0 / 60.0);
     const TimeOfImpact found = find(a, b, search);
-    ++pairs;
     queries += found.queries;
-    stopped += found.outcome != Outcome::kClear;
+    unclear += found.outcome != Outcome::kClear;
     for (int k = 0; k <= 50; ++k)
       ASSERT_GE(closestAt(a, b, k * found.time_s / 50).distance_m, search.window.floor * (1 - 1e-9)) << i;
   }
-  EXPECT_LT(static_cast<double>(queries), 2.0 * static_cast<double>(pairs));
-  EXPECT_LT(stopped, pairs / 4) << "few turn so that another corner comes down";
+  EXPECT_LT(queries, 2 * kPairs);
+  EXPECT_LT(unclear, kPairs / 4) << "few turn so that another corner comes down";
 }
 
 // Bodies keep time on their own: paths that started earlier, searched from a later instant.
