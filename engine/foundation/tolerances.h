@@ -59,5 +59,8 @@ inline constexpr double kRestTime = 0.25;          // s of lying still before th
 inline constexpr double kRestAcceleration = 2e-5;  // of gravity: forces balanced better than this hold a body
 inline constexpr int kRestSweeps = 400;            // of the solver in that test, at most, and ...
 inline constexpr int kRestRowVisits = 3000000;     // ... more while these last
+// Swings about a rest (engine/modes/swinging.h).
+inline constexpr double kSwingRise = 2e-3;    // of the radius: a small swing lifts a body by less
+inline constexpr double kSwingDamping = 4.0;  // 1/s at most, and half of critical damping at most
 
 }  // namespace carom::tolerance

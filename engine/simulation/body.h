@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "engine/modes/swinging.h"
 #include "engine/motion/rigid_body.h"
 #include "engine/motion/trajectory.h"
 #include "engine/response/impulse.h"
@@ -31,6 +32,7 @@ struct Body {
   Vec3 contact_force = Vec3::Zero();   ///< N, world frame.
   Vec3 contact_torque = Vec3::Zero();  ///< N m about the centre of mass, world frame.
   double still_s = 0.0;                ///< For how long it has lain still.
+  SwingWatch swing;                    ///< Whether it swings about its rest.
   Mode mode = Mode::kFree;
   int in_vain = 0;      ///< How much more often its island, solved at once, has not converged than it has.
   int swept_alone = 0;  ///< Steps for which that is not tried again.

@@ -14,7 +14,10 @@
 namespace carom {
 namespace {
 
-constexpr double kNoticedTurning = 1e-4;  // of the speed that gravity adds in a step: below, arms stay
+// Of the speed that gravity adds in a step: where turning changes less, arms stay. What swings so slowly
+// gains energy from its gaps; and what only just stands (an arch near the limit) loses its hold if nothing is
+// too slow.
+constexpr double kNoticedTurning = 1e-6;
 constexpr int kPathSweeps = 60;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =

@@ -104,6 +104,7 @@ struct World::Impl {
   void finishStep(PhaseClock* clock);
   void updateModes(const LastingContacts& contacts);
   void accumulateStillness();
+  void dampSwings(const LastingContacts& contacts);
   Islands joinPressing(const LastingContacts& contacts) const;
   void restIslands(const LastingContacts& contacts);
   bool islandCanRest(const std::vector<int>& members, const LastingContacts& contacts);
@@ -184,6 +185,22 @@ void World::Impl::accumulateStillness() {
   for (Body& body : bodies) {
     if (!body.moves()) continue;
     body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + substep.step_s : 0.0;
+  }
+}
+
+void World::Impl::dampSwings(const LastingContacts& contacts) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.moves() || !contacts.touched[i] || body.collided) {
+      body.swing.forget();
+      continue;
+    }
+    const double energy_J = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
+    const double weight_N = body.inertia.mass_kg * settings.gravity.norm();
+    body.swing.follow(body.velocity, body.radius_m, energy_J / weight_N, substep.step_s);
+    const double keeps = body.swing.keeps(substep.step_s);
+    body.velocity.linear *= keeps;
+    body.velocity.angular *= keeps;
   }
 }
 
@@ -333,7 +350,10 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);
   accumulateStillness();
-  if (settings.resting_mode) restIslands(contacts);
+  if (settings.resting_mode) {
+    dampSwings(contacts);
+    restIslands(contacts);
+  }
   updateModes(contacts);
 }
 

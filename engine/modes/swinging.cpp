@@ -1,0 +1,43 @@
+#include "engine/modes/swinging.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/foundation/tolerances.h"
+
+namespace carom {
+namespace {
+
+constexpr double kLongHalf = 2.0;  // Half a swing that lasts so many times the one before is none.
+
+// Of motions about the same centre: positive where they go the same way; with itself, a squared speed.
+double alike(const Velocity& v, const Velocity& w, double radius_m) {
+  return v.linear.dot(w.linear) + radius_m * radius_m * v.angular.dot(w.angular);
+}
+
+}  // namespace
+
+void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m, double step_s) {
+  fullness_ = rise_m / (tolerance::kSwingRise * radius_m);
+  since_s_ += step_s;
+  if (!(fullness_ < 1.0) || (turns_ > 1 && since_s_ > kLongHalf * half_s_ + step_s)) {
+    forget();
+    return;
+  }
+  if (alike(velocity, fastest_, radius_m) < 0.0) {
+    half_s_ = turns_ > 0 ? since_s_ : 0.0;
+    since_s_ = 0.0;
+    ++turns_;
+    fastest_ = velocity;
+  } else if (alike(velocity, velocity, radius_m) > alike(fastest_, fastest_, radius_m)) {
+    fastest_ = velocity;
+  }
+}
+
+double SwingWatch::keeps(double step_s) const {
+  if (turns_ < 2) return 1.0;
+  const double damping = std::min(tolerance::kSwingDamping, std::numbers::pi / half_s_);
+  return 1.0 / (1.0 + damping * (1.0 - fullness_) * step_s);
+}
+
+}  // namespace carom
