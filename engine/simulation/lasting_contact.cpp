@@ -27,15 +27,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// The rows of the step with where they came from, and what is kept of them. Rows of one island stand
-// together; each island is solved on its own, so that one that converges slowly does not keep the others
-// sweeping.
-struct Assembly {
-  LastingContacts contacts;
-  std::vector<SourcedRow> sources;
-  std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
-};
-
 bool liesStill(const Body& body) {
   return !body.moves() || carom::liesStill(body.velocity, body.radius_m);
 }
@@ -46,7 +37,7 @@ double lastingHeight(const ShapePair& pair, double step_s) {
   return pair.window.ceiling + pair.collision_speed_mps * step_s;
 }
 
-void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::vector<Body>& bodies,
+void addRows(LastingContacts& contacts, int index, const ShapePair& pair, const std::vector<Body>& bodies,
              const std::vector<Shape>& shapes, const WorldSettings& settings, StepCounters& counters) {
   const double step_s = settings.step_s;
   const RowRequest request{.pair = index,
@@ -56,39 +47,52 @@ void addRows(Assembly& assembly, int index, const ShapePair& pair, const std::ve
                            .X_WA = bodies[at(pair.body_a)].X_WB,
                            .X_WB = bodies[at(pair.body_b)].X_WB,
                            .height_m = lastingHeight(pair, step_s)};
-  std::vector<SourcedRow> rows;
-  appendRows(request, pair, bodies, shapes, assembly.contacts.bodies, rows);
+  const auto first = static_cast<std::ptrdiff_t>(contacts.sources.size());
+  appendRows(request, pair, bodies, shapes, contacts.bodies, contacts.sources);
   // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution; so
   // will one that bounces up.
-  std::erase_if(rows, [&](const SourcedRow& sourced) {
-    const double speed = rowVelocity(sourced.row, assembly.contacts.bodies).x();
+  const auto goes = [&](const SourcedRow& sourced) {
+    const double speed = rowVelocity(sourced.row, contacts.bodies).x();
     return speed < -pair.collision_speed_mps || (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
-  });
+  };
+  contacts.sources.erase(std::remove_if(contacts.sources.begin() + first, contacts.sources.end(), goes),
+                         contacts.sources.end());
+  const std::span<SourcedRow> rows(contacts.sources.begin() + first, contacts.sources.end());
   const MidStep mid{0.5 * step_s, kNoticedTurning * settings.gravity.norm() * step_s};
-  moveToMidStep(request, pair, mid, bodies, shapes, assembly.contacts.bodies, rows, counters);
+  moveToMidStep(request, pair, mid, bodies, shapes, contacts.bodies, rows, counters);
   warmStart(pair, liesStill(bodies[at(pair.body_a)]) && liesStill(bodies[at(pair.body_b)]), rows);
   for (SourcedRow& sourced : rows) {
     ContactRow& row = sourced.row;
     row.lowest_speed += gapSpeeds(sourced.gap_m, pair, step_s, row.impulse.x() > 0.0).momentum;
-    assembly.sources.push_back(sourced);
   }
 }
 
-void sortByIsland(Assembly& assembly) {
-  const std::vector<ImpulseBody>& bodies = assembly.contacts.bodies;
-  Islands islands(static_cast<int>(bodies.size()));
-  const auto moves = [&](int i) { return bodies[at(i)].inverse_mass > 0.0; };
-  for (const SourcedRow& s : assembly.sources)
+// Rows of one island stand together; each island is solved on its own, so that one that converges slowly does
+// not keep the others sweeping.
+void sortByIsland(LastingContacts& contacts) {
+  Islands islands(static_cast<int>(contacts.bodies.size()));
+  const auto moves = [&](int i) { return contacts.bodies[at(i)].inverse_mass > 0.0; };
+  for (const SourcedRow& s : contacts.sources)
     if (moves(s.row.a) && moves(s.row.b)) islands.join(s.row.a, s.row.b);
-  const auto islandOf = [&](const SourcedRow& s) { return islands.of(moves(s.row.a) ? s.row.a : s.row.b); };
-  std::stable_sort(assembly.sources.begin(), assembly.sources.end(),
-                   [&](const SourcedRow& x, const SourcedRow& y) { return islandOf(x) < islandOf(y); });
-  for (std::size_t i = 0; i < assembly.sources.size(); ++i) {
-    if (i == 0 || islandOf(assembly.sources[i]) != islandOf(assembly.sources[i - 1]))
-      assembly.island_begin.push_back(i);
-    assembly.contacts.rows.push_back(assembly.sources[i].row);
+  std::vector<std::pair<int, std::size_t>> order;  // by island, and as they came
+  order.reserve(contacts.sources.size());
+  for (std::size_t i = 0; i < contacts.sources.size(); ++i) {
+    const ContactRow& row = contacts.sources[i].row;
+    order.emplace_back(islands.of(moves(row.a) ? row.a : row.b), i);
   }
-  assembly.island_begin.push_back(assembly.sources.size());
+  if (!std::is_sorted(order.begin(), order.end())) {
+    std::sort(order.begin(), order.end());
+    contacts.unsorted.swap(contacts.sources);
+    contacts.sources.clear();
+    for (const auto& [island, i] : order) contacts.sources.push_back(contacts.unsorted[i]);
+  }
+  contacts.island_begin.clear();
+  contacts.rows.clear();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || order[i].first != order[i - 1].first) contacts.island_begin.push_back(i);
+    contacts.rows.push_back(contacts.sources[i].row);
+  }
+  contacts.island_begin.push_back(contacts.sources.size());
 }
 
 // Whether an island lies still but for a few of its bodies: in the mean by mass, where a body counts as often
@@ -171,11 +175,10 @@ void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies
 }
 
 // With friction.
-void solveImpulses(const Assembly& assembly, std::vector<Body>& bodies, double gravity_speed,
-                   LastingContacts& contacts) {
-  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
-    const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
-    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(assembly.island_begin[i], count);
+void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed) {
+  for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
+    const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
+    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
     if (stands(rows, bodies))
       solveStandingIsland(rows, bodies, contacts.bodies, gravity_speed);
     else
@@ -184,12 +187,11 @@ void solveImpulses(const Assembly& assembly, std::vector<Body>& bodies, double g
 }
 
 // Without friction: the bounds on the paths.
-void solvePaths(const Assembly& assembly, std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                double coarse_residual_mps) {
-  for (std::size_t i = 0; i + 1 < assembly.island_begin.size(); ++i) {
-    const std::size_t count = assembly.island_begin[i + 1] - assembly.island_begin[i];
+void solvePaths(LastingContacts& contacts, double coarse_residual_mps) {
+  for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
+    const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
     const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
-    solveContacts(rows.subspan(assembly.island_begin[i], count), bodies,
+    solveContacts(std::span(contacts.path_rows).subspan(contacts.island_begin[i], count), contacts.paths,
                   {.sweeps = std::max(kPathSweeps, careful_sweeps),
                    .residual_mps = kPathResidual,
                    .friction = false,
@@ -198,27 +200,28 @@ void solvePaths(const Assembly& assembly, std::span<ContactRow> rows, std::span<
   }
 }
 
-Assembly assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                  std::vector<ShapePair>& pairs, const WorldSettings& settings, StepCounters& counters) {
-  Assembly assembly;
-  assembly.contacts.touched.assign(bodies.size(), 0);
+void assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+              std::vector<ShapePair>& pairs, const WorldSettings& settings, StepCounters& counters,
+              LastingContacts& contacts) {
+  contacts.touched.assign(bodies.size(), 0);
+  contacts.bodies.clear();
+  contacts.sources.clear();
   for (const Body& body : bodies) {
     ImpulseBody seen = body.impulseBody(body.X_WB, body.velocity);
     if (body.resting) {
       seen.inverse_mass = 0.0;
       seen.inverse_tensor.setZero();
     }
-    assembly.contacts.bodies.push_back(seen);
+    contacts.bodies.push_back(seen);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
     if (!moves) continue;  // what a resting pair remembers, it keeps
     if (isLasting(pairs[i], settings.step_s))
-      addRows(assembly, static_cast<int>(i), pairs[i], bodies, shapes, settings, counters);
+      addRows(contacts, static_cast<int>(i), pairs[i], bodies, shapes, settings, counters);
     pairs[i].remembered_count = 0;
   }
-  sortByIsland(assembly);
-  return assembly;
+  sortByIsland(contacts);
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
@@ -250,14 +253,14 @@ void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
 }
 
 // Whose paths may bend, one a body.
-std::vector<char> findBends(const Assembly& assembly, const std::vector<Body>& bodies,
+std::vector<char> findBends(const LastingContacts& contacts, const std::vector<Body>& bodies,
                             const std::vector<ShapePair>& pairs, double step_s) {
-  std::vector<char> bends = assembly.contacts.touched;
+  std::vector<char> bends = contacts.touched;
   std::vector<Vec3> accelerations(bodies.size(), Vec3::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].moves()) accelerations[i] = bodies[i].acceleration;
-  for (std::size_t i = 0; i < assembly.sources.size(); ++i)
-    straightenDips(assembly.sources[i], pairs[at(assembly.sources[i].pair)].window, step_s, accelerations,
+  for (std::size_t i = 0; i < contacts.sources.size(); ++i)
+    straightenDips(contacts.sources[i], pairs[at(contacts.sources[i].pair)].window, step_s, accelerations,
                    bends);
   return bends;
 }
@@ -265,46 +268,48 @@ std::vector<char> findBends(const Assembly& assembly, const std::vector<Body>& b
 // The path of a pressed body: the mean of the velocities before and after, which is exact for constant
 // friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that reopening
 // a gap gives no energy.
-void setPaths(const Assembly& assembly, std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+void setPaths(LastingContacts& contacts, std::vector<Body>& bodies, const std::vector<Shape>& shapes,
               const std::vector<ShapePair>& pairs, double step_s, StepCounters& counters) {
-  std::vector<ImpulseBody> paths = assembly.contacts.bodies;
+  std::vector<ImpulseBody>& paths = contacts.paths;
+  paths = contacts.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!assembly.contacts.touched[i]) continue;
+    if (!contacts.touched[i]) continue;
     paths[i].velocity.linear = 0.5 * (bodies[i].velocity.linear + paths[i].velocity.linear);
     paths[i].velocity.angular = 0.5 * (bodies[i].velocity.angular + paths[i].velocity.angular);
   }
-  std::vector<ContactRow> rows = assembly.contacts.rows;
+  std::vector<ContactRow>& rows = contacts.path_rows;
+  rows = contacts.rows;
   double smallest_rest_gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ShapePair& pair = pairs[at(assembly.sources[i].pair)];
-    rows[i].lowest_speed = gapSpeeds(assembly.sources[i].gap_m, pair, step_s, rows[i].impulse.x() > 0.0).path;
+    const ShapePair& pair = pairs[at(contacts.sources[i].pair)];
+    rows[i].lowest_speed = gapSpeeds(contacts.sources[i].gap_m, pair, step_s, rows[i].impulse.x() > 0.0).path;
     rows[i].impulse.setZero();
     smallest_rest_gap = std::min(smallest_rest_gap, pair.window.rest);
   }
   const double coarse_residual = kPathShare * smallest_rest_gap / step_s;
-  solvePaths(assembly, rows, paths, coarse_residual);
+  solvePaths(contacts, coarse_residual);
   for (int round = 0; round < kTurningRounds; ++round) {
-    if (!raiseForTurning({bodies, shapes, pairs, 0.0, step_s}, assembly.sources, paths, rows, counters))
+    if (!raiseForTurning({bodies, shapes, pairs, 0.0, step_s}, contacts.sources, paths, rows, counters))
       break;
-    solvePaths(assembly, rows, paths, coarse_residual);
+    solvePaths(contacts, coarse_residual);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!assembly.contacts.touched[i]) continue;
+    if (!contacts.touched[i]) continue;
     bodies[i].travel = Travel::kCarried;
-    driveEvenly(bodies[i], {bodies[i].velocity, assembly.contacts.bodies[i].velocity, step_s});
+    driveEvenly(bodies[i], {bodies[i].velocity, contacts.bodies[i].velocity, step_s});
   }
-  const std::vector<char> bends = findBends(assembly, bodies, pairs, step_s);
+  const std::vector<char> bends = findBends(contacts, bodies, pairs, step_s);
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (assembly.contacts.touched[i]) carryAlong(bodies[i], paths[i].velocity, step_s, bends[i] != 0);
+    if (contacts.touched[i]) carryAlong(bodies[i], paths[i].velocity, step_s, bends[i] != 0);
 }
 
-void remember(const Assembly& assembly, std::vector<ShapePair>& pairs, double step_s) {
-  for (std::size_t i = 0; i < assembly.contacts.rows.size(); ++i) {
-    ShapePair& pair = pairs[at(assembly.sources[i].pair)];
-    const ContactRow& row = assembly.contacts.rows[i];
+void remember(const LastingContacts& contacts, std::vector<ShapePair>& pairs, double step_s) {
+  for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
+    ShapePair& pair = pairs[at(contacts.sources[i].pair)];
+    const ContactRow& row = contacts.rows[i];
     const Vec3 impulse_W = rowImpulse(row, row.impulse);
     const Vec3 torque_impulse_W = rowImpulse(row, row.torque);
-    pair.remembered[at(pair.remembered_count++)] = {.id = assembly.sources[i].id,
+    pair.remembered[at(pair.remembered_count++)] = {.id = contacts.sources[i].id,
                                                     .impulse_W = impulse_W,
                                                     .force_W = impulse_W / step_s,
                                                     .arm_a = row.r_a,
@@ -359,14 +364,13 @@ bool isLasting(const ShapePair& pair, double step_s) {
   return pair.closest.distance_m <= lastingHeight(pair, step_s);
 }
 
-LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                     std::vector<ShapePair>& pairs, FlightPlanner& planner,
-                                     const WorldSettings& settings, StepCounters& counters) {
-  Assembly assembly = assemble(bodies, shapes, pairs, settings, counters);
-  LastingContacts& contacts = assembly.contacts;
+void solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                          std::vector<ShapePair>& pairs, FlightPlanner& planner,
+                          const WorldSettings& settings, StepCounters& counters, LastingContacts& contacts) {
+  assemble(bodies, shapes, pairs, settings, counters, contacts);
   giveEnvironment(contacts, bodies, planner);
   for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
-  solveImpulses(assembly, bodies, settings.gravity.norm() * settings.step_s, contacts);
+  solveImpulses(contacts, bodies, settings.gravity.norm() * settings.step_s);
   for (const ContactRow& row : contacts.rows) {
     if (row.impulse.isZero(0.0)) continue;
     contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;
@@ -374,11 +378,9 @@ LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vecto
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (!bodies[i].moves()) contacts.touched[i] = 0;
   foreseeContacts(contacts, bodies, planner);
-  setPaths(assembly, bodies, shapes, pairs, settings.step_s, counters);
-  remember(assembly, pairs, settings.step_s);
+  setPaths(contacts, bodies, shapes, pairs, settings.step_s, counters);
+  remember(contacts, pairs, settings.step_s);
   counters.contact_points = static_cast<int>(contacts.rows.size());
-  contacts.sources = std::move(assembly.sources);
-  return std::move(assembly.contacts);
 }
 
 }  // namespace carom

@@ -12,12 +12,17 @@
 
 namespace carom {
 
-/// The contact rows of a step with where they came from; kept for the modes.
+/// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
+/// step.
 struct LastingContacts {
   std::vector<ContactRow> rows;
   std::vector<SourcedRow> sources;  ///< As long: the rows as they were before the solve, and where from.
   std::vector<ImpulseBody> bodies;  ///< One per body of the world, velocities after the solve.
   std::vector<char> touched;        ///< Bodies that some row pressed.
+  std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
+  std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths, and ...
+  std::vector<ContactRow> path_rows;      ///< ... the rows as bounds on them.
+  std::vector<SourcedRow> unsorted;       ///< Scratch.
 };
 
 /// Wakes the resting islands that a moving body presses on; whether there were any.
@@ -28,9 +33,9 @@ bool isLasting(const ShapePair& pair, double step_s);
 
 /// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must
 /// come with planned paths that start at the beginning of the step; resting ones do not give way.
-LastingContacts solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                     std::vector<ShapePair>& pairs, FlightPlanner& planner,
-                                     const WorldSettings& settings, StepCounters& counters);
+void solveLastingContacts(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                          std::vector<ShapePair>& pairs, FlightPlanner& planner,
+                          const WorldSettings& settings, StepCounters& counters, LastingContacts& contacts);
 
 /// The load that a row is remembered by, and acts with, instead of what it took in the step.
 void correctLoad(const SourcedRow& sourced, const RowLoad& load, double step_s,

@@ -85,6 +85,7 @@ struct World::Impl {
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
   PairTable table;
+  LastingContacts contacts;  ///< Of the last substep.
   bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
   StepCounters counters;
@@ -100,14 +101,14 @@ struct World::Impl {
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
   bool pathsLeaveBounds(PhaseClock* clock) const;
-  LastingContacts solveContacts(PhaseClock* clock);
+  void solveContacts(PhaseClock* clock);
   void finishStep(PhaseClock* clock);
-  void updateModes(const LastingContacts& contacts);
+  void updateModes();
   void accumulateStillness();
-  void dampSwings(const LastingContacts& contacts);
-  Islands joinPressing(const LastingContacts& contacts) const;
-  void restIslands(const LastingContacts& contacts);
-  bool islandCanRest(const std::vector<int>& members, const LastingContacts& contacts);
+  void dampSwings();
+  Islands joinPressing() const;
+  void restIslands();
+  bool islandCanRest(const std::vector<int>& members);
   void publish();
 };
 
@@ -151,9 +152,9 @@ bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {
   return table.pathsLeaveBounds(bodies, shapes, substep.step_s);
 }
 
-LastingContacts World::Impl::solveContacts(PhaseClock* clock) {
+void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  return solveLastingContacts(bodies, shapes, table.pairs(), planner, substep, counters);
+  solveLastingContacts(bodies, shapes, table.pairs(), planner, substep, counters, contacts);
 }
 
 // The state at the step's end, and the closest features there.
@@ -188,7 +189,7 @@ void World::Impl::accumulateStillness() {
   }
 }
 
-void World::Impl::dampSwings(const LastingContacts& contacts) {
+void World::Impl::dampSwings() {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.moves() || !contacts.touched[i] || body.collided) {
@@ -204,7 +205,7 @@ void World::Impl::dampSwings(const LastingContacts& contacts) {
   }
 }
 
-Islands World::Impl::joinPressing(const LastingContacts& contacts) const {
+Islands World::Impl::joinPressing() const {
   Islands islands(static_cast<int>(bodies.size()));
   for (const ContactRow& row : contacts.rows)
     if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static)
@@ -212,7 +213,7 @@ Islands World::Impl::joinPressing(const LastingContacts& contacts) const {
   return islands;
 }
 
-bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingContacts& contacts) {
+bool World::Impl::islandCanRest(const std::vector<int>& members) {
   std::vector<int> local(bodies.size(), -1);
   std::vector<ImpulseBody> island_bodies;
   std::vector<double> radii;
@@ -252,8 +253,8 @@ bool World::Impl::islandCanRest(const std::vector<int>& members, const LastingCo
   return rests;
 }
 
-void World::Impl::restIslands(const LastingContacts& contacts) {
-  const Islands islands = joinPressing(contacts);
+void World::Impl::restIslands() {
+  const Islands islands = joinPressing();
   std::vector<std::vector<int>> members(bodies.size());
   std::vector<double> still(bodies.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -264,7 +265,7 @@ void World::Impl::restIslands(const LastingContacts& contacts) {
   }
   for (std::size_t island = 0; island < bodies.size(); ++island) {
     if (members[island].empty() || still[island] < tolerance::kRestTime) continue;
-    const bool rests = islandCanRest(members[island], contacts);
+    const bool rests = islandCanRest(members[island]);
     for (int m : members[island]) {
       Body& body = bodies[at(m)];
       if (!rests) {
@@ -278,7 +279,7 @@ void World::Impl::restIslands(const LastingContacts& contacts) {
   }
 }
 
-void World::Impl::updateModes(const LastingContacts& contacts) {
+void World::Impl::updateModes() {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     body.supported = !body.moves() || contacts.touched[i];
@@ -335,10 +336,10 @@ void World::Impl::divideStep(int count) {
 
 void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   // Impulses of lasting contact; what they press awake takes part in them.
-  LastingContacts contacts = solveContacts(clock);
+  solveContacts(clock);
   while (wakePressed(bodies, contacts)) {  // each time an island fewer rests
     planFlight(clock);
-    contacts = solveContacts(clock);
+    solveContacts(clock);
   }
   if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
   if (pathsLeaveBounds(clock)) findPairs(clock);
@@ -351,10 +352,10 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kModes);
   accumulateStillness();
   if (settings.resting_mode) {
-    dampSwings(contacts);
-    restIslands(contacts);
+    dampSwings();
+    restIslands();
   }
-  updateModes(contacts);
+  updateModes();
 }
 
 void World::Impl::publish() {
