@@ -8,6 +8,7 @@
 namespace carom {
 namespace {
 
+constexpr int kTurns = 2;          // So often it turns round before it swings: once could be a blow.
 constexpr double kLongHalf = 2.0;  // Half a swing that lasts so many times the one before is none.
 
 // Of motions about the same centre: positive where they go the same way; with itself, a squared speed.
@@ -20,12 +21,12 @@ double alike(const Velocity& v, const Velocity& w, double radius_m) {
 void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m, double step_s) {
   fullness_ = rise_m / (tolerance::kSwingRise * radius_m);
   since_s_ += step_s;
-  if (!(fullness_ < 1.0) || (turns_ > 1 && since_s_ > kLongHalf * half_s_ + step_s)) {
+  if (!(fullness_ < 1.0) || (turns_ >= kTurns && since_s_ > kLongHalf * half_s_ + step_s)) {
     forget();
     return;
   }
   if (alike(velocity, fastest_, radius_m) < 0.0) {
-    half_s_ = turns_ > 0 ? since_s_ : 0.0;
+    half_s_ = since_s_;
     since_s_ = 0.0;
     ++turns_;
     fastest_ = velocity;
@@ -35,7 +36,8 @@ void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m
 }
 
 double SwingWatch::keeps(double step_s) const {
-  if (turns_ < 2) return 1.0;
+  if (turns_ < kTurns) return 1.0;
+  // v' = -c v - w^2 x is damped critically by c = 2 w; half a swing takes pi / w.
   const double damping = std::min(tolerance::kSwingDamping, std::numbers::pi / half_s_);
   return 1.0 / (1.0 + damping * (1.0 - fullness_) * step_s);
 }

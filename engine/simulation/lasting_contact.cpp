@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "engine/modes/islands.h"
 #include "engine/modes/resting.h"

@@ -1,10 +1,10 @@
 // A plank that rolls to and fro on a lying cylinder is a pendulum: with radius of gyration k about its
 // centre, half its thickness s and the cylinder's radius R, its small swings have w^2 = g (R - s) / (k^2 +
-// s^2), and nothing takes their energy: after a minute they swing as far as at first, to 1 %, at 60 steps a
-// second to 3 %. (Plainly: swings whose tips are slower than 5 mm/s are too slow for contacts to be met in
-// mid-step, and grow to that within minutes.) Small ones come to rest in resting mode, level; larger ones,
-// and all of them without it, go on; what rolls one way, or is turned round by blows, is left alone however
-// slow.
+// s^2), and nothing takes their energy: after a minute they swing as far as at first, to 0.3 %, at 60 steps a
+// second to 1.4 %. (Plainly: contacts of what turns more slowly still are not met in mid-step. A swing whose
+// tips go at 8 mm/s gains 3 to 12 % in a minute, one at 3 mm/s 60 to 140 %.) Small ones come to rest in
+// resting mode, level; larger ones, and all of them without it, go on; what rolls one way, or is turned round
+// by blows, is left alone however slow.
 
 #include <numbers>
 
@@ -62,7 +62,7 @@ double amplitude(PlankOnCylinder& p, double seconds) {
 
 TEST_P(SmallSwing, WithoutRestingModeItGoesOnAsAPendulum) {
   const double rate = closedFormRate();
-  const double bound = GetParam() < 100.0 ? 0.04 : 0.015;
+  const double bound = GetParam() < 100.0 ? 0.02 : 5e-3;
   for (double largest_tilt : {0.01, 0.03}) {
     PlankOnCylinder p(GetParam(), largest_tilt * rate, false);
     EXPECT_NEAR(amplitude(p, 2.0) / largest_tilt, 1.0, bound) << largest_tilt;
