@@ -3,6 +3,8 @@
 // metre" is multiplied by the smaller width of the two parts concerned, at most one metre. Tolerances of one
 // algorithm (rounding of a slope, planarity of a face) stand in that algorithm's file with their reasons.
 
+#include <cstddef>
+
 namespace carom::tolerance {
 
 // The collision window (paper §2.3, fig. 7), lengths per metre: floor < rest gap < landing < ceiling.
@@ -28,15 +30,19 @@ inline constexpr int kFinePairs = 200;  // times substeps: where more pairs are 
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
 inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...
-inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps; where that is more, ...
-inline constexpr double kSolverCoarseResidual = 1.0e-3;    // ... this is enough for what moves ...
+inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps, or ...
+inline constexpr int kSolverFocusedSweeps = 24;    // ... so many of a crowd that stands; where that is more,
+inline constexpr double kSolverCoarseResidual = 1.0e-3;    // ... this is enough for what moves, ...
 inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
-inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
+inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this where some body moves in it, or
+                                                           // it has as many rows as `kSolverPatientRows`
 inline constexpr int kSolverMostVisits = 50000;   // of what moves, where the coarse one is not reached
-inline constexpr int kSolverStandingSweeps = 20;  // of what stands, before its rows are solved at once
-inline constexpr int kSolverPatientRows = 6000;   // From so many rows on, what has not converged at once ...
-inline constexpr int kSolverPatience = 8;         // ... in so many steps more often than it has ...
-inline constexpr int kSolverPause = 120;          // ... is swept alone for so many.
+inline constexpr int kSolverStandingSweeps = 20;  // of what stands, before its rows are solved at once, and
+inline constexpr int kSolverRowsASweep = 250;     // ... one more for so many rows, for that takes longer, ...
+inline constexpr int kSolverMostStandingSweeps = 40;     // ... but no more than these
+inline constexpr std::size_t kSolverPatientRows = 6000;  // From so many rows on, what has not converged at
+inline constexpr int kSolverPatience = 8;  // ... once in so many steps more often than it has ...
+inline constexpr int kSolverPause = 120;   // ... is swept alone for so many.
 inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already
 inline constexpr double kGapSpeed = 0.1;  // m/s at most while reopening a gap, which is done within a step
 

@@ -125,15 +125,16 @@ void sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool frict
   }
 }
 
-// The bodies that the rows refer to, ascending: of a world, those of one island.
-std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows) {
+// The bodies that the rows refer to, each once: of a world, those of one island.
+std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows, std::size_t body_count) {
   std::vector<std::size_t> bodies;
+  std::vector<char> seen(body_count, 0);
   for (const ContactRow& row : rows) {
-    bodies.push_back(at(row.a));
-    bodies.push_back(at(row.b));
+    for (const int i : {row.a, row.b}) {
+      if (seen[at(i)] == 0) bodies.push_back(at(i));
+      seen[at(i)] = 1;
+    }
   }
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return bodies;
 }
 
@@ -235,9 +236,9 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
 
 SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                  const SolverSettings& settings) {
-  constexpr double kVisitAll = -1.0;
+  constexpr double kVisitAll = -std::numeric_limits<double>::infinity();
   SolverReport report;
-  const std::vector<std::size_t> involved = bodiesOf(rows);
+  const std::vector<std::size_t> involved = bodiesOf(rows, bodies.size());
   const bool turning = settings.friction && std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) {
                          return row.resistance.acts();
                        });

@@ -6,6 +6,7 @@
 
 #include "engine/modes/islands.h"
 #include "engine/modes/resting.h"
+#include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/midstep_rows.h"
@@ -19,6 +20,7 @@ namespace {
 // gains energy from its gaps; and what only just stands (an arch near the limit) loses its hold if nothing is
 // too slow.
 constexpr double kNoticedTurning = 1e-6;
+constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
 constexpr int kPathSweeps = 60;
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
@@ -96,21 +98,25 @@ void sortByIsland(LastingContacts& contacts) {
   contacts.island_begin.push_back(contacts.sources.size());
 }
 
-// Whether an island lies still but for a few of its bodies: in the mean by mass, where a body counts as often
-// as it has rows.
+// Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
+// of them. A body counts as often as it has rows.
 bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
   double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
   double mass = 0.0;
+  int all = 0, moving = 0;
   for (const ContactRow& row : rows) {
     for (const int i : {row.a, row.b}) {
       const Body& body = bodies[at(i)];
       if (!body.moves()) continue;
       const double m = 1.0 / body.inertia.inverse_mass;
       const double v = body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m;
+      ++all;
+      if (!(v < tolerance::kRestSpeed)) ++moving;
       mass += m;
       twice_energy += m * v * v;
     }
   }
+  if (rows.size() >= kFocusedRows && moving <= kFewMoving * all) return true;
   return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
 }
 
@@ -125,6 +131,18 @@ int shareOfSweeps(std::span<const ContactRow> rows) {
   return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
 }
 
+// The least sweeps of an island that stands but for what moves in it.
+int fewestSweeps(std::span<const ContactRow> rows) {
+  return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
+}
+
+// Of an island that lies still, before its rows are solved at once.
+int standingSweeps(std::span<const ContactRow> rows) {
+  const int sweeps =
+      tolerance::kSolverStandingSweeps + static_cast<int>(rows.size()) / tolerance::kSolverRowsASweep;
+  return std::min(sweeps, tolerance::kSolverMostStandingSweeps);
+}
+
 // Small islands are solved to the fine residual, large ones to a coarser one.
 double residualOf(std::span<const ContactRow> rows, double coarser) {
   return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
@@ -133,17 +151,20 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
 // What lies still, all of it.
 void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
                       std::span<ImpulseBody> solver_bodies, double gravity_speed) {
+  const bool thousands = rows.size() >= tolerance::kSolverPatientRows;
   const SolverSettings settings{
-      .sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverStandingSweeps),
-      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed};
+      .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
+      .residual_mps = residualOf(rows, thousands ? tolerance::kSolverStirredResidual
+                                                 : tolerance::kSolverStandingResidual) *
+                      gravity_speed};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
-    solveContactsFinely(rows, solver_bodies, settings);
+    solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
     return;
   }
   const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
-  if (report.sweeps > settings.sweeps) patience.learn(report.residual_mps <= settings.residual_mps);
+  if (report.direct_steps > 0) patience.learn(report.residual_mps <= settings.residual_mps);
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
@@ -157,9 +178,9 @@ void solveStandingIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
     solveStillIsland(rows, bodies, solver_bodies, gravity_speed);
     return;
   }
-  solveContactsFinely(rows, solver_bodies,
-                      {.sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps),
-                       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed});
+  solveContactsFocused(rows, solver_bodies,
+                       {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
+                        .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed});
 }
 
 // Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
@@ -168,11 +189,11 @@ void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies
   const double residual = residualOf(rows, tolerance::kSolverCoarseResidual);
   const int careful_sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps);
   const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(rows.size());
-  solveContactsFinely(rows, bodies,
-                      {.sweeps = std::max(careful_sweeps, most_sweeps),
-                       .residual_mps = residual * gravity_speed,
-                       .careful_sweeps = careful_sweeps,
-                       .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
+  solveContactsFocused(rows, bodies,
+                       {.sweeps = std::max(careful_sweeps, most_sweeps),
+                        .residual_mps = residual * gravity_speed,
+                        .careful_sweeps = careful_sweeps,
+                        .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed});
 }
 
 // With friction.

@@ -15,7 +15,7 @@ std::size_t at(int i) {
 
 SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Body>& bodies)
     : bodies_(bodies) {
-  if (rows.size() < at(tolerance::kSolverPatientRows)) return;
+  if (rows.size() < tolerance::kSolverPatientRows) return;
   rows_ = rows;
   for (const ContactRow& row : rows_)
     for (const int i : {row.a, row.b}) {

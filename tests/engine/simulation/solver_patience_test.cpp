@@ -14,7 +14,7 @@ struct Island {
   std::vector<Body> bodies{2};
   std::vector<ContactRow> rows;
 
-  explicit Island(int count) : rows(static_cast<std::size_t>(count)) {
+  explicit Island(std::size_t count) : rows(count) {
     bodies[0].is_static = true;
     for (ContactRow& row : rows) {
       row.a = 0;
