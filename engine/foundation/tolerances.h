@@ -31,18 +31,21 @@ inline constexpr int kFinePairs = 200;  // times substeps: where more pairs are 
 inline constexpr double kSolverResidual = 1.0e-6;  // a sweep that changes speeds less has converged
 inline constexpr int kSolverRowVisits = 8000;      // of an island and step, and ...
 inline constexpr int kSolverSweeps = 60;           // ... at least so many sweeps, or ...
-inline constexpr int kSolverFocusedSweeps = 24;    // ... so many of a crowd that stands; where that is more,
+inline constexpr int kSolverFocusedSweeps =
+    24;  // ... so many of a crowd that stands. Where that is more, ...
 inline constexpr double kSolverCoarseResidual = 1.0e-3;    // ... this is enough for what moves, ...
 inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
-inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this where some body moves in it, or
-                                                           // it has as many rows as `kSolverPatientRows`
+inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
 inline constexpr int kSolverMostVisits = 50000;   // of what moves, where the coarse one is not reached
 inline constexpr int kSolverStandingSweeps = 20;  // of what stands, before its rows are solved at once, and
 inline constexpr int kSolverRowsASweep = 250;     // ... one more for so many rows, for that takes longer, ...
-inline constexpr int kSolverMostStandingSweeps = 40;     // ... but no more than these
-inline constexpr std::size_t kSolverPatientRows = 6000;  // From so many rows on, what has not converged at
-inline constexpr int kSolverPatience = 8;  // ... once in so many steps more often than it has ...
-inline constexpr int kSolverPause = 120;   // ... is swept alone for so many.
+inline constexpr int kSolverMostStandingSweeps = 40;  // ... but no more than these
+// From so many rows on, what took more products of 6 x 6 blocks than these a row, or did not converge, in so
+// many steps at once more often than not, is swept alone for so many, to the stirred residual.
+inline constexpr std::size_t kSolverPatientRows = 6000;
+inline constexpr long kSolverDearProducts = 100;
+inline constexpr int kSolverPatience = 8;
+inline constexpr int kSolverPause = 120;
 inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already
 inline constexpr double kGapSpeed = 0.1;  // m/s at most while reopening a gap, which is done within a step
 

@@ -62,6 +62,7 @@ void BlockCholesky::findFill(int row, std::span<const OffDiagonalBlock> blocks) 
 bool BlockCholesky::factorize(std::span<const Mat6> diagonal, std::span<const OffDiagonalBlock> blocks) {
   for (std::vector<Entry>& column : columns_) column.clear();
   std::fill(seen_in_.begin(), seen_in_.end(), -1);
+  products_ = 0;
   for (int row = 0; row < rows_; ++row) {
     findFill(row, blocks);
     for (const int column : fill_) at_hand_[at(column)].setZero();
@@ -76,6 +77,7 @@ bool BlockCholesky::factorize(std::span<const Mat6> diagonal, std::span<const Of
       for (const Entry& below : columns_[at(column)])  // all of them columns of this row, too
         subtractProduct(value, below.value, at_hand_[at(below.row)]);
       subtractProduct(value, value, pivot);
+      products_ += static_cast<long>(columns_[at(column)].size()) + 1;
       columns_[at(column)].push_back({row, value});
     }
     const Eigen::LLT<Mat6> llt(pivot);

@@ -28,6 +28,9 @@ class BlockCholesky {
   /// positive definite.
   bool factorize(std::span<const Mat6> diagonal, std::span<const OffDiagonalBlock> blocks);
 
+  /// What the last factorisation took: products of blocks.
+  long products() const { return products_; }
+
   /// Solves for the right side `x`, in place.
   void solve(Eigen::VectorXd& x) const;
 
@@ -40,6 +43,7 @@ class BlockCholesky {
   void findFill(int row, std::span<const OffDiagonalBlock> blocks);
 
   int rows_ = 0;
+  long products_ = 0;
   std::vector<int> row_begin_;               ///< Of each row in `by_row_`, and the end.
   std::vector<int> by_row_;                  ///< Indices of blocks.
   std::vector<int> parent_;                  ///< In the elimination tree; -1: none.

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "engine/foundation/tolerances.h"
 #include "engine/response/focused_solver.h"
 #include "engine/response/held_rows.h"
 
@@ -10,16 +9,13 @@ namespace carom {
 namespace {
 
 constexpr int kSteps = 4;  // each leaves a fifth to a fiftieth of the residual
-// Heaps in which some contact comes and goes stay a few times above the residual that is enough: crowds take
-// no step then, and elsewhere a step that leaves more than a share is the last.
+// Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
+// step that leaves more than this share is the last.
 constexpr double kNearlyEnough = 5.0;
-constexpr double kEnoughOfThousands = 10.0;  // of rows, where a step takes as long as hundreds of sweeps
 constexpr double kWorthwhile = 0.2;
-constexpr double kFiner = 0.1;  // of the residual that is enough: next steps start from here
-// Times the best residual: the held rows contradict each other. Walls and columns may come back from more.
-constexpr double kHopeless = 10.0;
-constexpr double kHopelessCrowd = 2.0;
-constexpr int kSweepsAfter = 16;  // fewer do not bring the impulses back into their cones
+constexpr double kFiner = 0.1;      // of the residual that is enough: next steps start from here
+constexpr double kHopeless = 10.0;  // times the best residual: the held rows contradict each other
+constexpr int kSweepsAfter = 16;    // fewer do not bring the impulses back into their cones
 
 // A solution, to return to.
 class Saved {
@@ -50,30 +46,23 @@ class Saved {
   std::vector<Velocity> velocities_;  // of both bodies of every row
 };
 
-// Up to how many times the residual that is enough it is left to the next solve's sweeps.
-double slackOf(std::size_t rows) {
-  if (rows < kFocusedRows) return 1.0;
-  return rows < tolerance::kSolverPatientRows ? kNearlyEnough : kEnoughOfThousands;
-}
-
 }  // namespace
 
 SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                    const SolverSettings& settings) {
   SolverReport total = solveContactsFocused(rows, bodies, settings);
   const SolverSettings after{.sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps};
-  if (total.residual_mps <= slackOf(rows.size()) * settings.residual_mps) return total;
-  const double hopeless = rows.size() < kFocusedRows ? kHopeless : kHopelessCrowd;
+  if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
   Saved best(rows, bodies, total.residual_mps);
   for (int step = 0; step < kSteps; ++step) {
     if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFocused(rows, bodies, after);
-    ++total.direct_steps;
+    total.products += held.products();
     total.sweeps += report.sweeps;
     total.visits += report.visits;
     total.residual_mps = report.residual_mps;
-    if (report.residual_mps > hopeless * best.residual()) break;
+    if (report.residual_mps > kHopeless * best.residual()) break;
     if (report.residual_mps <= settings.residual_mps) return total;
     if (report.residual_mps >= best.residual()) continue;
     const bool gains = report.residual_mps <= kWorthwhile * best.residual();

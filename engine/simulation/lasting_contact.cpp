@@ -151,20 +151,20 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
 // What lies still, all of it.
 void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
                       std::span<ImpulseBody> solver_bodies, double gravity_speed) {
-  const bool thousands = rows.size() >= tolerance::kSolverPatientRows;
-  const SolverSettings settings{
+  SolverSettings settings{
       .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
-      .residual_mps = residualOf(rows, thousands ? tolerance::kSolverStirredResidual
-                                                 : tolerance::kSolverStandingResidual) *
-                      gravity_speed};
+      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
+    settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
+    settings.residual_mps = tolerance::kSolverStirredResidual * gravity_speed;
     solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
     return;
   }
   const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
-  if (report.direct_steps > 0) patience.learn(report.residual_mps <= settings.residual_mps);
+  const bool dear = report.products > tolerance::kSolverDearProducts * static_cast<long>(rows.size());
+  if (report.products > 0) patience.learn(report.residual_mps <= settings.residual_mps && !dear);
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,

@@ -24,8 +24,8 @@ SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Bod
     }
 }
 
-void SolverPatience::learn(bool converged) {
-  if (converged)
+void SolverPatience::learn(bool worthwhile) {
+  if (worthwhile)
     keep(std::max(0, in_vain_ - 1), 0);
   else if (in_vain_ + 1 < tolerance::kSolverPatience)
     keep(in_vain_ + 1, 0);

@@ -1,8 +1,8 @@
 #pragma once
 // Solved at once (standing_solver.h), a wall of thousands of bricks stands in a few steps. A heap of
-// thousands in which contacts come and go is as far from converged after as before, at many times the cost of
-// its sweeps: after some such steps it is swept alone for a while. Internal to the simulation floor. Tested
-// in tests/engine/simulation/solver_patience_test.cpp.
+// thousands in which contacts come and go is as far from converged after as before, or soon again, at
+// hundreds of times the cost of a sweep: after some such steps it is swept alone for a while. Internal to the
+// simulation floor. Tested in tests/engine/simulation/solver_patience_test.cpp.
 
 #include <span>
 #include <vector>
@@ -20,15 +20,15 @@ class SolverPatience {
   bool isLost() const { return swept_alone_ > 0; }
   /// For a step in which it is lost.
   void waitAStep() { keep(in_vain_, swept_alone_ - 1); }
-  /// From a solve at once.
-  void learn(bool converged);
+  /// From a solve at once: whether it converged, and not too dearly.
+  void learn(bool worthwhile);
 
  private:
   void keep(int in_vain, int swept_alone);
 
   std::span<const ContactRow> rows_;  ///< None of a small island.
   std::vector<Body>& bodies_;
-  int in_vain_ = 0;      ///< How much more often the island has not converged than it has.
+  int in_vain_ = 0;      ///< How much more often it was not worth it than it was.
   int swept_alone_ = 0;  ///< Steps for which it is not tried again.
 };
 
