@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/foundation/tolerances.h"
@@ -126,16 +127,13 @@ void sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool frict
 }
 
 // The bodies that the rows refer to, each once: of a world, those of one island.
-std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows, std::size_t body_count) {
-  std::vector<std::size_t> bodies;
-  std::vector<char> seen(body_count, 0);
-  for (const ContactRow& row : rows) {
-    for (const int i : {row.a, row.b}) {
-      if (seen[at(i)] == 0) bodies.push_back(at(i));
-      seen[at(i)] = 1;
-    }
-  }
-  return bodies;
+std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
+  std::vector<std::size_t> listed;
+  for (const ContactRow& row : rows)
+    for (const int i : {row.a, row.b})
+      if (!std::exchange(bodies[at(i)].listed, true)) listed.push_back(at(i));
+  for (const std::size_t i : listed) bodies[i].listed = false;
+  return listed;
 }
 
 // Impulses and the velocities they give: a point, or a direction, of the search.
@@ -238,7 +236,7 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
                                  const SolverSettings& settings) {
   constexpr double kVisitAll = -std::numeric_limits<double>::infinity();
   SolverReport report;
-  const std::vector<std::size_t> involved = bodiesOf(rows, bodies.size());
+  const std::vector<std::size_t> involved = bodiesOf(rows, bodies);
   const bool turning = settings.friction && std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) {
                          return row.resistance.acts();
                        });

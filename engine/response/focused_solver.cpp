@@ -51,7 +51,8 @@ bool haveMostStir(std::span<const std::size_t> chosen, std::span<const ContactRo
   return theirs >= kWorthwhile * all;
 }
 
-// Sweeps over some rows, then over those among them that need it most, and so on; returns the row visits.
+// Sweeps over some rows, then over those among them that need it most, and so on: each time at most twice
+// `kLocalShare` of them. Returns the row visits.
 long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chosen,
                   std::span<ImpulseBody> bodies, const SolverSettings& settings) {
   if (chosen.size() < kFewestRows) return 0;
@@ -72,20 +73,23 @@ long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chose
 SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                   const SolverSettings& settings) {
   if (rows.size() < kFocusedRows) return solveContactsFinely(rows, bodies, settings);
-  const auto row_count = static_cast<long>(rows.size());
   SolverReport total;
-  const auto add = [&](const SolverReport& report) {
-    total.visits += report.visits;
-    total.residual_mps = report.residual_mps;
-    total.sweeps = static_cast<int>(total.visits / row_count);
+  const auto count = [&](long visits) {
+    total.visits += visits;
+    total.sweeps = static_cast<int>(total.visits / static_cast<long>(rows.size()));
   };
-  while (true) {
+  const auto sweepAll = [&](const SolverSettings& all) {
+    const SolverReport report = solveContactsFinely(rows, bodies, all);
+    total.residual_mps = report.residual_mps;
+    count(report.visits);
+  };
+  while (true) {  // each round is two sweeps or more of the number that ends it
     const bool careful = total.sweeps < settings.careful_sweeps;
     SolverSettings round{.sweeps = kWideSweeps,
                          .residual_mps = careful ? settings.residual_mps : settings.coarse_residual_mps,
                          .friction = settings.friction};
     clearStirs(rows, bodies);
-    add(solveContactsFinely(rows, bodies, round));
+    sweepAll(round);
     if (total.residual_mps <= round.residual_mps || total.sweeps + kWideSweeps > settings.sweeps)
       return total;
     const std::vector<std::size_t> chosen = rowsOfMostStirred(rows, bodies);
@@ -93,12 +97,11 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
       SolverSettings rest = settings;
       rest.sweeps -= total.sweeps;
       rest.careful_sweeps = std::max(0, rest.careful_sweeps - total.sweeps);
-      add(solveContactsFinely(rows, bodies, rest));
+      sweepAll(rest);
       return total;
     }
     round.sweeps = kLocalSweeps;
-    total.visits += sweepInwards(rows, chosen, bodies, round);
-    total.sweeps = static_cast<int>(total.visits / row_count);
+    count(sweepInwards(rows, chosen, bodies, round));
   }
 }
 

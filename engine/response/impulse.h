@@ -14,7 +14,9 @@ struct ImpulseBody {
   Vec3 center = Vec3::Zero();
   double inverse_mass = 0.0;
   Mat3 inverse_tensor = Mat3::Zero();
-  double stir = 0.0;  ///< The contact solver's: the sum of the speeds, m/s, that its rows have changed.
+  // Of the contact solver:
+  double stir = 0.0;    ///< The sum of the speeds, m/s, that its rows have changed.
+  bool listed = false;  ///< While it lists the bodies of its rows: it has this one.
 
   /// Changes the velocity by an impulse (N s) at arm r from the centre of mass.
   void apply(const Vec3& impulse, const Vec3& r) {

@@ -56,9 +56,10 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   HeldRows held(rows, bodies);
   Saved best(rows, bodies, total.residual_mps);
   for (int step = 0; step < kSteps; ++step) {
-    if (!held.step(rows, bodies)) break;
-    const SolverReport report = solveContactsFocused(rows, bodies, after);
+    const bool solved = held.step(rows, bodies);
     total.products += held.products();
+    if (!solved) break;
+    const SolverReport report = solveContactsFocused(rows, bodies, after);
     total.sweeps += report.sweeps;
     total.visits += report.visits;
     total.residual_mps = report.residual_mps;

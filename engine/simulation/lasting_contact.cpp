@@ -138,9 +138,9 @@ int fewestSweeps(std::span<const ContactRow> rows) {
 
 // Of an island that lies still, before its rows are solved at once.
 int standingSweeps(std::span<const ContactRow> rows) {
-  const int sweeps =
-      tolerance::kSolverStandingSweeps + static_cast<int>(rows.size()) / tolerance::kSolverRowsASweep;
-  return std::min(sweeps, tolerance::kSolverMostStandingSweeps);
+  if (rows.size() < kFocusedRows) return tolerance::kSolverStandingSweeps;
+  const int dearer = static_cast<int>(rows.size()) / tolerance::kSolverRowsASweep;
+  return std::min(tolerance::kSolverStandingSweeps + dearer, tolerance::kSolverMostStandingSweeps);
 }
 
 // Small islands are solved to the fine residual, large ones to a coarser one.
@@ -162,9 +162,7 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
     patience.waitAStep();
     return;
   }
-  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
-  const bool dear = report.products > tolerance::kSolverDearProducts * static_cast<long>(rows.size());
-  if (report.products > 0) patience.learn(report.residual_mps <= settings.residual_mps && !dear);
+  patience.learn(solveStandingContacts(rows, solver_bodies, settings), settings.residual_mps);
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,

@@ -24,8 +24,10 @@ SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Bod
     }
 }
 
-void SolverPatience::learn(bool worthwhile) {
-  if (worthwhile)
+void SolverPatience::learn(const SolverReport& report, double enough_mps) {
+  if (report.products == 0) return;
+  const bool dear = report.products > tolerance::kSolverDearProducts * static_cast<long>(rows_.size());
+  if (report.residual_mps <= enough_mps && !dear)
     keep(std::max(0, in_vain_ - 1), 0);
   else if (in_vain_ + 1 < tolerance::kSolverPatience)
     keep(in_vain_ + 1, 0);

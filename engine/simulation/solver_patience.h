@@ -20,8 +20,9 @@ class SolverPatience {
   bool isLost() const { return swept_alone_ > 0; }
   /// For a step in which it is lost.
   void waitAStep() { keep(in_vain_, swept_alone_ - 1); }
-  /// From a solve at once: whether it converged, and not too dearly.
-  void learn(bool worthwhile);
+  /// From a solve that was to come to `enough_mps`: where rows were solved at once for it, whether it did,
+  /// and not too dearly.
+  void learn(const SolverReport& report, double enough_mps);
 
  private:
   void keep(int in_vain, int swept_alone);

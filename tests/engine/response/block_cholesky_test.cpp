@@ -62,6 +62,23 @@ double residualOf(const BlockMatrix& m, BlockCholesky& factor, Random& random) {
   return (x - truth).norm() / truth.norm();
 }
 
+// By hand: row i of a full matrix takes 1 + 2 + ... + i; a chain fills nothing.
+TEST(BlockCholesky, CountsItsProducts) {
+  Random random(908);
+  for (int rows : {1, 2, 3, 10, 25}) {
+    const BlockMatrix full = randomMatrix(random, rows, 1.0);
+    BlockMatrix chain{std::vector<Mat6>(static_cast<std::size_t>(rows), Mat6::Identity()), {}};
+    for (int row = 1; row < rows; ++row) join(random, row, row - 1, chain);
+    BlockCholesky of_full(rows, full.blocks), of_chain(rows, chain.blocks);
+    for (int again = 0; again < 2; ++again) {
+      ASSERT_TRUE(of_full.factorize(full.diagonal, full.blocks));
+      ASSERT_TRUE(of_chain.factorize(chain.diagonal, chain.blocks));
+      EXPECT_EQ(of_full.products(), (rows - 1) * rows * (rows + 1) / 6);
+      EXPECT_EQ(of_chain.products(), rows - 1);
+    }
+  }
+}
+
 TEST(BlockCholesky, SolvesWhatTheDenseFactorSolves) {
   Random random(907);
   for (int rows : {1, 2, 3, 10, 40})

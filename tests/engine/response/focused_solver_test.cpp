@@ -10,21 +10,6 @@
 namespace carom {
 namespace {
 
-// Columns side by side, cold.
-Masonry columns(int count, int boxes) {
-  Masonry m;
-  for (int c = 0; c < count; ++c) {
-    int below = 0;
-    for (int i = 0; i < boxes; ++i) {
-      const double x = 2.0 * c;
-      const int box = m.lay(Vec3(x, 0, 0.125 + 0.25 * i), 1.0);
-      m.bed(below, box, x - 0.5, x + 0.5, 0.5);
-      below = box;
-    }
-  }
-  return m;
-}
-
 // The next step of what has stood for some steps: its loads and gravity.
 Masonry standing(Masonry m) {
   for (int step = 0; step < 4; ++step)

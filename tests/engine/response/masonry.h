@@ -15,7 +15,7 @@ inline std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// Boxes of 1 x 0.5 x 0.25 m on a floor (body 0), which have just got a step's gravity.
+/// Boxes of 1 x 0.5 x 0.25 m on a floor (body 0), which have just got a step's gravity.
 struct Masonry {
   std::vector<ImpulseBody> bodies{immovable()};
   std::vector<ContactRow> rows;
@@ -41,11 +41,15 @@ struct Masonry {
   }
 };
 
-inline Masonry column(int boxes, double mass_ratio) {
+/// Columns side by side; their topmost boxes have another mass.
+inline Masonry columns(int count, int boxes, double top_kg = 1.0) {
   Masonry m;
-  for (int i = 0; i < boxes; ++i) {
-    m.lay(Vec3(0, 0, 0.125 + 0.25 * i), i + 1 == boxes ? mass_ratio : 1.0);
-    m.bed(i, i + 1, -0.5, 0.5, 0.5);
+  for (int c = 0; c < count; ++c) {
+    const double x = 2.0 * c;
+    for (int i = 0; i < boxes; ++i) {
+      const int box = m.lay(Vec3(x, 0, 0.125 + 0.25 * i), i + 1 == boxes ? top_kg : 1.0);
+      m.bed(i == 0 ? 0 : box - 1, box, x - 0.5, x + 0.5, 0.5);
+    }
   }
   return m;
 }

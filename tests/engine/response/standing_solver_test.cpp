@@ -29,7 +29,7 @@ SolverReport solveAsInSteps(Masonry& m) {
 TEST(SolveStandingContacts, InAColumn_EveryBedCarriesWhatIsAbove) {
   for (const double heavy : {1.0, 1000.0})
     for (const int boxes : {10, 50, 200}) {
-      Masonry m = column(boxes, heavy);
+      Masonry m = columns(1, boxes, heavy);
       const SolverReport report = solveAsInSteps(m);
       EXPECT_LE(report.residual_mps, settings().residual_mps) << boxes << " " << heavy;
       EXPECT_LT(m.fastest(), 1e-4 * kGained) << boxes << " " << heavy;
@@ -133,7 +133,7 @@ TEST(HeldRows, AStepSolvesTheEquationsOfAllRows) {
 }
 
 TEST(HeldRows, LeavesAloneWhatDoesNotPressAndTheFrictionOfWhatSlides) {
-  Masonry m = column(2, 1.0);
+  Masonry m = columns(1, 2);
   for (ContactRow& row : m.rows) row.impulse = Vec3(0.05, 0.0, 0.0);
   m.rows[0].impulse = Vec3::Zero();
   m.rows[5].impulse = Vec3(0.05, 0.5 * 0.05, 0.0);  // on its cone

@@ -22,7 +22,11 @@ struct Island {
     }
   }
   bool isLost() { return SolverPatience(rows, bodies).isLost(); }
-  void learn(bool converged) { SolverPatience(rows, bodies).learn(converged); }
+  void learn(bool converged, long products_a_row = 1) {
+    const SolverReport report{.residual_mps = converged ? 0.5 : 2.0,
+                              .products = products_a_row * static_cast<long>(rows.size())};
+    SolverPatience(rows, bodies).learn(report, 1.0);
+  }
   /// Steps until it is tried again.
   int waitToTheEnd() {
     int steps = 0;
@@ -52,6 +56,26 @@ TEST(SolverPatience, ComesBackWithStepsThatConverge) {
     island.learn(false);
     EXPECT_FALSE(island.isLost()) << i;
   }
+  island.learn(false);
+  EXPECT_TRUE(island.isLost());
+}
+
+TEST(SolverPatience, StepsThatConvergeButTakeTooLongAreInVain) {
+  Island fair(tolerance::kSolverPatientRows), dear = fair;
+  for (int i = 0; i < tolerance::kSolverPatience; ++i) {
+    fair.learn(true, tolerance::kSolverDearProducts);
+    dear.learn(true, tolerance::kSolverDearProducts + 1);
+  }
+  EXPECT_FALSE(fair.isLost());
+  EXPECT_TRUE(dear.isLost());
+}
+
+TEST(SolverPatience, WhatSweepsSolveTeachesNothing) {
+  Island island(tolerance::kSolverPatientRows);
+  for (int i = 0; i + 1 < tolerance::kSolverPatience; ++i) island.learn(false);
+  for (int i = 0; i < 100; ++i) island.learn(false, 0);
+  EXPECT_FALSE(island.isLost());
+  for (int i = 0; i < 100; ++i) island.learn(true, 0);
   island.learn(false);
   EXPECT_TRUE(island.isLost());
 }
