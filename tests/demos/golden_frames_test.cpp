@@ -40,8 +40,8 @@ std::string testName(const fs::path& scene) {
 class GoldenFrames : public testing::TestWithParam<fs::path> {
  protected:
   std::string scene() const { return GetParam().stem().string(); }
-  /// Kept after a failure, to look at and to accept.
-  fs::path drawn() const { return fs::path(CAROM_BINARY).parent_path() / "golden" / scene(); }
+  /// Kept after a failure, to look at and to accept. Of each test its own, for they run side by side.
+  fs::path drawn() const { return fs::path(CAROM_BINARY).parent_path() / folder_ / scene(); }
 
   ProgramEnd draw(const std::vector<std::string>& environment = {}) const {
     fs::remove_all(drawn());
@@ -55,6 +55,8 @@ class GoldenFrames : public testing::TestWithParam<fs::path> {
     words.insert(words.end(), options.begin(), options.end());
     return runCarom(words);
   }
+
+  std::string folder_ = "golden";
 };
 
 TEST_P(GoldenFrames, AreDrawnAgain) {
@@ -69,6 +71,7 @@ TEST_P(GoldenFrames, AreDrawnAgain) {
 
 // To the bit where the processor has no more than SSE2.
 TEST_P(GoldenFrames, AreTheSameWithoutTheInstructionsOfNewerProcessors) {
+  folder_ = "golden-sse2";
   const ProgramEnd drawing = draw({"GALLIUM_OVERRIDE_CPU_CAPS=sse2", "LP_NATIVE_VECTOR_WIDTH=128"});
   ASSERT_EQ(drawing.code, 0) << drawing.err;
   const ProgramEnd end = compare({"--tolerance", "0", "--report", "none"});
