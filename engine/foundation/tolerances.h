@@ -39,10 +39,8 @@ inline constexpr int kSolverMostVisits = 50000;       // of what moves, where th
 inline constexpr int kSolverStandingSweeps = 20;      // of what stands, before it is solved at once, and ...
 inline constexpr int kSolverRowsASweep = 250;         // ... one more for so many rows of a crowd, but ...
 inline constexpr int kSolverMostStandingSweeps = 40;  // ... no more than these
-// Islands of so many rows are swept alone for a pause, to the stirred residual, when solving them at once did
-// not converge, or took more block products a row than those, in so many steps more often than not.
-inline constexpr std::size_t kSolverPatientRows = 6000;
-inline constexpr long kSolverDearProducts = 100;
+// Crowds (focused_solver.h) are swept alone for a pause, to the stirred residual, when solving them at once
+// did not converge, or was too dear, in so many steps more often than not.
 inline constexpr int kSolverPatience = 8;
 inline constexpr int kSolverPause = 120;  // steps
 inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already

@@ -27,14 +27,23 @@ BlockCholesky::BlockCholesky(int rows, std::span<const OffDiagonalBlock> blocks)
       at_hand_(at(rows), Mat6::Zero()),
       pivots_(at(rows)),
       columns_(at(rows)) {
+  findTree(blocks);
+  std::vector<long> entries(at(rows), 0);
+  for (int row = 0; row < rows_; ++row) {
+    findFill(row, blocks);
+    for (const int column : fill_) products_ += ++entries[at(column)];
+  }
+}
+
+void BlockCholesky::findTree(std::span<const OffDiagonalBlock> blocks) {
   for (const OffDiagonalBlock& block : blocks) ++row_begin_[at(block.row) + 1];
-  for (std::size_t row = 0; row < at(rows); ++row) row_begin_[row + 1] += row_begin_[row];
+  for (std::size_t row = 0; row < at(rows_); ++row) row_begin_[row + 1] += row_begin_[row];
   std::vector<int> next(row_begin_.begin(), row_begin_.end() - 1);
   for (std::size_t i = 0; i < blocks.size(); ++i)
     by_row_[at(next[at(blocks[i].row)]++)] = static_cast<int>(i);
   // Each row becomes the parent of the subtrees that its columns are in; ancestors are kept short.
-  std::vector<int> ancestor(at(rows), -1);
-  for (int row = 0; row < rows; ++row) {
+  std::vector<int> ancestor(at(rows_), -1);
+  for (int row = 0; row < rows_; ++row) {
     for (int k = row_begin_[at(row)]; k < row_begin_[at(row) + 1]; ++k) {
       int column = blocks[at(by_row_[at(k)])].column;
       while (column != -1 && column < row) {
@@ -62,7 +71,6 @@ void BlockCholesky::findFill(int row, std::span<const OffDiagonalBlock> blocks) 
 bool BlockCholesky::factorize(std::span<const Mat6> diagonal, std::span<const OffDiagonalBlock> blocks) {
   for (std::vector<Entry>& column : columns_) column.clear();
   std::fill(seen_in_.begin(), seen_in_.end(), -1);
-  products_ = 0;
   for (int row = 0; row < rows_; ++row) {
     findFill(row, blocks);
     for (const int column : fill_) at_hand_[at(column)].setZero();
@@ -77,7 +85,6 @@ bool BlockCholesky::factorize(std::span<const Mat6> diagonal, std::span<const Of
       for (const Entry& below : columns_[at(column)])  // all of them columns of this row, too
         subtractProduct(value, below.value, at_hand_[at(below.row)]);
       subtractProduct(value, value, pivot);
-      products_ += static_cast<long>(columns_[at(column)].size()) + 1;
       columns_[at(column)].push_back({row, value});
     }
     const Eigen::LLT<Mat6> llt(pivot);

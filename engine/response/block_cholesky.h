@@ -28,7 +28,7 @@ class BlockCholesky {
   /// positive definite.
   bool factorize(std::span<const Mat6> diagonal, std::span<const OffDiagonalBlock> blocks);
 
-  /// What the last factorisation took: products of blocks.
+  /// What a factorisation takes: products of blocks.
   long products() const { return products_; }
 
   /// Solves for the right side `x`, in place.
@@ -40,6 +40,7 @@ class BlockCholesky {
     Mat6 value;
   };
 
+  void findTree(std::span<const OffDiagonalBlock> blocks);
   void findFill(int row, std::span<const OffDiagonalBlock> blocks);
 
   int rows_ = 0;

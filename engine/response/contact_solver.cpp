@@ -53,14 +53,15 @@ RowChange solvePoint(ContactRow& row, std::span<ImpulseBody> bodies, bool fricti
   Vec3 impulse = row.impulse;
   double change = 0.0;
   bool settled = true;
-  if (friction && holds(row, miss, impulse)) {
+  const bool rough = row.coefficient > 0.0;
+  if (friction && rough && holds(row, miss, impulse)) {
     change = largest(miss);
   } else {
     impulse.x() = normalImpulse(row, miss);
     impulse.tail<2>() = row.impulse.tail<2>();
     const double normal_change = impulse.x() - row.impulse.x();
     change = std::abs(normal_change) * row.normal_response.x();
-    if (friction && (impulse.x() > 0.0 || !row.impulse.tail<2>().isZero(0.0))) {
+    if (friction && ((rough && impulse.x() > 0.0) || !row.impulse.tail<2>().isZero(0.0))) {
       const Vec2 slip = miss.tail<2>() + normal_change * row.normal_response.tail<2>();
       impulse.tail<2>() = frictionImpulse(row, impulse.x(), slip);
       const double slip_change = (impulse - row.impulse).tail<2>().cwiseAbs().maxCoeff();

@@ -108,7 +108,7 @@ struct SolverReport {
   int sweeps = 0;
   double residual_mps = 0.0;  ///< The largest change of speed in the last sweep.
   long visits = 0;            ///< Rows looked at, over all sweeps.
-  long products = 0;          ///< Of 6 x 6 blocks: what solving held rows at once took (standing_solver.h).
+  long products = 0;          ///< Of 6 x 6 blocks: what a step of all held rows takes (standing_solver.h).
 };
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,

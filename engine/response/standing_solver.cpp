@@ -8,7 +8,8 @@
 namespace carom {
 namespace {
 
-constexpr int kSteps = 4;  // each leaves a fifth to a fiftieth of the residual
+constexpr long kDearProducts = 100;  // a row: sweeps come farther at that cost
+constexpr int kSteps = 4;            // each leaves a fifth to a fiftieth of the residual
 // Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
 // step that leaves more than this share is the last.
 constexpr double kNearlyEnough = 5.0;
@@ -54,11 +55,11 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   const SolverSettings after{.sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps};
   if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
+  total.products = held.products();
+  if (total.products > kDearProducts * static_cast<long>(rows.size())) return total;
   Saved best(rows, bodies, total.residual_mps);
   for (int step = 0; step < kSteps; ++step) {
-    const bool solved = held.step(rows, bodies);
-    total.products += held.products();
-    if (!solved) break;
+    if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFocused(rows, bodies, after);
     total.sweeps += report.sweeps;
     total.visits += report.visits;

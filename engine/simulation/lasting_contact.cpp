@@ -22,6 +22,9 @@ namespace {
 constexpr double kNoticedTurning = 1e-6;
 constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
 constexpr int kPathSweeps = 60;
+constexpr int kFirstPathSweeps = 8;     // of a crowd; if they visited its rows more often than ...
+constexpr long kPathsInMotion = 5;      // ... this in the mean, ...
+constexpr int kPathFocusedSweeps = 24;  // ... it gets so many focused ones
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -206,12 +209,33 @@ void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double 
   }
 }
 
+// Sweeps that pass over what is not stirred are cheapest where few paths come into a gap; where most do,
+// paths are swept like impulses.
+void solveCrowdPaths(std::span<ContactRow> rows, std::span<ImpulseBody> paths, double residual_mps) {
+  SolverSettings settings{.sweeps = kFirstPathSweeps, .residual_mps = residual_mps, .friction = false};
+  const SolverReport report = solveContacts(rows, paths, settings);
+  if (report.residual_mps <= residual_mps) return;
+  if (report.visits > kPathsInMotion * static_cast<long>(rows.size())) {
+    settings.sweeps = kPathFocusedSweeps;
+    solveContactsFocused(rows, paths, settings);
+  } else {
+    settings.sweeps = kPathSweeps - kFirstPathSweeps;
+    settings.resumes = true;
+    solveContacts(rows, paths, settings);
+  }
+}
+
 // Without friction: the bounds on the paths.
 void solvePaths(LastingContacts& contacts, double coarse_residual_mps) {
   for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
     const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
+    const std::span<ContactRow> rows = std::span(contacts.path_rows).subspan(contacts.island_begin[i], count);
+    if (count >= kFocusedRows) {
+      solveCrowdPaths(rows, contacts.paths, coarse_residual_mps);
+      continue;
+    }
     const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
-    solveContacts(std::span(contacts.path_rows).subspan(contacts.island_begin[i], count), contacts.paths,
+    solveContacts(rows, contacts.paths,
                   {.sweeps = std::max(kPathSweeps, careful_sweeps),
                    .residual_mps = kPathResidual,
                    .friction = false,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/foundation/tolerances.h"
+#include "engine/response/focused_solver.h"
 
 namespace carom {
 namespace {
@@ -15,7 +16,7 @@ std::size_t at(int i) {
 
 SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Body>& bodies)
     : bodies_(bodies) {
-  if (rows.size() < tolerance::kSolverPatientRows) return;
+  if (rows.size() < kFocusedRows) return;
   rows_ = rows;
   for (const ContactRow& row : rows_)
     for (const int i : {row.a, row.b}) {
@@ -26,8 +27,7 @@ SolverPatience::SolverPatience(std::span<const ContactRow> rows, std::vector<Bod
 
 void SolverPatience::learn(const SolverReport& report, double enough_mps) {
   if (report.products == 0) return;
-  const bool dear = report.products > tolerance::kSolverDearProducts * static_cast<long>(rows_.size());
-  if (report.residual_mps <= enough_mps && !dear)
+  if (report.residual_mps <= enough_mps)
     keep(std::max(0, in_vain_ - 1), 0);
   else if (in_vain_ + 1 < tolerance::kSolverPatience)
     keep(in_vain_ + 1, 0);

@@ -1,8 +1,8 @@
 #pragma once
 // Solved at once (standing_solver.h), a wall of thousands of bricks stands in a few steps. A heap of
-// thousands in which contacts come and go is as far from converged after as before, or soon again, at
-// hundreds of times the cost of a sweep: after some such steps it is swept alone for a while. Internal to the
-// simulation floor. Tested in tests/engine/simulation/solver_patience_test.cpp.
+// thousands in which contacts come and go is as far from converged after as before, or soon again, at many
+// times the cost of a sweep: after some such steps it is swept alone for a while. Internal to the simulation
+// floor. Tested in tests/engine/simulation/solver_patience_test.cpp.
 
 #include <span>
 #include <vector>
@@ -20,8 +20,7 @@ class SolverPatience {
   bool isLost() const { return swept_alone_ > 0; }
   /// For a step in which it is lost.
   void waitAStep() { keep(in_vain_, swept_alone_ - 1); }
-  /// From a solve that was to come to `enough_mps`: where rows were solved at once for it, whether it did,
-  /// and not too dearly.
+  /// From a solve that was to come to `enough_mps`: where sweeps did not, whether solving at once did.
   void learn(const SolverReport& report, double enough_mps);
 
  private:

@@ -89,6 +89,28 @@ TEST(SolveStandingContacts, NeverEndsWorseThanItsSweeps) {
   }
 }
 
+// Bodies that touch others all over the place: the factor fills up.
+TEST(SolveStandingContacts, WhatIsDearToSolveAtOnceIsLeftToTheSweeps) {
+  constexpr int kBodies = 300, kTouched = 3;
+  Random random(902);
+  Masonry m;
+  for (int i = 0; i < kBodies; ++i) m.lay(random.direction(), 1.0);
+  for (int i = 0; i < kTouched * kBodies; ++i) {
+    const int a = 1 + i % kBodies;
+    const int b = 1 + (i + 1 + static_cast<int>(random.uniform(0.0, kBodies - 1.0))) % kBodies;
+    m.rows.push_back(rowAt({.a = a, .b = b, .n = random.direction(), .p_W = random.direction()}, m.bodies));
+    m.rows.back().lowest_speed = random.uniform(0.0, 0.5);
+  }
+  Masonry swept = m;
+  const SolverSettings few{.sweeps = 4, .residual_mps = 1e-12};
+  const SolverReport alone = solveContactsFinely(swept.rows, swept.bodies, few);
+  const SolverReport report = solveStandingContacts(m.rows, m.bodies, few);
+  EXPECT_GT(report.residual_mps, few.residual_mps) << "the sweeps have solved it";
+  EXPECT_GT(report.products, 100 * static_cast<long>(m.rows.size())) << "it is cheap";
+  EXPECT_EQ(report.visits, alone.visits);
+  for (std::size_t i = 0; i < m.rows.size(); ++i) EXPECT_EQ(m.rows[i].impulse, swept.rows[i].impulse) << i;
+}
+
 using Exact = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 // The same equations, dense, from nothing but the velocities that unit velocities of the bodies give.

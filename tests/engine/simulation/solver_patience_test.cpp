@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/tolerances.h"
+#include "engine/response/focused_solver.h"
 
 namespace carom {
 namespace {
@@ -22,9 +23,8 @@ struct Island {
     }
   }
   bool isLost() { return SolverPatience(rows, bodies).isLost(); }
-  void learn(bool converged, long products_a_row = 1) {
-    const SolverReport report{.residual_mps = converged ? 0.5 : 2.0,
-                              .products = products_a_row * static_cast<long>(rows.size())};
+  void learn(bool converged, long products = 1) {
+    const SolverReport report{.residual_mps = converged ? 0.5 : 2.0, .products = products};
     SolverPatience(rows, bodies).learn(report, 1.0);
   }
   /// Steps until it is tried again.
@@ -36,7 +36,7 @@ struct Island {
 };
 
 TEST(SolverPatience, OfALargeIslandIsLostAfterSomeStepsInVain_AndThenAtOnce) {
-  Island island(tolerance::kSolverPatientRows);
+  Island island(kFocusedRows);
   for (int i = 0; i < tolerance::kSolverPatience; ++i) {
     EXPECT_FALSE(island.isLost()) << i;
     island.learn(false);
@@ -48,7 +48,7 @@ TEST(SolverPatience, OfALargeIslandIsLostAfterSomeStepsInVain_AndThenAtOnce) {
 }
 
 TEST(SolverPatience, ComesBackWithStepsThatConverge) {
-  Island island(tolerance::kSolverPatientRows);
+  Island island(kFocusedRows);
   for (int i = 0; i < tolerance::kSolverPatience; ++i) island.learn(false);
   island.waitToTheEnd();
   for (int i = 0; i < 3; ++i) island.learn(true);
@@ -60,18 +60,8 @@ TEST(SolverPatience, ComesBackWithStepsThatConverge) {
   EXPECT_TRUE(island.isLost());
 }
 
-TEST(SolverPatience, StepsThatConvergeButTakeTooLongAreInVain) {
-  Island fair(tolerance::kSolverPatientRows), dear = fair;
-  for (int i = 0; i < tolerance::kSolverPatience; ++i) {
-    fair.learn(true, tolerance::kSolverDearProducts);
-    dear.learn(true, tolerance::kSolverDearProducts + 1);
-  }
-  EXPECT_FALSE(fair.isLost());
-  EXPECT_TRUE(dear.isLost());
-}
-
 TEST(SolverPatience, WhatSweepsSolveTeachesNothing) {
-  Island island(tolerance::kSolverPatientRows);
+  Island island(kFocusedRows);
   for (int i = 0; i + 1 < tolerance::kSolverPatience; ++i) island.learn(false);
   for (int i = 0; i < 100; ++i) island.learn(false, 0);
   EXPECT_FALSE(island.isLost());
@@ -81,7 +71,7 @@ TEST(SolverPatience, WhatSweepsSolveTeachesNothing) {
 }
 
 TEST(SolverPatience, OfASmallIslandIsNeverLost) {
-  Island island(tolerance::kSolverPatientRows - 1);
+  Island island(kFocusedRows - 1);
   for (int i = 0; i < 100; ++i) island.learn(false);
   EXPECT_FALSE(island.isLost());
 }
