@@ -1,6 +1,7 @@
 #pragma once
-// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping.
-// Tested in tests/engine/broad_phase/candidate_pairs_test.cpp.
+// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping; from step
+// to step, among those that overlapped with room to spare. Tested in
+// tests/engine/broad_phase/candidate_pairs_test.cpp.
 
 #include <span>
 #include <vector>
@@ -40,5 +41,19 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies);
 inline bool canPair(const Proxy& p, const Proxy& q) {
   return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
 }
+
+/// The same for proxies that come again with every step: what has left the room that it was given is paired
+/// anew, with room; of the pairs that overlap with theirs, those that overlap without are the candidates.
+class PairFinder {
+ public:
+  std::vector<IndexPair> find(std::span<const Proxy> proxies);
+
+ private:
+  void startAgain(std::span<const Proxy> proxies);
+  void pairAnew(std::span<const Proxy> proxies, std::span<const std::size_t> left);
+
+  std::vector<Proxy> roomy_;
+  std::vector<IndexPair> near_;  ///< Of the roomy proxies, ascending.
+};
 
 }  // namespace carom

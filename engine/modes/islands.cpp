@@ -17,7 +17,8 @@ int Islands::of(int i) const {
 void Islands::join(int i, int j) {
   const int a = of(i);
   const int b = of(j);
-  parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  const int name = std::min(a, b);
+  for (const int k : {i, j, a, b}) parent_[static_cast<std::size_t>(k)] = name;  // short ways from now on
 }
 
 }  // namespace carom

@@ -40,7 +40,8 @@ struct ContactRow {
   Vec3 normal_response = Vec3::Zero();  ///< First column of K in the frame (n, t1, t2).
   Mat3 inverse_response = Mat3::Zero();
   double largest_slip_response = 0.0;  ///< Largest eigenvalue of K's tangential part.
-  double coefficient = 0.0;            ///< Of friction, for this solve.
+  double coefficient = 0.0;            ///< Of friction, for this solve: see `setCoefficient`.
+  bool parts_idly = false;             ///< No impulse within the cone holds it where it separates without.
 
   double seen_stir = -1.0;  ///< The solver's: how much its bodies had been stirred at its last visit.
 
@@ -51,6 +52,8 @@ struct ContactRow {
 
 /// Needs the bodies' velocities before the solve: they say which coefficient of friction counts.
 void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies);
+/// Sets which coefficient counts in the solve of a prepared row.
+void setCoefficient(ContactRow& row, double coefficient);
 /// R_WR of the row's frame: its columns are (n, t1, t2).
 inline Mat3 rowFrame(const ContactRow& row) {
   Mat3 frame;
@@ -74,14 +77,22 @@ inline void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<Imp
   bodies[static_cast<std::size_t>(row.a)].apply(-on_b, row.r_a);
   bodies[static_cast<std::size_t>(row.b)].apply(on_b, row.r_b);
 }
-/// (separating, t1, t2) velocity of B relative to A, m/s.
-inline Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  return inRowFrame(row, bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
-                             bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a));
+/// Velocity of the point on B relative to that on A, m/s, world frame.
+inline Vec3 rowVelocityInWorld(const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  return bodies[static_cast<std::size_t>(row.b)].velocity.at(row.r_b) -
+         bodies[static_cast<std::size_t>(row.a)].velocity.at(row.r_a);
 }
-/// By how much the velocity misses what would hold the point: (separating, t1, t2), m/s.
+/// The same as (separating, t1, t2).
+inline Vec3 rowVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  return inRowFrame(row, rowVelocityInWorld(row, bodies));
+}
+/// What would hold the point: (separating, t1, t2), m/s.
+inline Vec3 rowBound(const ContactRow& row) {
+  return {row.lowest_speed, row.still_slip.x(), row.still_slip.y()};
+}
+/// By how much the velocity misses it.
 inline Vec3 rowMiss(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  return rowVelocity(row, bodies) - Vec3(row.lowest_speed, row.still_slip.x(), row.still_slip.y());
+  return rowVelocity(row, bodies) - rowBound(row);
 }
 
 /// Whether an impulse in the row's frame presses and is within the row's Coulomb cone.

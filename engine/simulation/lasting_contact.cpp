@@ -244,6 +244,27 @@ void solvePaths(LastingContacts& contacts, double coarse_residual_mps) {
   }
 }
 
+// The lasting pairs of what moves, those of one island together: so their rows come, and need no sorting.
+std::vector<std::pair<int, int>> lastingPairs(const std::vector<Body>& bodies, std::vector<ShapePair>& pairs,
+                                              double step_s) {
+  Islands islands(static_cast<int>(bodies.size()));
+  std::vector<std::pair<int, int>> lasting;  // by island, once these are known, and as they came
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool a_moves = bodies[at(pairs[i].body_a)].moves();
+    const bool b_moves = bodies[at(pairs[i].body_b)].moves();
+    if (!a_moves && !b_moves) continue;  // what a resting pair remembers, it keeps
+    if (!isLasting(pairs[i], step_s)) {
+      pairs[i].remembered_count = 0;
+      continue;
+    }
+    if (a_moves && b_moves) islands.join(pairs[i].body_a, pairs[i].body_b);
+    lasting.emplace_back(a_moves ? pairs[i].body_a : pairs[i].body_b, static_cast<int>(i));
+  }
+  for (auto& [island, pair] : lasting) island = islands.of(island);
+  std::sort(lasting.begin(), lasting.end());
+  return lasting;
+}
+
 void assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
               std::vector<ShapePair>& pairs, const WorldSettings& settings, StepCounters& counters,
               LastingContacts& contacts) {
@@ -258,12 +279,9 @@ void assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
     }
     contacts.bodies.push_back(seen);
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool moves = bodies[at(pairs[i].body_a)].moves() || bodies[at(pairs[i].body_b)].moves();
-    if (!moves) continue;  // what a resting pair remembers, it keeps
-    if (isLasting(pairs[i], settings.step_s))
-      addRows(contacts, static_cast<int>(i), pairs[i], bodies, shapes, settings, counters);
-    pairs[i].remembered_count = 0;
+  for (const auto& [island, i] : lastingPairs(bodies, pairs, settings.step_s)) {
+    addRows(contacts, i, pairs[at(i)], bodies, shapes, settings, counters);
+    pairs[at(i)].remembered_count = 0;
   }
   sortByIsland(contacts);
 }

@@ -38,7 +38,7 @@ void takePlace(const SourcedRow& later, std::span<const ImpulseBody> bodies, dou
   ContactRow& row = sourced.row;
   const double coefficient = row.coefficient;
   row = later.row;
-  row.coefficient = coefficient;
+  setCoefficient(row, coefficient);
   sourced.off_middle_m = later.off_middle_m;
   row.lowest_speed = -normal_change;
   row.still_slip = -Vec2(row.t1.dot(change), row.t2.dot(change));

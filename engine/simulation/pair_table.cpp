@@ -119,7 +119,7 @@ void PairTable::link(std::size_t pair) {
 
 void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
-  const std::vector<IndexPair> wanted = candidatePairs(proxies_);
+  const std::vector<IndexPair> wanted = finder_.find(proxies_);
   counters.candidate_pairs = static_cast<int>(wanted.size());
   // In most steps of what has settled the pairs stay as they are, and they are large.
   const auto is = [](const ShapePair& pair, const IndexPair& shapes_of_pair) {

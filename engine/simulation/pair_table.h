@@ -71,6 +71,7 @@ class PairTable {
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;
+  PairFinder finder_;
   BoundsTree tree_;               ///< Of the proxies; built when a path first leaves its bounds.
   std::vector<ShapePair> pairs_;  ///< Ascending by shapes, but for those added within a step.
   std::vector<std::vector<int>> of_body_;

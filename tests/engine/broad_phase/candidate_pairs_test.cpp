@@ -89,6 +89,38 @@ TEST(CandidatePairs, DoNotDependOnTheOrderOfTheProxies) {
   EXPECT_EQ(back, candidatePairs(proxies));
 }
 
+void shift(Proxy& proxy, const Vec3& by) {
+  proxy.bounds.low += by;
+  proxy.bounds.high += by;
+}
+
+// A world of trembling things, of which in some steps a few leap, or all, or one begins to move, changes its
+// group, comes or goes.
+TEST(PairFinder, FindsInEveryStepWhatStartingAgainFinds) {
+  Random random(43);
+  for (int world = 0; world < 10; ++world) {
+    std::vector<Proxy> proxies = scattered(random, 200, 3, 2);
+    const auto any = [&]() -> Proxy& {
+      return proxies[static_cast<std::size_t>(random.integer(0, static_cast<int>(proxies.size()) - 1))];
+    };
+    PairFinder finder;
+    for (int step = 0; step < 100; ++step) {
+      const int event = random.integer(0, 9);
+      const double tremble = event == 0 ? 1.0 : 3e-5;
+      for (Proxy& proxy : proxies)
+        if (proxy.moves) shift(proxy, tremble * random.uniform(0, 1) * random.direction());
+      if (event == 1) shift(any(), random.direction());
+      if (event == 2 || event == 3)
+        for (int i = 0; i < 3; ++i) shift(any(), random.uniform(0, 3) * random.direction());
+      if (event == 4) any().moves = random.integer(0, 1) > 0;
+      if (event == 5) any().group = random.integer(0, 100);
+      if (event == 6) proxies.push_back(any());
+      if (event == 7) proxies.pop_back();
+      ASSERT_EQ(finder.find(proxies), candidatePairs(proxies)) << "world " << world << ", step " << step;
+    }
+  }
+}
+
 TEST(Bounds, ContainThemselvesAndWhatLiesWithin) {
   const Bounds outer{Vec3(-1, -2, -3), Vec3(1, 2, 3)};
   EXPECT_TRUE(outer.contains(outer));

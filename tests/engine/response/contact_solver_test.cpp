@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "tests/engine/response/random_contact.h"
 
@@ -28,6 +31,30 @@ TEST(PrepareRow, MakesARightHandedFrameAndItsResponse) {
     EXPECT_LT((row.inverse_response * change - impulse).norm(), 1e-9 * impulse.norm());
     EXPECT_NEAR(change.x(), row.normal_response.dot(impulse), 1e-12);
   }
+}
+
+// Whether an impulse within the cone can make a point approach: the worst one is on its edge. Long rods on
+// rough ground have such (Painleve 1895).
+TEST(PrepareRow, PartsIdlyWhereNoImpulseWithinItsConeMakesItApproach) {
+  Random random(102);
+  int idle = 0;
+  constexpr int kRows = 1000;
+  for (int i = 0; i < kRows; ++i) {
+    const Meeting m = randomMeeting(random, 1, random.uniform(0.0, 8.0), random.logUniform(1e-2, 1e2));
+    ContactRow row = m.rows[0];
+    setCoefficient(row, random.uniform(0.5, 1.0) * row.coefficient);
+    double slowest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 360; ++k) {
+      const double angle = k * std::numbers::pi / 180.0;
+      const Vec3 impulse(1.0, row.coefficient * std::cos(angle), row.coefficient * std::sin(angle));
+      slowest = std::min(slowest, row.normal_response.dot(impulse) / row.normal_response.x());
+    }
+    if (std::abs(slowest) < 1e-3) continue;  // between two degrees
+    EXPECT_EQ(row.parts_idly, slowest > 0.0) << i << " " << slowest;
+    idle += row.parts_idly;
+  }
+  EXPECT_GT(idle, kRows / 4);
+  EXPECT_LT(idle, kRows * 3 / 4);
 }
 
 // Normal: u >= lowest, j >= 0, complementary. Friction: within the cone; where it slips, full and against the
