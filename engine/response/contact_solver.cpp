@@ -171,19 +171,19 @@ double squaredStep(std::span<const ContactRow> rows, const Iterate& before) {
   return squared;
 }
 
-// direction = step + share * direction; the part of the old direction is taken as well.
+// direction = step + share * direction; the part of the old direction is taken as well, and the next step
+// begins.
 void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                   std::span<const std::size_t> involved, const Iterate& before, double share,
-                   Iterate& direction) {
+                   std::span<const std::size_t> involved, double share, Iterate& before, Iterate& direction) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vec3 kept = share * direction.impulses[i];
     direction.impulses[i] = rows[i].impulse - before.impulses[i] + kept;
-    rows[i].impulse += kept;
+    before.impulses[i] = rows[i].impulse += kept;
   }
   for (std::size_t i = 0; i < before.torques.size(); ++i) {
     const Vec3 kept = share * direction.torques[i];
     direction.torques[i] = rows[i].torque - before.torques[i] + kept;
-    rows[i].torque += kept;
+    before.torques[i] = rows[i].torque += kept;
   }
   for (std::size_t k = 0; k < involved.size(); ++k) {
     Velocity& d = direction.velocities[k];
@@ -191,8 +191,8 @@ void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
     const Velocity kept{share * d.linear, share * d.angular};
     d.linear = v.linear - before.velocities[k].linear + kept.linear;
     d.angular = v.angular - before.velocities[k].angular + kept.angular;
-    v.linear += kept.linear;
-    v.angular += kept.angular;
+    before.velocities[k].linear = v.linear += kept.linear;
+    before.velocities[k].angular = v.angular += kept.angular;
   }
 }
 
@@ -257,9 +257,9 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
                     std::vector<Vec3>(turning ? rows.size() : 0, Vec3::Zero()),
                     std::vector<Velocity>(involved.size())};
   Iterate before = direction;
+  store(rows, bodies, involved, before);
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
-    store(rows, bodies, involved, before);
     sweep(rows, bodies, settings.friction, true, kVisitAll, report);
     sweep(rows, bodies, settings.friction, false, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
@@ -268,7 +268,7 @@ SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBo
     if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep(rows, before);
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth
-    continueAlong(rows, bodies, involved, before, shrinks ? squared / last_squared : 0.0, direction);
+    continueAlong(rows, bodies, involved, shrinks ? squared / last_squared : 0.0, before, direction);
     last_squared = squared;
   }
   return report;

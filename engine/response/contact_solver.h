@@ -22,29 +22,28 @@ struct TurningResistance {
   bool acts() const { return rolling_m > 0.0 || spinning_m > 0.0; }
 };
 
-/// One contact point between bodies a and b of the solver's list.
+/// One contact point between bodies a and b of the solver's list. What every visit reads comes first.
 struct ContactRow {
   int a = -1;
   int b = -1;
   Vec3 n = Vec3::UnitZ();  ///< Unit, A to B.
   Vec3 r_a = Vec3::Zero();
   Vec3 r_b = Vec3::Zero();
-  Friction friction;
-  double lowest_speed = 0.0;       ///< m/s: the separating speed must not be below this.
-  Vec2 still_slip = Vec2::Zero();  ///< m/s along (t1, t2): the velocity that counts as not sliding.
-  Vec3 impulse = Vec3::Zero();     ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
+  double lowest_speed = 0.0;    ///< m/s: the separating speed must not be below this.
+  Vec3 impulse = Vec3::Zero();  ///< N s on B: (along n, t1, t2); on entry the warm start, already applied.
+  double seen_stir = -1.0;      ///< The solver's: how much its bodies had been stirred at its last visit.
 
   // Filled by `prepareRow`.
+  bool parts_idly = false;  ///< No impulse within the cone holds it where it separates without.
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
-  Vec3 normal_response = Vec3::Zero();  ///< First column of K in the frame (n, t1, t2).
   Mat3 inverse_response = Mat3::Zero();
-  double largest_slip_response = 0.0;  ///< Largest eigenvalue of K's tangential part.
-  double coefficient = 0.0;            ///< Of friction, for this solve: see `setCoefficient`.
-  bool parts_idly = false;             ///< No impulse within the cone holds it where it separates without.
+  Vec3 normal_response = Vec3::Zero();  ///< First column of K in the frame (n, t1, t2).
+  double largest_slip_response = 0.0;   ///< Largest eigenvalue of K's tangential part.
+  double coefficient = 0.0;             ///< Of friction, for this solve: see `setCoefficient`.
 
-  double seen_stir = -1.0;  ///< The solver's: how much its bodies had been stirred at its last visit.
-
+  Vec2 still_slip = Vec2::Zero();  ///< m/s along (t1, t2): the velocity that counts as not sliding.
+  Friction friction;
   TurningResistance resistance;        ///< Of solves with friction.
   Vec3 torque = Vec3::Zero();          ///< N m s on B about (n, t1, t2), as `impulse`.
   double largest_turn_response = 0.0;  ///< 1/(kg m^2); filled by `prepareRow` where `resistance` acts.

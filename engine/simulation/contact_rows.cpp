@@ -75,7 +75,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
   const double leaning = leaningOf(pair, bodies, shapes);
   const auto append = [&](const ManifoldPoint& point) {
     const double off_middle_m = 0.5 * point.gap_m * leaning;
-    SourcedRow sourced{ContactRow{}, request.pair, point.id, point.gap_m, off_middle_m};
+    SourcedRow& sourced = rows.emplace_back(ContactRow{}, request.pair, point.id, point.gap_m, off_middle_m);
     ContactRow& row = sourced.row;
     row.a = request.row_a;
     row.b = request.row_b;
@@ -86,7 +86,6 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
     row.resistance = combinedResistance(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
     prepareRow(row, solver_bodies);
-    rows.push_back(sourced);
   };
   for (const ManifoldPoint& point : manifold.view()) append(point);
   if (!request.struck) return;

@@ -141,9 +141,8 @@ int fewestSweeps(std::span<const ContactRow> rows) {
 
 // Of an island that lies still, before its rows are solved at once.
 int standingSweeps(std::span<const ContactRow> rows) {
-  if (rows.size() < kFocusedRows) return tolerance::kSolverStandingSweeps;
-  const int dearer = static_cast<int>(rows.size()) / tolerance::kSolverRowsASweep;
-  return std::min(tolerance::kSolverStandingSweeps + dearer, tolerance::kSolverMostStandingSweeps);
+  return rows.size() < kFocusedRows ? tolerance::kSolverStandingSweeps
+                                    : tolerance::kSolverCrowdStandingSweeps;
 }
 
 // Small islands are solved to the fine residual, large ones to a coarser one.
@@ -229,7 +228,7 @@ void solveCrowdPaths(std::span<ContactRow> rows, std::span<ImpulseBody> paths, d
 void solvePaths(LastingContacts& contacts, double coarse_residual_mps) {
   for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
     const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
-    const std::span<ContactRow> rows = std::span(contacts.path_rows).subspan(contacts.island_begin[i], count);
+    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
     if (count >= kFocusedRows) {
       solveCrowdPaths(rows, contacts.paths, coarse_residual_mps);
       continue;
@@ -339,13 +338,15 @@ void setPaths(LastingContacts& contacts, std::vector<Body>& bodies, const std::v
     paths[i].velocity.linear = 0.5 * (bodies[i].velocity.linear + paths[i].velocity.linear);
     paths[i].velocity.angular = 0.5 * (bodies[i].velocity.angular + paths[i].velocity.angular);
   }
-  std::vector<ContactRow>& rows = contacts.path_rows;
-  rows = contacts.rows;
+  std::vector<ContactRow>& rows = contacts.rows;
+  contacts.momentum.clear();
   double smallest_rest_gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    ContactRow& row = rows[i];
+    contacts.momentum.push_back({row.impulse, row.lowest_speed});
     const ShapePair& pair = pairs[at(contacts.sources[i].pair)];
-    rows[i].lowest_speed = gapSpeeds(contacts.sources[i].gap_m, pair, step_s, rows[i].impulse.x() > 0.0).path;
-    rows[i].impulse.setZero();
+    row.lowest_speed = gapSpeeds(contacts.sources[i].gap_m, pair, step_s, row.impulse.x() > 0.0).path;
+    row.impulse.setZero();
     smallest_rest_gap = std::min(smallest_rest_gap, pair.window.rest);
   }
   const double coarse_residual = kPathShare * smallest_rest_gap / step_s;
@@ -354,6 +355,10 @@ void setPaths(LastingContacts& contacts, std::vector<Body>& bodies, const std::v
     if (!raiseForTurning({bodies, shapes, pairs, 0.0, step_s}, contacts.sources, paths, rows, counters))
       break;
     solvePaths(contacts, coarse_residual);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].impulse = contacts.momentum[i].impulse;
+    rows[i].lowest_speed = contacts.momentum[i].lowest_speed;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!contacts.touched[i]) continue;

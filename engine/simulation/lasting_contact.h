@@ -12,6 +12,12 @@
 
 namespace carom {
 
+/// What of a row differs between the solve of the momentum and that of the paths.
+struct MomentumPart {
+  Vec3 impulse;
+  double lowest_speed = 0.0;
+};
+
 /// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
 /// step.
 struct LastingContacts {
@@ -20,8 +26,8 @@ struct LastingContacts {
   std::vector<ImpulseBody> bodies;  ///< One per body of the world, velocities after the solve.
   std::vector<char> touched;        ///< Bodies that some row pressed.
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
-  std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths, and ...
-  std::vector<ContactRow> path_rows;      ///< ... the rows as bounds on them.
+  std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
+  std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
   std::vector<SourcedRow> unsorted;       ///< Scratch.
 };
 
