@@ -75,7 +75,11 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
   const double leaning = leaningOf(pair, bodies, shapes);
   const auto append = [&](const ManifoldPoint& point) {
     const double off_middle_m = 0.5 * point.gap_m * leaning;
-    SourcedRow& sourced = rows.emplace_back(ContactRow{}, request.pair, point.id, point.gap_m, off_middle_m);
+    SourcedRow& sourced = rows.emplace_back();
+    sourced.pair = request.pair;
+    sourced.id = point.id;
+    sourced.gap_m = point.gap_m;
+    sourced.off_middle_m = off_middle_m;
     ContactRow& row = sourced.row;
     row.a = request.row_a;
     row.b = request.row_b;
