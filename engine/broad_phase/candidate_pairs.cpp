@@ -6,8 +6,8 @@
 namespace carom {
 namespace {
 
-constexpr double kRoom = 0.1;        // of the smallest width, on every side of what moves
-constexpr std::size_t kFewest = 50;  // one in so many is paired anew with each of the others
+constexpr double kRoom = 0.1;       // of the smallest width, on every side of what moves
+constexpr std::size_t kFewIn = 50;  // one in so many, or fewer, are paired anew with each of the others
 
 // The axis along which the proxies' centres are spread most: it separates best.
 Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
@@ -93,7 +93,7 @@ std::vector<IndexPair> PairFinder::find(std::span<const Proxy> proxies) {
   const bool known = roomy_.size() == proxies.size();
   for (std::size_t i = 0; known && i < proxies.size(); ++i)
     if (hasLeft(proxies[i], roomy_[i])) left.push_back(i);
-  if (!known || left.size() > proxies.size() / kFewest)
+  if (!known || left.size() > proxies.size() / kFewIn)
     startAgain(proxies);
   else if (!left.empty())
     pairAnew(proxies, left);

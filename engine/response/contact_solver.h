@@ -111,6 +111,7 @@ struct SolverSettings {
   bool friction = true;
   int careful_sweeps = std::numeric_limits<int>::max();  ///< After so many the coarse residual is enough.
   double coarse_residual_mps = 0.0;
+  long most_products = std::numeric_limits<long>::max();  ///< See `SolverReport`: where it takes more, none.
   bool resumes = false;  ///< Goes on where the last call stopped: rows that it left settled are not visited.
 };
 

@@ -8,8 +8,7 @@
 namespace carom {
 namespace {
 
-constexpr long kDearProducts = 100;  // a row: sweeps come farther at that cost
-constexpr int kSteps = 4;            // each leaves a fifth to a fiftieth of the residual
+constexpr int kSteps = 4;  // each leaves a fifth to a fiftieth of the residual
 // Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
 // step that leaves more than this share is the last.
 constexpr double kNearlyEnough = 5.0;
@@ -56,7 +55,7 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
   total.products = held.products();
-  if (total.products > kDearProducts * static_cast<long>(rows.size())) return total;
+  if (total.products > settings.most_products) return total;
   Saved best(rows, bodies, total.residual_mps);
   for (int step = 0; step < kSteps; ++step) {
     if (!held.step(rows, bodies)) break;

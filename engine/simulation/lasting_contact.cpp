@@ -155,7 +155,8 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
                       std::span<ImpulseBody> solver_bodies, double gravity_speed) {
   SolverSettings settings{
       .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
-      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed};
+      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
+      .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size())};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
     settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
@@ -243,21 +244,22 @@ void solvePaths(LastingContacts& contacts, double coarse_residual_mps) {
   }
 }
 
-// The lasting pairs of what moves, those of one island together: so their rows come, and need no sorting.
-std::vector<std::pair<int, int>> lastingPairs(const std::vector<Body>& bodies, std::vector<ShapePair>& pairs,
-                                              double step_s) {
+bool givesWay(const ShapePair& pair, const std::vector<Body>& bodies) {
+  return bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
+}
+
+// The lasting pairs of what moves, as (island, index): those of one island together, so that their rows come
+// sorted.
+std::vector<std::pair<int, int>> lastingPairs(const std::vector<Body>& bodies,
+                                              const std::vector<ShapePair>& pairs, double step_s) {
   Islands islands(static_cast<int>(bodies.size()));
-  std::vector<std::pair<int, int>> lasting;  // by island, once these are known, and as they came
+  std::vector<std::pair<int, int>> lasting;  // at first with a body of the island
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool a_moves = bodies[at(pairs[i].body_a)].moves();
-    const bool b_moves = bodies[at(pairs[i].body_b)].moves();
-    if (!a_moves && !b_moves) continue;  // what a resting pair remembers, it keeps
-    if (!isLasting(pairs[i], step_s)) {
-      pairs[i].remembered_count = 0;
-      continue;
-    }
-    if (a_moves && b_moves) islands.join(pairs[i].body_a, pairs[i].body_b);
-    lasting.emplace_back(a_moves ? pairs[i].body_a : pairs[i].body_b, static_cast<int>(i));
+    const ShapePair& pair = pairs[i];
+    if (!givesWay(pair, bodies) || !isLasting(pair, step_s)) continue;
+    const bool a_moves = bodies[at(pair.body_a)].moves();
+    if (a_moves && bodies[at(pair.body_b)].moves()) islands.join(pair.body_a, pair.body_b);
+    lasting.emplace_back(a_moves ? pair.body_a : pair.body_b, static_cast<int>(i));
   }
   for (auto& [island, pair] : lasting) island = islands.of(island);
   std::sort(lasting.begin(), lasting.end());
@@ -278,10 +280,10 @@ void assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
     }
     contacts.bodies.push_back(seen);
   }
-  for (const auto& [island, i] : lastingPairs(bodies, pairs, settings.step_s)) {
+  for (const auto& [island, i] : lastingPairs(bodies, pairs, settings.step_s))
     addRows(contacts, i, pairs[at(i)], bodies, shapes, settings, counters);
-    pairs[at(i)].remembered_count = 0;
-  }
+  for (ShapePair& pair : pairs)
+    if (givesWay(pair, bodies)) pair.remembered_count = 0;  // what a resting pair remembers, it keeps
   sortByIsland(contacts);
 }
 
