@@ -27,9 +27,7 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
 
 Proxy withRoom(Proxy proxy) {
   if (!proxy.moves) return proxy;
-  const double room = kRoom * (proxy.bounds.high - proxy.bounds.low).minCoeff();
-  proxy.bounds.low.array() -= room;
-  proxy.bounds.high.array() += room;
+  proxy.bounds = widened(proxy.bounds, kRoom * (proxy.bounds.high - proxy.bounds.low).minCoeff());
   return proxy;
 }
 

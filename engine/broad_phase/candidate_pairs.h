@@ -23,6 +23,13 @@ struct Bounds {
   }
 };
 
+/// The same with a margin on every side.
+inline Bounds widened(Bounds bounds, double margin) {
+  bounds.low.array() -= margin;
+  bounds.high.array() += margin;
+  return bounds;
+}
+
 /// One thing to pair: things of one group never pair with each other, nor do two that don't move.
 struct Proxy {
   Bounds bounds;

@@ -111,7 +111,8 @@ struct SolverSettings {
   bool friction = true;
   int careful_sweeps = std::numeric_limits<int>::max();  ///< After so many the coarse residual is enough.
   double coarse_residual_mps = 0.0;
-  long most_products = std::numeric_limits<long>::max();  ///< See `SolverReport`: where it takes more, none.
+  /// Of 6 x 6 blocks: where a step of all held rows takes more, none is made (standing_solver.h).
+  long most_products = std::numeric_limits<long>::max();
   bool resumes = false;  ///< Goes on where the last call stopped: rows that it left settled are not visited.
 };
 

@@ -31,7 +31,7 @@ class HeldRows {
   /// cones: sweeps must follow. False when the system could not be solved; then nothing has changed.
   bool step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies);
   /// What a step takes: products of 6 x 6 blocks.
-  long products() const { return factor_ ? factor_->products() : 0; }
+  long products() const { return factor_->products(); }
 
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;

@@ -48,13 +48,6 @@ Bounds sweptBounds(const Shape& shape, const Trajectory& path, double end_s) {
   return bounds;
 }
 
-// Room for the collision window, and for what contacts may do to the velocity within the step.
-Bounds widened(Bounds bounds, double margin) {
-  bounds.low.array() -= margin;
-  bounds.high.array() += margin;
-  return bounds;
-}
-
 // What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
 // contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
 // only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
@@ -77,6 +70,7 @@ double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, co
   return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
 }
 
+// Room for the collision window, and for what contacts may do to the velocity within the step.
 double pairingMargin(const Shape& shape) {
   return 2.0 * tolerance::kManifoldHeight * std::min(shape.part->width(), tolerance::kWindowLargestScale);
 }
