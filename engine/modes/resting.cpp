@@ -49,12 +49,40 @@ bool forcesPassThroughSupports(const RestQuestion& q) {
   return true;
 }
 
-// What the forces leave over, as the speed of the fastest point after one step from standstill.
-double fastest(std::span<const ImpulseBody> bodies, std::span<const double> radii) {
-  double speed = 0.0;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    speed = std::max(speed, bodies[i].velocity.linear.norm() + bodies[i].velocity.angular.norm() * radii[i]);
-  return speed;
+// By how much pressures within the slack of their points could turn each body in the step, N m s.
+std::vector<double> slackMoments(const RestQuestion& q, std::span<const ContactRow> rows) {
+  std::vector<double> moments(q.bodies.size(), 0.0);
+  for (std::size_t k = 0; k < q.slack_m.size(); ++k) {
+    const double moment = rows[k].impulse.x() * q.slack_m[k];
+    moments[static_cast<std::size_t>(rows[k].a)] += moment;
+    moments[static_cast<std::size_t>(rows[k].b)] += moment;
+  }
+  return moments;
+}
+
+// Whether a moment that large could stop a body that only turns, be it about its contact points: along the
+// angular velocity it stops what has 2 E / omega of momentum about the axis.
+bool stopsTurning(const ImpulseBody& body, double radius_m, double moment) {
+  const Velocity& v = body.velocity;
+  const double omega = v.angular.norm();
+  if (body.inverse_mass == 0.0 || v.linear.norm() > omega * radius_m) return false;
+  const double twice_energy =
+      v.linear.squaredNorm() / body.inverse_mass + v.angular.dot(body.inverse_tensor.inverse() * v.angular);
+  return twice_energy <= omega * moment;
+}
+
+// Whether forces leave nothing over: after one step from standstill even the fastest point is slower than
+// allowed, but for turning within the slack of contact points.
+bool isBalanced(const RestQuestion& q, std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
+                double allowed_mps) {
+  std::vector<double> moments;  // made when some body asks
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Velocity& v = bodies[i].velocity;
+    if (v.linear.norm() + v.angular.norm() * q.radii[i] <= allowed_mps) continue;
+    if (moments.empty()) moments = slackMoments(q, rows);
+    if (!stopsTurning(bodies[i], q.radii[i], moments[i])) return false;
+  }
+  return true;
 }
 
 // Whether impulses come to balance what the bodies have been given, within a bound of sweeps.
@@ -67,7 +95,7 @@ bool comesToBalance(const RestQuestion& q, std::span<ContactRow> rows, std::span
     const SolverReport report =
         solveStandingContacts(rows, bodies, {.sweeps = kSweepsARound, .residual_mps = converged});
     sweeps += report.sweeps;
-    if (fastest(bodies, q.radii) <= allowed) return true;
+    if (isBalanced(q, rows, bodies, allowed)) return true;
     if (report.residual_mps <= converged) return false;
   }
   return false;

@@ -31,6 +31,14 @@ double leaningOf(const ShapePair& pair, const std::vector<Body>& bodies, const s
   return (radius_a - radius_b) / (radius_a + radius_b);
 }
 
+// How far beside their true places the points of two that are flat may be. What is round has them under its
+// centres.
+double slackOf(const ShapePair& pair, const std::vector<Shape>& shapes) {
+  const bool flat =
+      shapes[at(pair.shapes.a)].part->radius_m == 0.0 && shapes[at(pair.shapes.b)].part->radius_m == 0.0;
+  return flat ? tolerance::kRestBand * pair.window.rest : 0.0;
+}
+
 // Two parts that travel `dt_s` with these velocities from these poses.
 struct PairTravel {
   Pose X_WA;
@@ -73,6 +81,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
       contactManifold(*request.closest, *shapes[at(pair.shapes.a)].part, request.X_WA,
                       *shapes[at(pair.shapes.b)].part, request.X_WB, window);
   const double leaning = leaningOf(pair, bodies, shapes);
+  const double slack_m = slackOf(pair, shapes);
   const auto append = [&](const ManifoldPoint& point) {
     const double off_middle_m = 0.5 * point.gap_m * leaning;
     SourcedRow& sourced = rows.emplace_back();
@@ -80,6 +89,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     sourced.id = point.id;
     sourced.gap_m = point.gap_m;
     sourced.off_middle_m = off_middle_m;
+    sourced.slack_m = slack_m;
     ContactRow& row = sourced.row;
     row.a = request.row_a;
     row.b = request.row_b;

@@ -16,6 +16,7 @@ struct SourcedRow {
   std::uint64_t id = 0;
   double gap_m = 0.0;
   double off_middle_m = 0.0;  ///< The row's point lies so far from the gap's middle, towards B.
+  double slack_m = 0.0;       ///< It may be so far beside its true place: gaps are held in a band.
 };
 
 inline constexpr double kSamePlace = 10.0;  ///< Rest gaps: points this close are one.

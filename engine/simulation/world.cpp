@@ -232,6 +232,7 @@ bool World::Impl::islandCanRest(const std::vector<int>& members) {
   if (!planner.isVacuum()) pushes.push_back({});
   std::vector<ContactRow> rows;
   std::vector<std::size_t> source_of;
+  std::vector<double> slack_m;
   for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
     ContactRow row = contacts.rows[i];
     const bool in_a = local[at(row.a)] >= 0;
@@ -243,10 +244,12 @@ bool World::Impl::islandCanRest(const std::vector<int>& members) {
     row.b = in_b ? local[at(row.b)] : ground;
     rows.push_back(row);
     source_of.push_back(i);
+    slack_m.push_back(contacts.sources[i].slack_m);
   }
   // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
   std::vector<RowLoad> balance(rows.size());
-  const bool rests = canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, balance});
+  const bool rests =
+      canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, slack_m, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!balance[k].impulse.isZero(0.0))
       correctLoad(contacts.sources[source_of[k]], balance[k], substep.step_s, table.pairs());

@@ -10,6 +10,7 @@
 
 #include "tests/physics/experiments/balls_on_a_box.h"
 #include "tests/physics/experiments/carom_simulation.h"
+#include "tests/physics/small_world.h"
 
 namespace carom::physics {
 namespace {
@@ -37,6 +38,21 @@ TEST_P(RollingBall, GoesHalfTheAccelerationTimesTheSquareOfTime) {
     const double way = 2.0 * 5.0 / 7.0 * kGravity * std::sin(slope.angle);
     EXPECT_NEAR((trial.position(kOnSlope) - begin).norm() / way, 1.0, 1e-9) << radius;
   }
+}
+
+// From rest, in resting mode: a ball touches where it is lowest, to rounding, so the faintest slope counts.
+TEST_P(RollingBall, RestsOnNoSlope) {
+  constexpr double kSlope = 1e-4, kBallRadius = 0.2;
+  SmallWorld w(GetParam());
+  const Quat tilt = oracle::turned(Vec3::UnitY(), std::atan(kSlope));
+  w.addPlane(rubbing(0.5), tilt);
+  const Vec3 centre = tilt * Vec3(0.0, 0.0, kBallRadius + restGap(2.0 * kBallRadius));
+  const int ball =
+      w.add({Solid::ball(kBallRadius), {Quat::Identity(), centre}, Vec3::Zero(), Vec3::Zero(), rubbing(0.5)});
+  w.start();
+  w.run(3.0);
+  EXPECT_FALSE(w.rests(ball));
+  EXPECT_NEAR(w.velocity(ball).norm() / (3.0 * 5.0 / 7.0 * kGravity * kSlope), 1.0, 1e-6);
 }
 
 // Friction short of what rolling takes by a share d leaves d / (1 - 2/7 (1 - d)) of slip.

@@ -19,6 +19,7 @@ struct Stack {
   std::vector<ImpulseBody> bodies{immovable()};
   std::vector<ContactRow> rows;
   std::vector<double> radii{0.0};
+  std::vector<double> slack_m;
   Quat tilt;
 
   explicit Stack(double tangent, double heading = 0.0)
@@ -47,7 +48,7 @@ struct Stack {
     for (std::size_t i = 1; i < falling.size(); ++i) falling[i].velocity.linear = kStep * kGravity;
     std::vector<ContactRow> guess = rows;
     solveContacts(guess, falling, {20000, 1e-13, true});
-    return canRest({guess, bodies, radii, kGravity, kStep});
+    return canRest({guess, bodies, radii, kGravity, kStep, {}, slack_m});
   }
 
  private:
@@ -94,6 +95,38 @@ TEST(CanRest, OnOneFootOffTheCentreDoesNot) {
   s.put({0.6, 0.5, 0.2}, 0.5);
   s.rows.resize(1);
   EXPECT_FALSE(s.rests());
+}
+
+// The weight turns the box about the line through its two points, which its centre is beside.
+TEST(CanRest, OnTwoPointsRestsExactlyWhenTheirSlackReachesBelowTheCentre) {
+  constexpr double kSlack = 1e-4;
+  for (double share : {-1.01, -0.99, -0.1, 0.1, 0.99, 1.01}) {
+    Stack s(0.0);
+    s.put({0.6, 0.5, 0.2}, 0.5);
+    s.rows.clear();
+    for (double x : {-0.3, 0.3})
+      s.rows.push_back(rowAt(
+          {.a = 0, .b = 1, .n = Vec3::UnitZ(), .p_W = Vec3(x, share * kSlack, 0), .friction = {0.5, 0.5}},
+          s.bodies));
+    EXPECT_FALSE(s.rests()) << share;
+    s.slack_m.assign(2, kSlack);
+    EXPECT_EQ(s.rests(), std::abs(share) < 1.0) << share;
+  }
+}
+
+// Pushed on a smooth floor by hardly more than is allowed: slack holds what turns; but what slides, no moment
+// holds, were it to turn so much that one could take all its energy.
+TEST(CanRest, SlackHoldsATurnButNotASlide) {
+  const double push = 2.0 * tolerance::kRestAcceleration * kGravity.norm() * kStep;
+  for (double slide : {0.0, push}) {
+    Stack s(0.0);
+    s.put({0.6, 0.5, 0.2}, 0.0);
+    const std::vector<Velocity> pushes = {
+        {}, {kStep * kGravity + Vec3(slide, 0, 0), Vec3(0, 0, 0.9 * push / s.radii[1])}};
+    const std::vector<double> slack_m(4, 2e-3);
+    EXPECT_FALSE(canRest({s.rows, s.bodies, s.radii, kGravity, kStep, pushes}));
+    EXPECT_EQ(canRest({s.rows, s.bodies, s.radii, kGravity, kStep, pushes, slack_m}), slide == 0.0);
+  }
 }
 
 TEST(CanRest, IsNotASinkForGravityThatPullsSideways) {
