@@ -34,14 +34,20 @@ constexpr double kTouching = 1e-14;
 
 // What lengths are compared with, metres.
 struct Scale {
-  Scale(const PolyhedronPair& pair, const Pose& X_WA, const Pose& X_WB)
-      : size_m(pair.t_AB.lpNorm<1>() + pair.a.reach() + pair.b.reach()),
+  Scale(const ConvexPolyhedron& a, const Pose& X_WA, const ConvexPolyhedron& b, const Pose& X_WB)
+      : size_m((X_WB.position - X_WA.position).lpNorm<1>() + a.reach() + b.reach()),
         noise_m(kNoise * size_m),
         shift_m(noise_m + kShift * (X_WA.position.lpNorm<1>() + X_WB.position.lpNorm<1>())) {}
 
   double size_m;
   double noise_m;  // how far rounding within the query may move a point
   double shift_m;  // how far one body may be moved against the other by the rounding of their positions
+};
+
+// Of a query.
+struct Visits {
+  int states = 1;              // feature pairs
+  bool reached_limit = false;  // an exhaustive search followed
 };
 
 CoreAnswer answerFrom(const MinimumTranslation& m) {
@@ -106,12 +112,11 @@ void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
   makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
 }
 
-// From the features of the last query to those of this one. One variable is returned everywhere: it is then
-// built in its place, and what has just been written is not copied.
+// From the features of the last query to those of this one, which are not clearly the same. One variable is
+// returned everywhere: it is then built in its place, and what has just been written is not copied.
 CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
-                        InnerPolytope& polytope, ClosestFeatures& result) {
+                        InnerPolytope& polytope, Visits& visits) {
   CoreAnswer answer;
-  result.states = 1;
   if (polytope.triangleCount() > 0) {
     answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m));
     if (answer.gap_m < -scale.noise_m) {
@@ -122,7 +127,6 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     tracked = answer.features;
   }
   if (tracked.a.index < 0 || tracked.b.index < 0) tracked = coldSeed(pair);
-  if (clearlyClosest(pair, tracked, scale.shift_m, answer)) return answer;
 
   // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
   // never needs.
@@ -131,7 +135,7 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   std::optional<MinimumTranslation> axes;
   bool restarted = false;
   Move move = Move::kTaken;
-  for (; result.states < bound; ++result.states) {
+  for (; visits.states < bound; ++visits.states) {
     move = walk.next();
     if (move == Move::kClear) {
       answer = walk.answer();
@@ -139,8 +143,8 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     }
     if (move == Move::kLevel) break;
     if (move == Move::kTaken) {
-      if (result.states % kStaleStates == 0) walk.jump();
-      if (result.states != kLongWalk) continue;
+      if (visits.states % kStaleStates == 0) walk.jump();
+      if (visits.states != kLongWalk) continue;
     }
     // A walk with no way on, or a long one (around large faces of bodies that intersect it can be): the axes
     // tell whether the bodies intersect, and lead on if not.
@@ -163,33 +167,64 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   }
   settle(pair, walk, move == Move::kInside, axes, scale, polytope, answer);
   // The support planes leave no room for a shorter way, or a longer search has to find it.
-  result.reached_limit =
+  visits.reached_limit =
       std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kRoom * scale.size_m;
-  if (!result.reached_limit) return answer;
+  if (!visits.reached_limit) return answer;
   walk.startFrom(exhaustiveSearch(pair));
   settle(pair, walk, walk.here().crossing, std::nullopt, scale, polytope, answer);
   return answer;
+}
+
+// Whether what was closest last time, or what it leads on to, clearly is: how many pairs were visited; places
+// are seen from A's origin.
+int findInPlace(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB, double noise_m,
+                PairMemory& memory, PlacedGap& gap) {
+  if (memory.penetration.triangleCount() > 0) return 0;
+  const PlacedPolyhedron placed_a(a.core, X_WA.rotation, Vec3::Zero());
+  const PlacedPolyhedron placed_b(b.core, X_WB.rotation, X_WB.position - X_WA.position);
+  if (memory.features.a.index < 0 || memory.features.b.index < 0)
+    memory.features = facingFeatures(placed_a, placed_b);
+  return findClearlyClosest(placed_a, placed_b, noise_m, memory.features, gap);
+}
+
+// The answer of a query whose cores have this gap, seen from A's origin.
+ClosestFeatures answerOf(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const PlacedGap& gap,
+                         const Scale& scale, FeaturePair features, const Visits& visits) {
+  const double distance_m = gap.length_m - a.radius_m - b.radius_m;
+  const double touching = kTouching * scale.size_m;
+  const Vec3 p_A_W = gap.p_a + a.radius_m * gap.normal + X_WA.position;
+  return {.status = distance_m > touching     ? Separation::kSeparated
+                    : distance_m >= -touching ? Separation::kTouching
+                                              : Separation::kPenetrating,
+          .distance_m = distance_m,
+          .p_A_W = p_A_W,
+          .p_B_W = p_A_W + distance_m * gap.normal,
+          .n_W = gap.normal,
+          .features = features,
+          .states = visits.states,
+          .reached_limit = visits.reached_limit};
+}
+
+ClosestFeatures query(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
+                      PairMemory& memory) {
+  const Scale scale(a.core, X_WA, b.core, X_WB);
+  PlacedGap gap;
+  const int visited = findInPlace(a, X_WA, b, X_WB, scale.shift_m, memory, gap);
+  if (visited > 0) return answerOf(a, X_WA, b, gap, scale, memory.features, {visited, false});
+  const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
+  Visits visits;
+  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
+  memory.features = core.features;
+  const Rotation R_WA(X_WA.rotation);
+  gap = {core.gap_m, R_WA * core.normal, R_WA * core.p_a};
+  return answerOf(a, X_WA, b, gap, scale, core.features, visits);
 }
 
 }  // namespace
 
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 PairMemory& memory) {
-  const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
-  const Scale scale(pair, X_WA, X_WB);
-  ClosestFeatures result;
-  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, result);
-  memory.features = core.features;
-  result.features = core.features;
-  const Rotation R_WA(X_WA.rotation);
-  result.n_W = R_WA * core.normal;
-  result.distance_m = core.gap_m - a.radius_m - b.radius_m;
-  result.p_A_W = R_WA * (core.p_a + a.radius_m * core.normal) + X_WA.position;
-  result.p_B_W = result.p_A_W + result.distance_m * result.n_W;
-  const double touching = kTouching * scale.size_m;
-  result.status = result.distance_m > touching     ? Separation::kSeparated
-                  : result.distance_m >= -touching ? Separation::kTouching
-                                                   : Separation::kPenetrating;
+  const ClosestFeatures result = query(a, X_WA, b, X_WB, memory);
 #ifndef NDEBUG
   const Certificate certificate = certify(result, a, X_WA, b, X_WB, &memory);
   REQUIRE(certificate.error_m <= certifiedError(a, X_WA, b, X_WB), certificate.error_m, result.distance_m);

@@ -10,6 +10,7 @@ namespace {
 
 // Edges that cross at a smaller angle have no well-defined common perpendicular.
 constexpr double kCrossingSineSquared = 1e-6;
+constexpr int kPairsInPlace = 8;  // tried before a walk begins
 
 double steepestSpoke(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
   double steepest = -std::numeric_limits<double>::infinity();
@@ -24,143 +25,253 @@ double steeperSide(const Edge& edge, const Vec3& direction) {
 
 class WarmPair {
  public:
-  WarmPair(const PolyhedronPair& pair, double noise_m)
-      : pair_(pair),
+  WarmPair(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m)
+      : a_(a),
+        b_(b),
         noise_m_(noise_m),
-        noise_slope_(noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge())) {}
+        noise_slope_(noise_m *
+                     std::max(a.polyhedron.inverseShortestEdge(), b.polyhedron.inverseShortestEdge())) {}
 
-  // A vertex of `b` over a face of `a`, both in the frame of `a`; `n_b` is the face's normal to `b`'s frame.
-  bool overFace(const ConvexPolyhedron& a, int face, const Vec3& p, const ConvexPolyhedron& b, int v,
-                const Vec3& n_b, double& height) const {
-    height = a.plane(face).signedDistance(p);
-    double inside = height;
-    for (const Plane& side : a.faceSides(face)) inside = std::min(inside, side.signedDistance(p));
-    return inside > noise_m_ && steepestSpoke(b, v, -n_b) < -noise_slope_;
+  // Whether `features` are clearly the closest.
+  bool proves(FeaturePair features, PlacedGap& gap) const {
+    const auto [a, b] = features;
+    using enum FeatureKind;
+    switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
+      case 3 * static_cast<int>(kVertex) + static_cast<int>(kVertex):
+        return vertexVertex(a.index, b.index, gap);
+      case 3 * static_cast<int>(kVertex) + static_cast<int>(kEdge):
+        return vertexEdge(a.index, b.index, gap);
+      case 3 * static_cast<int>(kVertex) + static_cast<int>(kFace):
+        return vertexFace(a.index, b.index, gap);
+      case 3 * static_cast<int>(kEdge) + static_cast<int>(kVertex):
+        return edgeVertex(a.index, b.index, gap);
+      case 3 * static_cast<int>(kEdge) + static_cast<int>(kEdge):
+        return edgeEdge(a.index, b.index, gap);
+      case 3 * static_cast<int>(kFace) + static_cast<int>(kVertex):
+        return faceVertex(a.index, b.index, gap);
+      default:
+        return false;
+    }
   }
 
-  bool faceVertex(int face, int v, CoreAnswer& answer) const {
-    const Vec3& n = pair_.a.plane(face).normal;
-    answer.p_b = pair_.toA(pair_.b.vertex(v));
-    if (!overFace(pair_.a, face, answer.p_b, pair_.b, v, pair_.directionToB(n), answer.gap_m)) return false;
-    answer.normal = n;
-    answer.p_a = answer.p_b - answer.gap_m * n;
+  // Where features that are not clearly the closest lead on: over the border that the other body's witness is
+  // farthest beyond, else up the steepest way off them; nowhere from two faces or a face and an edge.
+  FeaturePair leadsTo(FeaturePair features) const {
+    const auto [a, b] = features;
+    if (a.kind < b.kind) {
+      const FeaturePair next = WarmPair(b_, a_, noise_m_).leadsTo({b, a});
+      return {next.b, next.a};
+    }
+    using enum FeatureKind;
+    if (a.kind == kFace) return b.kind == kVertex ? fromFaceVertex(a.index, b.index) : features;
+    if (b.kind == kEdge) return fromEdgeEdge(a.index, b.index);
+    return a.kind == kEdge ? fromEdgeVertex(a.index, b.index) : upFrom(features, between(a.index, b.index));
+  }
+
+ private:
+  bool faceVertex(int face, int v, PlacedGap& gap) const {
+    const Vec3 p_b = b_.point(b_.polyhedron.vertex(v));
+    if (!overFace(a_, face, p_b, b_, v, gap.normal, gap.length_m)) return false;
+    gap.p_a = p_b - gap.length_m * gap.normal;
     return true;
   }
 
-  bool vertexFace(int v, int face, CoreAnswer& answer) const {
-    const Vec3 n_a = pair_.directionToA(pair_.b.plane(face).normal);
-    answer.p_a = pair_.a.vertex(v);
-    if (!overFace(pair_.b, face, pair_.toB(answer.p_a), pair_.a, v, n_a, answer.gap_m)) return false;
-    answer.normal = -n_a;
-    answer.p_b = answer.p_a - answer.gap_m * n_a;
+  bool vertexFace(int v, int face, PlacedGap& gap) const {
+    Vec3 n;
+    gap.p_a = a_.point(a_.polyhedron.vertex(v));
+    if (!overFace(b_, face, gap.p_a, a_, v, n, gap.length_m)) return false;
+    gap.normal = -n;
     return true;
   }
 
-  bool edgeEdge(int e1, int e2, CoreAnswer& answer) const {
-    const Edge& a = pair_.a.edge(e1);
-    const Edge& b = pair_.b.edge(e2);
+  bool edgeEdge(int e1, int e2, PlacedGap& gap) const {
+    const Edge& a = a_.polyhedron.edge(e1);
+    const Edge& b = b_.polyhedron.edge(e2);
     if (a.left < 0 || b.left < 0) return false;  // segments have no sides: left to the walk
-    const Vec3 d2 = pair_.directionToA(b.direction);
-    const Vec3 across = a.direction.cross(d2);
+    const Vec3 d1 = a_.direction(a.direction);
+    const Vec3 d2 = b_.direction(b.direction);
+    const Vec3 across = d1.cross(d2);
     const double sine_squared = across.squaredNorm();
     if (sine_squared < kCrossingSineSquared) return false;
-    const Vec3& tail1 = pair_.a.vertex(a.tail);
-    const Vec3 between = pair_.toA(pair_.b.vertex(b.tail)) - tail1;
+    const Vec3 tail1 = a_.point(a_.polyhedron.vertex(a.tail));
+    const Vec3 between = b_.point(b_.polyhedron.vertex(b.tail)) - tail1;
     const double inverse = 1.0 / sine_squared;
     const double s1 = between.cross(d2).dot(across) * inverse;
-    const double s2 = between.cross(a.direction).dot(across) * inverse;
+    const double s2 = between.cross(d1).dot(across) * inverse;
     const double inside = std::min(std::min(s1, a.length_m - s1), std::min(s2, b.length_m - s2));
     if (!(inside > noise_m_)) return false;
     const double sine = std::sqrt(sine_squared);
     const double along = between.dot(across);
     const Vec3 w = along > 0.0 ? across : -across;
-    const double steepest = std::max(steeperSide(a, w), steeperSide(b, -pair_.directionToB(w)));
-    if (!(steepest < -noise_slope_ * sine) || std::abs(along) < noise_m_ * sine) return false;
-    answer.normal = w * (sine * inverse);
-    answer.gap_m = std::abs(along) * (sine * inverse);
-    answer.p_a = tail1 + s1 * a.direction;
-    answer.p_b = answer.p_a + answer.gap_m * answer.normal;
-    return true;
-  }
-
-  // The foot of p on an edge, inside its ends, and the way from it to p outside of the faces beside it.
-  bool besideEdge(const ConvexPolyhedron& a, int e, const Vec3& p, Vec3& foot, Vec3& w) const {
-    const Edge& edge = a.edge(e);
-    if (edge.left < 0) return false;
-    const Vec3& tail = a.vertex(edge.tail);
-    const double s = edge.direction.dot(p - tail);
-    if (!(std::min(s, edge.length_m - s) > noise_m_)) return false;
-    foot = tail + s * edge.direction;
-    w = p - foot;
-    w -= edge.direction.dot(w) * edge.direction;  // of a short way rounding would leave a slope
-    return true;
-  }
-
-  bool edgeVertex(int e, int v, CoreAnswer& answer) const {
-    Vec3 w;
-    answer.p_b = pair_.toA(pair_.b.vertex(v));
-    if (!besideEdge(pair_.a, e, answer.p_b, answer.p_a, w)) return false;
     const double steepest =
-        std::max(steeperSide(pair_.a.edge(e), w), steepestSpoke(pair_.b, v, -pair_.directionToB(w)));
-    return along(w, steepest, answer);
+        std::max(steeperSide(a, a_.directionBack(w)), steeperSide(b, -b_.directionBack(w)));
+    if (!(steepest < -noise_slope_ * sine) || std::abs(along) < noise_m_ * sine) return false;
+    gap.normal = w * (sine * inverse);
+    gap.length_m = std::abs(along) * (sine * inverse);
+    gap.p_a = tail1 + s1 * d1;
+    return true;
   }
 
-  bool vertexEdge(int v, int e, CoreAnswer& answer) const {
-    Vec3 foot, w;
-    answer.p_a = pair_.a.vertex(v);
-    if (!besideEdge(pair_.b, e, pair_.toB(answer.p_a), foot, w)) return false;
-    const Vec3 w_a = -pair_.directionToA(w);
-    const double steepest = std::max(steeperSide(pair_.b.edge(e), w), steepestSpoke(pair_.a, v, w_a));
-    answer.p_b = answer.p_a + w_a;
-    return along(w_a, steepest, answer);
+  bool edgeVertex(int e, int v, PlacedGap& gap) const {
+    Vec3 w_A;
+    const Vec3 p_b = b_.point(b_.polyhedron.vertex(v));
+    if (!besideEdge(a_, e, p_b, w_A)) return false;
+    const Vec3 w = a_.direction(w_A);
+    const double steepest = std::max(steeperSide(a_.polyhedron.edge(e), w_A),
+                                     steepestSpoke(b_.polyhedron, v, -b_.directionBack(w)));
+    gap.p_a = p_b - w;
+    return along(w, steepest, gap);
   }
 
-  bool vertexVertex(int v1, int v2, CoreAnswer& answer) const {
-    answer.p_a = pair_.a.vertex(v1);
-    answer.p_b = pair_.toA(pair_.b.vertex(v2));
-    const Vec3 w = answer.p_b - answer.p_a;
-    return along(w,
-                 std::max(steepestSpoke(pair_.a, v1, w), steepestSpoke(pair_.b, v2, -pair_.directionToB(w))),
-                 answer);
+  bool vertexEdge(int v, int e, PlacedGap& gap) const {
+    Vec3 w_B;
+    gap.p_a = a_.point(a_.polyhedron.vertex(v));
+    if (!besideEdge(b_, e, gap.p_a, w_B)) return false;
+    const Vec3 w = -b_.direction(w_B);
+    const double steepest = std::max(steeperSide(b_.polyhedron.edge(e), w_B),
+                                     steepestSpoke(a_.polyhedron, v, a_.directionBack(w)));
+    return along(w, steepest, gap);
   }
 
- private:
+  bool vertexVertex(int v1, int v2, PlacedGap& gap) const {
+    gap.p_a = a_.point(a_.polyhedron.vertex(v1));
+    const Vec3 w = b_.point(b_.polyhedron.vertex(v2)) - gap.p_a;
+    const double steepest = std::max(steepestSpoke(a_.polyhedron, v1, a_.directionBack(w)),
+                                     steepestSpoke(b_.polyhedron, v2, -b_.directionBack(w)));
+    return along(w, steepest, gap);
+  }
+
+  Vec3 between(int v1, int v2) const {
+    return b_.point(b_.polyhedron.vertex(v2)) - a_.point(a_.polyhedron.vertex(v1));
+  }
+
+  // Up the steepest way off either feature along `w`, from A to B.
+  FeaturePair upFrom(FeaturePair features, const Vec3& w) const {
+    const WayOff off_a = steepestWayOff(a_.polyhedron, features.a, a_.directionBack(w));
+    const WayOff off_b = steepestWayOff(b_.polyhedron, features.b, -b_.directionBack(w));
+    if (off_a.slope >= off_b.slope && off_a.neighbour.index >= 0) return {off_a.neighbour, features.b};
+    return off_b.neighbour.index >= 0 ? FeaturePair{features.a, off_b.neighbour} : features;
+  }
+
+  FeaturePair fromFaceVertex(int face, int v) const {
+    const Vec3 p_A = a_.pointBack(b_.point(b_.polyhedron.vertex(v)));
+    const std::span<const Plane> sides = a_.polyhedron.faceSides(face);
+    std::size_t outermost = 0;
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      if (sides[i].signedDistance(p_A) < sides[outermost].signedDistance(p_A)) outermost = i;
+    if (!(sides[outermost].signedDistance(p_A) > noise_m_))
+      return {edgeFeature(a_.polyhedron.faceEdges(face)[outermost]), vertexFeature(v)};
+    const Vec3 down_B = -b_.directionBack(a_.direction(a_.polyhedron.plane(face).normal));
+    const Feature spoke = steepestWayOff(b_.polyhedron, vertexFeature(v), down_B).neighbour;
+    if (spoke.index < 0) return {faceFeature(face), vertexFeature(v)};
+    const Edge& edge = b_.polyhedron.edge(spoke.index);
+    return {faceFeature(face), vertexFeature(edge.tail == v ? edge.head : edge.tail)};
+  }
+
+  FeaturePair fromEdgeVertex(int e, int v) const {
+    const Edge& edge = a_.polyhedron.edge(e);
+    const Vec3 from_tail = a_.pointBack(b_.point(b_.polyhedron.vertex(v))) - a_.polyhedron.vertex(edge.tail);
+    const double s = edge.direction.dot(from_tail);
+    if (!(s > noise_m_)) return {vertexFeature(edge.tail), vertexFeature(v)};
+    if (!(edge.length_m - s > noise_m_)) return {vertexFeature(edge.head), vertexFeature(v)};
+    return upFrom({edgeFeature(e), vertexFeature(v)}, a_.direction(from_tail - s * edge.direction));
+  }
+
+  FeaturePair fromEdgeEdge(int e1, int e2) const {
+    const Edge& a = a_.polyhedron.edge(e1);
+    const Edge& b = b_.polyhedron.edge(e2);
+    const FeaturePair here{edgeFeature(e1), edgeFeature(e2)};
+    const Vec3 d1 = a_.direction(a.direction);
+    const Vec3 d2 = b_.direction(b.direction);
+    const Vec3 across = d1.cross(d2);
+    const double sine_squared = across.squaredNorm();
+    if (sine_squared < kCrossingSineSquared) return here;
+    const Vec3 tails = between(a.tail, b.tail);
+    const double s1 = tails.cross(d2).dot(across) / sine_squared;
+    const double s2 = tails.cross(d1).dot(across) / sine_squared;
+    const double beyond1 = std::max(-s1, s1 - a.length_m);
+    const double beyond2 = std::max(-s2, s2 - b.length_m);
+    if (std::max(beyond1, beyond2) > -noise_m_) {
+      if (beyond1 > beyond2) return {vertexFeature(s1 < 0.5 * a.length_m ? a.tail : a.head), here.b};
+      return {here.a, vertexFeature(s2 < 0.5 * b.length_m ? b.tail : b.head)};
+    }
+    const Vec3 w = tails.dot(across) > 0.0 ? across : -across;
+    const FeaturePair next = upFrom(here, w);
+    // A face and an edge: the edge's end that is lower over the face.
+    if (next.a.kind == FeatureKind::kFace) {
+      const double rises = a_.direction(a_.polyhedron.plane(next.a.index).normal).dot(d2);
+      return {next.a, vertexFeature(rises > 0.0 ? b.tail : b.head)};
+    }
+    if (next.b.kind == FeatureKind::kFace) {
+      const double rises = b_.direction(b_.polyhedron.plane(next.b.index).normal).dot(d1);
+      return {vertexFeature(rises > 0.0 ? a.tail : a.head), next.b};
+    }
+    return next;
+  }
+
+  // A vertex of `b`, at `p`, over a face of `a` with normal `n`.
+  bool overFace(const PlacedPolyhedron& a, int face, const Vec3& p, const PlacedPolyhedron& b, int v, Vec3& n,
+                double& height) const {
+    const Plane& plane = a.polyhedron.plane(face);
+    const Vec3 p_A = a.pointBack(p);
+    height = plane.signedDistance(p_A);
+    double inside = height;
+    for (const Plane& side : a.polyhedron.faceSides(face))
+      inside = std::min(inside, side.signedDistance(p_A));
+    if (!(inside > noise_m_)) return false;
+    n = a.direction(plane.normal);
+    return steepestSpoke(b.polyhedron, v, -b.directionBack(n)) < -noise_slope_;
+  }
+
+  // The foot of `p` on an edge of `a`, inside its ends: the way from there to `p`, in the frame of `a`.
+  bool besideEdge(const PlacedPolyhedron& a, int e, const Vec3& p, Vec3& w_A) const {
+    const Edge& edge = a.polyhedron.edge(e);
+    if (edge.left < 0) return false;
+    const Vec3 from_tail = a.pointBack(p) - a.polyhedron.vertex(edge.tail);
+    const double s = edge.direction.dot(from_tail);
+    if (!(std::min(s, edge.length_m - s) > noise_m_)) return false;
+    w_A = from_tail - s * edge.direction;
+    w_A -= edge.direction.dot(w_A) * edge.direction;  // of a short way rounding would leave a slope
+    return true;
+  }
+
   // The direction w between the witnesses is off by rounding, noise / |w|: so are the slopes along it.
-  bool along(const Vec3& w, double steepest, CoreAnswer& answer) const {
+  bool along(const Vec3& w, double steepest, PlacedGap& gap) const {
     const double distance = w.norm();
     if (!(steepest < -(noise_slope_ * distance + noise_m_)) || distance < noise_m_) return false;
-    answer.gap_m = distance;
-    answer.normal = w / distance;
+    gap.length_m = distance;
+    gap.normal = w / distance;
     return true;
   }
 
-  const PolyhedronPair& pair_;
+  const PlacedPolyhedron& a_;
+  const PlacedPolyhedron& b_;
   double noise_m_, noise_slope_;
 };
 
 }  // namespace
 
-bool clearlyClosest(const PolyhedronPair& pair, FeaturePair features, double noise_m, CoreAnswer& answer) {
-  const WarmPair warm(pair, noise_m);
-  answer.features = features;
-  const auto [a, b] = features;
-  using enum FeatureKind;
-  switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
-    case 3 * static_cast<int>(kVertex) + static_cast<int>(kVertex):
-      return warm.vertexVertex(a.index, b.index, answer);
-    case 3 * static_cast<int>(kVertex) + static_cast<int>(kEdge):
-      return warm.vertexEdge(a.index, b.index, answer);
-    case 3 * static_cast<int>(kVertex) + static_cast<int>(kFace):
-      return warm.vertexFace(a.index, b.index, answer);
-    case 3 * static_cast<int>(kEdge) + static_cast<int>(kVertex):
-      return warm.edgeVertex(a.index, b.index, answer);
-    case 3 * static_cast<int>(kEdge) + static_cast<int>(kEdge):
-      return warm.edgeEdge(a.index, b.index, answer);
-    case 3 * static_cast<int>(kFace) + static_cast<int>(kVertex):
-      return warm.faceVertex(a.index, b.index, answer);
-    default:
-      return false;
+bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
+                    double noise_m, PlacedGap& gap) {
+  return WarmPair(a, b, noise_m).proves(features, gap);
+}
+
+int findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                       FeaturePair& features, PlacedGap& gap) {
+  const WarmPair pair(a, b, noise_m);
+  for (int visited = 1; visited <= kPairsInPlace; ++visited) {
+    if (pair.proves(features, gap)) return visited;
+    const FeaturePair next = pair.leadsTo(features);
+    if (next == features) break;
+    features = next;
   }
+  return 0;
+}
+
+FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b) {
+  const Vec3 between = b.point(b.polyhedron.center()) - a.point(a.polyhedron.center());
+  return {vertexFeature(a.polyhedron.support(a.directionBack(between))),
+          vertexFeature(b.polyhedron.support(-b.directionBack(between)))};
 }
 
 bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {

@@ -8,9 +8,40 @@
 
 namespace carom {
 
+/// A polyhedron where it stands, in the axes of the world from any origin: of a pair in place few vectors are
+/// asked for, and to turn each costs less than to find the pose of one body in the frame of the other.
+struct PlacedPolyhedron {
+  PlacedPolyhedron(const ConvexPolyhedron& body, const Quat& rotation, const Vec3& centre)
+      : polyhedron(body), R_WB(Rotation(rotation).matrix()), origin_W(centre) {}
+
+  Vec3 point(const Vec3& p_B) const { return R_WB * p_B + origin_W; }
+  Vec3 direction(const Vec3& d_B) const { return R_WB * d_B; }
+  Vec3 pointBack(const Vec3& p_W) const { return directionBack(p_W - origin_W); }
+  Vec3 directionBack(const Vec3& d_W) const { return R_WB.transpose() * d_W; }
+
+  const ConvexPolyhedron& polyhedron;
+  Mat3 R_WB;
+  Vec3 origin_W;
+};
+
+/// The gap of two placed polyhedra, in the axes and from the origin of their places.
+struct PlacedGap {
+  double length_m;
+  Vec3 normal;  ///< Unit, from A to B.
+  Vec3 p_a;     ///< The witness on A; that on B is across the gap.
+};
+
 /// Whether `features` are clearly the closest: witnesses farther than `noise_m` inside their features, and
-/// every end of a feature's neighbours farther than that behind its support plane. Fills `answer` if so.
-bool clearlyClosest(const PolyhedronPair& pair, FeaturePair features, double noise_m, CoreAnswer& answer);
+/// every end of a feature's neighbours farther than that behind its support plane. Fills `gap` if so.
+bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
+                    double noise_m, PlacedGap& gap);
+/// The same, asked of `features` and of what they lead on to, a few pairs: how many were asked about until
+/// one was clear; 0: none was. `features` are then where it stopped.
+int findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                       FeaturePair& features, PlacedGap& gap);
+
+/// The vertices that face each other along the line of centres: where to start when nothing is remembered.
+FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b);
 
 /// The same question about the facet of a minimum translation: whether `features`, F-V or E-E with their
 /// witnesses in `answer`, clearly are the only ones that touch along its normal.

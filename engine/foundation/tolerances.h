@@ -25,7 +25,7 @@ inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatt
 // Substeps of bodies that move in contact.
 inline constexpr double kFineStep = 1.0 / 240.0;  // s: substeps are no longer, unless ...
 inline constexpr int kMostSubsteps = 8;           // ... they are so many, or ...
-inline constexpr int kFinePairs = 200;  // times substeps: where more pairs are awake, these are fewer
+inline constexpr int kFinePairs = 300;  // times substeps: where more pairs are awake, these are fewer
 
 // Contact solver: relative to the speed that gravity adds in a step.
 inline constexpr double kSolverResidual = 1.0e-6;        // a sweep that changes speeds less has converged

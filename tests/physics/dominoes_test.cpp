@@ -1,8 +1,9 @@
 // The wave of a row of dominoes runs as sqrt(g l) (experiments/dominoes.h): a row four times as large runs
 // twice as fast.
 //
-// 2.000 is met to 2e-4 from 120 steps a second on and to 4e-4 at 60; at 30 it is 1.9955 to 1.9965, as the
-// smaller row then runs 0.2 % too fast.
+// 2.000 is met to 3e-4 from 60 steps a second on, whatever way the row heads; at 30 it is 1.995 to 1.998, as
+// the smaller row then runs 0.2 % too fast. (So it did at 60 too, in some headings, while more than fifty
+// pairs that move in contact made substeps longer.)
 
 #include "tests/physics/experiments/dominoes.h"
 
@@ -23,10 +24,10 @@ TEST(Dominoes, FourTimesAsLarge_RunTwiceAsFast) {
 }
 
 TEST(Dominoes, FourTimesAsLarge_RunTwiceAsFast_AtTheSameSteps) {
-  for (double heading : {0.0, 0.5})
+  for (double heading : {0.0, 0.25, 0.5, 0.7, 1.0})
     for (double rate_hz : {30.0, 60.0, 120.0})
       EXPECT_NEAR(dominoSpeed(kCarom, 4.0, rate_hz, heading) / dominoSpeed(kCarom, 1.0, rate_hz, heading),
-                  2.0, rate_hz < 60.0 ? 5e-3 : 5e-4)
+                  2.0, rate_hz < 60.0 ? 5e-3 : 3e-4)
           << rate_hz << " Hz, heading " << heading;
 }
 

@@ -51,23 +51,42 @@ Feature anyFeature(const ConvexPolyhedron& p, Random& random) {
 
 // ---- the question itself ----
 
+// Two polyhedra in place, seen from the origin of the first.
+struct Placed {
+  Placed(const ConvexPolyhedron& pa, const Pose& X_WA, const ConvexPolyhedron& pb, const Pose& X_WB)
+      : a(pa, X_WA.rotation, Vec3::Zero()),
+        b(pb, X_WB.rotation, X_WB.position - X_WA.position),
+        noise_m(0x1p-47 * sizeOf({pa, X_WA, pb, X_WB})) {}
+
+  PlacedPolyhedron a, b;
+  double noise_m;
+};
+
 struct Claims {
   int count = 0;
   FeaturePair features;
-  CoreAnswer answer;
+  PlacedGap gap;
 };
 
-Claims claimsOverAllPairs(const PolyhedronPair& pair, double noise_m) {
+Claims claimsOverAllPairs(const Placed& placed) {
   Claims claims;
-  for (const Feature a : allFeatures(pair.a))
-    for (const Feature b : allFeatures(pair.b)) {
-      CoreAnswer answer;
-      if (!clearlyClosest(pair, {a, b}, noise_m, answer)) continue;
+  for (const Feature a : allFeatures(placed.a.polyhedron))
+    for (const Feature b : allFeatures(placed.b.polyhedron)) {
+      PlacedGap gap;
+      if (!clearlyClosest(placed.a, placed.b, {a, b}, placed.noise_m, gap)) continue;
       ++claims.count;
       claims.features = {a, b};
-      claims.answer = answer;
+      claims.gap = gap;
     }
   return claims;
+}
+
+// How far a point, as the polyhedron is placed, is outside of it at most.
+double outside(const PlacedPolyhedron& placed, const Vec3& p) {
+  double most = -1e300;
+  for (int f = 0; f < placed.polyhedron.faceCount(); ++f)
+    most = std::max(most, placed.polyhedron.plane(f).signedDistance(placed.pointBack(p)));
+  return most;
 }
 
 TEST(ClearlyClosest, IsOnePairOfAllInAGeneralPose_AndItsDistanceIsTheBruteForceOne) {
@@ -79,23 +98,22 @@ TEST(ClearlyClosest, IsOnePairOfAllInAGeneralPose_AndItsDistanceIsTheBruteForceO
     const Pose X_WA = random.pose(0.5);
     const Pose X_WB{random.rotation(), X_WA.position + random.uniform(1.0, 4.0) * random.direction()};
     const oracle::PlacedConvex pa = oracle::place(a, X_WA), pb = oracle::place(b, X_WB);
-    const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
-    const double noise = 0x1p-47 * sizeOf(pair);
+    const Placed placed(a.core, X_WA, b.core, X_WB);
+    const double noise = placed.noise_m;
     const auto want = static_cast<double>(oracle::signedGap(pa, pb));
     if (want < 1e-6) continue;
     ++separated;
-    const Claims claims = claimsOverAllPairs(pair, noise);
+    const Claims claims = claimsOverAllPairs(placed);
     ASSERT_LE(claims.count, 1) << i;
     silent += claims.count == 0;
     if (claims.count == 0) continue;
-    ASSERT_EQ(claims.answer.features, claims.features) << i;
-    ASSERT_NEAR(claims.answer.gap_m, want, 2.0 * noise) << i;
-    const Vec3 n_W = X_WA.rotation * claims.answer.normal;
+    const PlacedGap& gap = claims.gap;
+    ASSERT_NEAR(gap.length_m, want, 2.0 * noise) << i;
+    const Vec3& n_W = gap.normal;
     ASSERT_NEAR(static_cast<double>(oracle::gapAlong(pa, pb, n_W.cast<oracle::Real>())), want, 4.0 * noise)
         << i;
-    ASSERT_LT((claims.answer.p_b - claims.answer.p_a - claims.answer.gap_m * claims.answer.normal).norm(),
-              2.0 * noise)
-        << i;
+    ASSERT_NEAR(outside(placed.a, gap.p_a), 0.0, 2.0 * noise) << i;
+    ASSERT_NEAR(outside(placed.b, gap.p_a + gap.length_m * gap.normal), 0.0, 2.0 * noise) << i;
   }
   EXPECT_GT(separated, 300 / kShare);
   EXPECT_EQ(silent, 0) << "general poses in which no pair was found clear";
@@ -107,10 +125,10 @@ TEST(ClearlyClosest, IsNoPairOfBodiesThatIntersect) {
   for (int i = 0; i < 400 / kShare; ++i) {
     const ConvexPolyhedron a = oracle::randomHull(random, random.integer(4, 12));
     const ConvexPolyhedron b = oracle::randomHull(random, random.integer(4, 12));
-    const PolyhedronPair pair(a, random.pose(0.5), b, random.pose(0.5));
-    if (largestGap(pair).gap_m > -1e-9) continue;
+    const Pose X_WA = random.pose(0.5), X_WB = random.pose(0.5);
+    if (largestGap({a, X_WA, b, X_WB}).gap_m > -1e-9) continue;
     ++penetrating;
-    ASSERT_EQ(claimsOverAllPairs(pair, 0x1p-47 * sizeOf(pair)).count, 0) << i;
+    ASSERT_EQ(claimsOverAllPairs({a, X_WA, b, X_WB}).count, 0) << i;
   }
   EXPECT_GT(penetrating, 200 / kShare);
 }
@@ -119,14 +137,48 @@ TEST(ClearlyClosest, IsNoPairOfBodiesThatIntersect) {
 TEST(ClearlyClosest, IsNoPairInALevelPose) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
   const auto claimed = [&](const Quat& rotation, const Vec3& position) {
-    const PolyhedronPair pair(box, Pose{}, box, {rotation, position});
-    return claimsOverAllPairs(pair, 0x1p-47 * sizeOf(pair)).count;
+    return claimsOverAllPairs({box, Pose{}, box, {rotation, position}}).count;
   };
   const Quat eighth = oracle::turned(Vec3::UnitX(), std::numbers::pi / 4);
   EXPECT_EQ(claimed(Quat::Identity(), Vec3(0.3, 0.2, 1.5)), 0) << "face over face";
   EXPECT_EQ(claimed(eighth, Vec3(0.3, 0.0, 2.0)), 0) << "edge over face";
   EXPECT_EQ(claimed(Quat::Identity(), Vec3(0.3, 1.5, 1.5)), 0) << "parallel edges";
   EXPECT_EQ(claimed(Quat::Identity(), Vec3(1.0, 0.2, 1.5)), 0) << "border to border";
+}
+
+// Whatever the start, what is found is what is clear of all pairs.
+TEST(FindClearlyClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
+  Random random(7403);
+  int found = 0, stopped = 0;  // from what faces each other
+  for (int i = 0; i < 400 / kShare; ++i) {
+    const ConvexPolyhedron a = oracle::randomHull(random, random.integer(4, 12));
+    const ConvexPolyhedron b = i % 10 == 0   ? ConvexPolyhedron::point(Vec3(0.1, 0.2, 0.3))
+                               : i % 10 == 1 ? ConvexPolyhedron::segment(Vec3(-0.4, 0, 0), Vec3(0.4, 0, 0))
+                                             : oracle::randomHull(random, random.integer(4, 12));
+    const Pose X_WA = random.pose(0.5);
+    const Pose X_WB{random.rotation(), X_WA.position + random.uniform(0.0, 4.0) * random.direction()};
+    const Placed placed(a, X_WA, b, X_WB);
+    const Claims claims = claimsOverAllPairs(placed);
+    for (int k = 0; k < 20; ++k) {
+      FeaturePair features = k == 0 ? facingFeatures(placed.a, placed.b)
+                                    : FeaturePair{anyFeature(a, random), anyFeature(b, random)};
+      const FeaturePair start = features;
+      PlacedGap gap;
+      const int visited = findClearlyClosest(placed.a, placed.b, placed.noise_m, features, gap);
+      ASSERT_GE(visited, 0);
+      ASSERT_LE(visited, 8);
+      (visited > 0 ? found : stopped) += k == 0 && claims.count == 1;
+      if (visited == 0) continue;
+      ASSERT_EQ(claims.count, 1) << i << ' ' << k;
+      ASSERT_EQ(features, claims.features) << i << ' ' << k;
+      ASSERT_EQ(visited == 1, features == start) << i << ' ' << k;
+      ASSERT_EQ(gap.length_m, claims.gap.length_m) << i << ' ' << k;
+      ASSERT_EQ(gap.normal, claims.gap.normal) << i << ' ' << k;
+      ASSERT_EQ(gap.p_a, claims.gap.p_a) << i << ' ' << k;
+    }
+  }
+  EXPECT_GT(found, 200 / kShare);
+  EXPECT_LT(stopped, found / 20);
 }
 
 // Slabs of all facets afresh: the named features are the only ones that touch the planes of the depth.
