@@ -61,14 +61,16 @@ struct Body {
   }
 
   /// The velocity impulses act on, at a time not before path.start_s.
-  Velocity velocityAt(double t_s) const {
+  Velocity velocityAt(double t_s) const { return velocityAt(t_s, path.at(t_s).rotation); }
+  /// The same when it is known that the path has turned the body to `R_WB`.
+  Velocity velocityAt(double t_s, const Quat& R_WB) const {
     Velocity v = momentum_velocity;
     if (travel != Travel::kStill) v.linear += (t_s - path.start_s) * acceleration;
     const bool turned = travel != Travel::kStill && !torque.isZero(0.0);
     if (!turned && v.angular.isZero(0.0)) return v;
     Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular);
     if (turned) momentum += (t_s - path.start_s) * torque;
-    v.angular = angularVelocity(inertia, path.at(t_s).rotation, momentum);
+    v.angular = angularVelocity(inertia, R_WB, momentum);
     return v;
   }
 

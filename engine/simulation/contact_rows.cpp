@@ -82,6 +82,10 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
                       *shapes[at(pair.shapes.b)].part, request.X_WB, window);
   const double leaning = leaningOf(pair, bodies, shapes);
   const double slack_m = slackOf(pair, shapes);
+  const Material& material_a = bodies[at(pair.body_a)].material;
+  const Material& material_b = bodies[at(pair.body_b)].material;
+  const Friction friction = combinedFriction(material_a, material_b);
+  const TurningResistance resistance = combinedResistance(material_a, material_b);
   const auto append = [&](const ManifoldPoint& point) {
     const double off_middle_m = 0.5 * point.gap_m * leaning;
     SourcedRow& sourced = rows.emplace_back();
@@ -97,8 +101,8 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     const Vec3 p_W = point.p_W + off_middle_m * point.n_W;
     row.r_a = p_W - request.X_WA.position;
     row.r_b = p_W - request.X_WB.position;
-    row.friction = combinedFriction(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
-    row.resistance = combinedResistance(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
+    row.friction = friction;
+    row.resistance = resistance;
     prepareRow(row, solver_bodies);
   };
   for (const ManifoldPoint& point : manifold.view()) append(point);

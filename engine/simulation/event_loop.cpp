@@ -4,6 +4,7 @@
 #include <array>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/contact_cluster.h"
@@ -53,9 +54,10 @@ class EventLoop {
         view_(view),
         cluster_(bodies, shapes, table, settings, counters) {}
 
-  void run() {
+  std::vector<Pose> run() {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
     ends_.resize(bodies_.size());
+    is_changed_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
     for (std::size_t i = 0; i < table_.pairs().size(); ++i) predict(static_cast<int>(i));
     while (!events_.empty()) {  // every event spends budget of a body that still moves, so this ends
@@ -63,6 +65,7 @@ class EventLoop {
       events_.pop();
       if (event.version == predictions_[at(event.pair)].version) look(event.pair);
     }
+    return std::move(ends_);
   }
 
  private:
@@ -139,7 +142,6 @@ class EventLoop {
       cluster_.collide(spreads);
     }
     if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
-    changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
     if (supports) {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
@@ -150,7 +152,7 @@ class EventLoop {
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
-      if (bodies_[at(i)].events > most) hold(bodies_[at(i)]);
+      if (bodies_[at(i)].events > most) hold(i);
     searchAgain(time_s);
   }
 
@@ -167,8 +169,8 @@ class EventLoop {
   void bring(int index, double time_s) {
     Body& body = bodies_[at(index)];
     if (body.path.start_s == time_s) return;
-    body.momentum_velocity = body.velocityAt(time_s);
     const Pose X_WB = body.path.at(time_s);
+    body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
     body.path.velocity = body.path.velocityAt(time_s);
     body.path.X_WB = X_WB;
     body.path.start_s = time_s;
@@ -191,7 +193,7 @@ class EventLoop {
       const bool keeps_path = cluster_.keepsPath(i);
       const bool is_as_searched = keeps_path && goesStraight(body);
       bring(member.body, time_s);
-      if (!is_as_searched) changed_.push_back(member.body);
+      if (!is_as_searched) markChanged(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
@@ -217,6 +219,10 @@ class EventLoop {
       }
       cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
     }
+  }
+
+  void markChanged(int body) {
+    if (std::exchange(is_changed_[at(body)], 1) == 0) changed_.push_back(body);
   }
 
   static bool goesStraight(const Body& body) {
@@ -246,10 +252,8 @@ class EventLoop {
       Body& body = bodies_[at(index)];
       if (body.is_static || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
       if (body.resting) wakeInStep(index);
-      if (!isTouched(i)) {
-        bring(index, time_s);
-        changed_.push_back(index);
-      }
+      if (!isTouched(i)) bring(index, time_s);
+      markChanged(index);
       body.travel = Travel::kCarried;
       carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
     }
@@ -258,8 +262,10 @@ class EventLoop {
   // Its momentum goes on, and so do the forces of its contacts, which others have the opposites of: they have
   // just been solved together, and the next step solves them again. What weight would give it without a fall
   // is energy from nowhere.
-  void hold(Body& body) {
+  void hold(int index) {
+    Body& body = bodies_[at(index)];
     if (body.is_static || body.travel == Travel::kHeld) return;
+    markChanged(index);
     body.travel = Travel::kHeld;
     const double rest = settings_.step_s - body.path.start_s;
     const Vec3 unfallen = body.acceleration - settings_.gravity;
@@ -277,11 +283,13 @@ class EventLoop {
     extendPairs(time_s);
     std::vector<int> pairs;
     for (int body : changed_) {
+      is_changed_[at(body)] = 0;
       ends_[at(body)] = bodies_[at(body)].path.at(settings_.step_s);
       pairs.insert(pairs.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    changed_.clear();
     for (int pair : pairs) predict(pair);
   }
 
@@ -299,18 +307,19 @@ class EventLoop {
   PhaseClock* clock_;
   StepView* view_;
   ContactCluster cluster_;
-  std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step.
+  std::vector<int> changed_;      ///< Bodies that the event gave a new path, ...
+  std::vector<char> is_changed_;  ///< ... and whether a body is one.
+  std::vector<Pose> ends_;        ///< Of the bodies on their paths, at the end of the step.
   std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
 };
 
 }  // namespace
 
-void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-               PhaseClock* clock, StepView* view) {
-  EventLoop(bodies, shapes, table, planner, settings, counters, clock, view).run();
+std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
+                            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
+                            PhaseClock* clock, StepView* view) {
+  return EventLoop(bodies, shapes, table, planner, settings, counters, clock, view).run();
 }
 
 }  // namespace carom

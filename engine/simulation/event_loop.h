@@ -12,9 +12,10 @@
 namespace carom {
 
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
-/// where it began, if lower) throughout. `view`, unless null, is told of the collisions.
-void runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-               FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-               PhaseClock* clock, StepView* view);
+/// where it began, if lower) throughout. `view`, unless null, is told of the collisions. Returns where the
+/// bodies' paths end.
+std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
+                            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
+                            PhaseClock* clock, StepView* view);
 
 }  // namespace carom

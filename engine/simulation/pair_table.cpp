@@ -34,12 +34,11 @@ Bounds boundsAt(const ConvexPart& part, const Pose& X) {
   return bounds;
 }
 
-// Everything the part can touch along its path: its bounds moved along the parabola and grown by what
-// rotation can do.
-Bounds sweptBounds(const Shape& shape, const Trajectory& path, double end_s) {
-  Bounds bounds = boundsAt(*shape.part, path.X_WB);
+// Everything the part can touch along its path: its bounds at the start moved along the parabola and grown by
+// what rotation can do.
+Bounds sweptBounds(Bounds bounds, const Shape& shape, const Trajectory& path, double end_s) {
   const double dt = end_s - path.start_s;
-  const Vec3 travel = path.at(end_s).position - path.X_WB.position;
+  const Vec3 travel = path.positionAt(end_s) - path.X_WB.position;
   const double sag = 0.125 * path.acceleration.norm() * dt * dt;
   const double turn = std::min(path.fastestSpin() * dt, 2.0) * shape.reach_m;
   const double margin = turn + sag;
@@ -82,12 +81,16 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   tree_.clear();
   const bool first = proxies_.size() != shapes.size();
   proxies_.resize(shapes.size());
+  starts_.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Body& body = bodies[at(shapes[i].body)];
     proxies_[i].group = shapes[i].body;
     const bool moves = body.moves();
-    if (first || moves || proxies_[i].moves)
-      proxies_[i].bounds = widened(sweptBounds(shapes[i], body.path, end_s), pairingMargin(shapes[i]));
+    if (first || moves || proxies_[i].moves) {
+      starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
+      const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
+      proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+    }
     proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that their contacts are remembered
   }
 }
@@ -156,7 +159,9 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
                                       [](const Shape& shape, int b) { return shape.body < b; });
   for (auto i = static_cast<std::size_t>(first - shapes.begin()); i < shapes.size(); ++i) {
     if (shapes[i].body != body) break;
-    const Bounds swept = sweptBounds(shapes[i], bodies[at(body)].path, settings.step_s);
+    const Trajectory& path = bodies[at(body)].path;
+    starts_[i] = boundsAt(*shapes[i].part, path.X_WB);
+    const Bounds swept = sweptBounds(starts_[i], shapes[i], path, settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
     const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
@@ -198,7 +203,8 @@ bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vec
                                  double end_s) const {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Body& body = bodies[at(shapes[i].body)];
-    if (body.moves() && !proxies_[i].bounds.contains(sweptBounds(shapes[i], body.path, end_s))) return true;
+    if (!body.moves()) continue;
+    if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], body.path, end_s))) return true;
   }
   return false;
 }

@@ -52,7 +52,7 @@ class PairTable {
               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
   /// For a step of another length: what was remembered of the impulses, so many times.
   void scaleImpulses(double factor);
-  /// Whether some body's path leaves the bounds it was paired by.
+  /// Whether some body's path leaves the bounds it was paired by; all start where they did then.
   bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         double end_s) const;
   /// Queries the closest features again where a body moved.
@@ -71,6 +71,7 @@ class PairTable {
   void link(std::size_t pair);
 
   std::vector<Proxy> proxies_;
+  std::vector<Bounds> starts_;  ///< Of the shapes, where the paths start that they were paired by.
   PairFinder finder_;
   BoundsTree tree_;               ///< Of the proxies; built when a path first leaves its bounds.
   std::vector<ShapePair> pairs_;  ///< Ascending by shapes, but for those added within a step.

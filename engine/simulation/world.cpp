@@ -102,7 +102,7 @@ struct World::Impl {
   void findPairs(PhaseClock* clock);
   bool pathsLeaveBounds(PhaseClock* clock) const;
   void solveContacts(PhaseClock* clock);
-  void finishStep(PhaseClock* clock);
+  void finishStep(const std::vector<Pose>& ends, PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
   void dampSwings();
@@ -158,14 +158,15 @@ void World::Impl::solveContacts(PhaseClock* clock) {
 }
 
 // The state at the step's end, and the closest features there.
-void World::Impl::finishStep(PhaseClock* clock) {
-  for (Body& body : bodies) {
+void World::Impl::finishStep(const std::vector<Pose>& ends, PhaseClock* clock) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
     if (!body.moves()) continue;
     const Vec3 spin_before = body.velocity.angular;
     const Quat rotation_before = body.X_WB.rotation;
     const bool flew_freely = body.flewFreely();
-    body.velocity = body.velocityAt(substep.step_s);
-    body.X_WB = body.path.at(substep.step_s);
+    body.X_WB = ends[i];
+    body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
     if (!flew_freely || spin_before.isZero(0.0)) {
       body.kept_angular_momentum.reset();
       continue;
@@ -348,8 +349,7 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   if (pathsLeaveBounds(clock)) findPairs(clock);
 
   // Advance from one time of impact to the next.
-  runEvents(bodies, shapes, table, planner, substep, counters, clock, view);
-  finishStep(clock);
+  finishStep(runEvents(bodies, shapes, table, planner, substep, counters, clock, view), clock);
 
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);
