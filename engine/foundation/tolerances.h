@@ -67,6 +67,6 @@ inline constexpr int kRestSweeps = 400;            // of the solver in that test
 inline constexpr int kRestRowVisits = 3000000;     // ... more while these last
 // Swings about a rest (engine/modes/swinging.h).
 inline constexpr double kSwingRise = 2e-3;    // of the radius: a small swing lifts a body by less
-inline constexpr double kSwingDamping = 4.0;  // 1/s at most, and half of critical damping at most
+inline constexpr double kSwingDamping = 4.0;  // 1/s, more of smaller ones; half of critical at most
 
 }  // namespace carom::tolerance

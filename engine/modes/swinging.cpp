@@ -1,6 +1,7 @@
 #include "engine/modes/swinging.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "engine/foundation/tolerances.h"
@@ -37,8 +38,12 @@ void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m
 
 double SwingWatch::keeps(double step_s) const {
   if (turns_ < kTurns) return 1.0;
+  // Dry friction slows small swings as much as larger ones, so it takes the larger share of them. And what
+  // falls from one point of contact to the next and back, half a swing in a few steps, gains by each turn in
+  // proportion to a step's gravity: nothing less than such a share ends that.
+  const double dry = tolerance::kSwingDamping / std::sqrt(fullness_);
   // v' = -c v - w^2 x is damped critically by c = 2 w; half a swing takes pi / w.
-  const double damping = std::min(tolerance::kSwingDamping, std::numbers::pi / half_s_);
+  const double damping = std::min(dry, std::numbers::pi / half_s_);
   return 1.0 / (1.0 + damping * (1.0 - fullness_) * step_s);
 }
 

@@ -58,9 +58,14 @@ TEST(SwingWatch, WhatIsSmallGoesByTheRadius) {
   EXPECT_EQ(keptOfSwing(rise, 2.0, 2.2, 0.5 * kRadius), 1.0);
 }
 
-TEST(SwingWatch, QuickSwingsAreDampedNoFasterThanTheBound) {
-  EXPECT_NEAR(keptOfSwing(1e-4 * kLargestRise, 0.2, 2.0), 1.0 / (1.0 + tolerance::kSwingDamping * kStep),
-              1e-4);
+TEST(SwingWatch, QuickSwingsAreSlowedAsByDryFriction) {
+  const auto slowed = [](double fullness) {  // in speed, a step: shares of the largest that is small
+    return std::sqrt(fullness) * (1.0 / keptOfSwing(fullness * kLargestRise, 0.2, 2.0) - 1.0);
+  };
+  const double friction = tolerance::kSwingDamping * kStep;
+  EXPECT_NEAR(slowed(0.02), 0.98 * friction, 1e-9);
+  EXPECT_NEAR(slowed(0.1), 0.9 * friction, 1e-9);
+  EXPECT_NEAR(slowed(1e-6), 1e-3 * std::numbers::pi / 0.1 * kStep, 1e-5) << "half of critical damping";
 }
 
 TEST(SwingWatch, WhatGoesOnOneWayIsLetGo) {
