@@ -1,11 +1,11 @@
 #pragma once
-// The closest features of two convex parts: the query that everything above asks (paper §2). A pair that was
-// closest last time and clearly still is gets proven so in place (warm_pair.h); else a walk looks for the
-// closest features (feature_walk.h holds the argument that it ends); bodies that intersect get their exact
-// depth (inner_polytope.h). What is found is then named by canonical features (canonical_features.h), so that
-// the answer does not depend on where the search began. Certificates (certificate.h) prove answers; debug
-// builds check every one. A walk that finds no way on is counted and answered by exhaustive search. Tested
-// in tests/engine/closest_features/vclip_test.cpp.
+// The closest features of two convex parts: the query that everything above asks (paper §2). The pair that was
+// closest last time, or one that it leads on to, gets proven so in place (warm_pair.h); where nothing is
+// clear a walk looks for the closest features (feature_walk.h holds the argument that it ends); bodies that
+// intersect get their exact depth (inner_polytope.h). What is found is then named by canonical features
+// (canonical_features.h), so that the answer does not depend on where the search began. Certificates
+// (certificate.h) prove answers; debug builds check every one. A walk that finds no way on is counted and
+// answered by exhaustive search. Tested in tests/engine/closest_features/vclip_test.cpp.
 
 #include "engine/closest_features/feature.h"
 #include "engine/closest_features/inner_polytope.h"

@@ -1,8 +1,9 @@
 #pragma once
-// The usual case of a coherent query, by itself: the pair that was closest last time still is, and by more
-// than rounding could hide. Each case measures the witnesses inside their features and the slopes along all
-// ways off them at once; anything less than clear is left to the walk. Tested in
-// tests/engine/closest_features/warm_pair_test.cpp.
+// The usual case of a query, by itself: the pair that was closest last time still is, or one that it leads on
+// to, and by more than rounding could hide. Each case measures the witnesses inside their features and the
+// slopes along all ways off them at once. Where that fails it says where to go on, as V-Clip does (paper §2);
+// but nothing hangs on it: a few pairs are tried, each that is clear has been proven, and anything less is
+// left to the walk (feature_walk.h). Tested in tests/engine/closest_features/warm_pair_test.cpp.
 
 #include "engine/closest_features/core_answer.h"
 
