@@ -1,6 +1,6 @@
 #pragma once
-// The closest features of two convex parts: the query that everything above asks (paper §2). The pair that was
-// closest last time, or one that it leads on to, gets proven so in place (warm_pair.h); where nothing is
+// The closest features of two convex parts: the query that everything above asks (paper §2). The pair that
+// was closest last time, or one that it leads on to, gets proven so in place (warm_pair.h); where nothing is
 // clear a walk looks for the closest features (feature_walk.h holds the argument that it ends); bodies that
 // intersect get their exact depth (inner_polytope.h). What is found is then named by canonical features
 // (canonical_features.h), so that the answer does not depend on where the search began. Certificates
