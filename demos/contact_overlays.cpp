@@ -117,7 +117,7 @@ void paintNormals(OverlayPainter& painter, const OverlayFrame& frame, const Pen&
   for (const NearPair& pair : frame.pairs) {
     if (!touches(pair)) continue;
     const double length = kNormalLength * frame.pairRadius(pair.body_a, pair.body_b);
-    for (const ManifoldPoint& point : manifoldOf(pair).view())
+    for (const ManifoldPoint& point : manifoldOf(pair))
       painter.arrow(point.p_W, point.p_W + length * point.n_W,
                     {{overlay_color::kBlue}, pen.thick_px(), 0.0, 0.6});
   }
@@ -168,7 +168,7 @@ void paintManifolds(OverlayPainter& painter, const OverlayFrame& frame, const Pe
     if (corners.size() > 1)
       painter.line(corners, {{overlay_color::kOrange}, pen.thick_px(), 0.0, 0.6}, corners.size() > 2);
     const bool names = named++ < kMostNamedPairs;
-    for (const ManifoldPoint& point : manifoldOf(pair).view()) {
+    for (const ManifoldPoint& point : manifoldOf(pair)) {
       painter.dot(point.p_W, pen.dot_px(), {overlay_color::kPurple});
       if (names)
         painter.label(point.p_W, featureText(point.features.a) + "·" + featureText(point.features.b),
@@ -197,7 +197,7 @@ std::optional<ShownSupport> shownSupport(const OverlayFrame& frame, int body, co
   for (const NearPair& pair : frame.pairs) {
     if ((pair.body_a != body && pair.body_b != body) || !touches(pair)) continue;
     const double sign = pair.body_b == body ? 1.0 : -1.0;  // of the normal towards the body
-    for (const ManifoldPoint& point : manifoldOf(pair).view())
+    for (const ManifoldPoint& point : manifoldOf(pair))
       if (sign * point.n_W.dot(down) < -kUpwards) held.push_back(point.p_W);
   }
   if (held.empty()) return std::nullopt;

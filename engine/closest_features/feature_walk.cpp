@@ -104,10 +104,6 @@ int dimensions(const FeaturePair& features) {
 
 }  // namespace
 
-FeaturePair coldSeed(const PolyhedronPair& pair) {
-  return facingVertices(pair, pair.toA(pair.b.center()) - pair.a.center());
-}
-
 FeatureWalk::FeatureWalk(const PolyhedronPair& pair, FeaturePair seed, double size_m, double noise_m)
     : pair_(pair),
       size_m_(size_m),
@@ -161,7 +157,8 @@ bool FeatureWalk::asClose(const FeatureDistance& there) const {
 }
 
 void FeatureWalk::jump() {
-  moveTo(coldSeed(pair_)) || moveTo(facingVertices(pair_, here().p_b - here().p_a));
+  moveTo(facingVertices(pair_, pair_.toA(pair_.b.center()) - pair_.a.center())) ||
+      moveTo(facingVertices(pair_, here().p_b - here().p_a));
 }
 
 void FeatureWalk::restart(FeaturePair seed) {

@@ -29,9 +29,6 @@
 
 namespace carom {
 
-/// The vertices that face each other along the line of centres: where a walk begins that knows nothing.
-FeaturePair coldSeed(const PolyhedronPair& pair);
-
 enum class Move {
   kTaken,   ///< Closer, or as close with features of more dimensions.
   kClear,   ///< The end: every way off these features leads away by more than rounding.

@@ -44,7 +44,6 @@ struct Scale {
   double shift_m;  // how far one body may be moved against the other by the rounding of their positions
 };
 
-// Of a query.
 struct Visits {
   int states = 1;              // feature pairs
   bool reached_limit = false;  // an exhaustive search followed
@@ -126,7 +125,6 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     polytope.forget();
     tracked = answer.features;
   }
-  if (tracked.a.index < 0 || tracked.b.index < 0) tracked = coldSeed(pair);
 
   // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
   // never needs.
@@ -175,11 +173,10 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   return answer;
 }
 
-// Whether what was closest last time, or what it leads on to, clearly is: how many pairs were visited; places
-// are seen from A's origin.
-int findInPlace(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB, double noise_m,
-                PairMemory& memory, PlacedGap& gap) {
-  if (memory.penetration.triangleCount() > 0) return 0;
+// Whether what was closest last time, or what it leads on to, clearly is; places are seen from A's origin.
+PairsInPlace findInPlace(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
+                         double noise_m, PairMemory& memory, PlacedGap& gap) {
+  if (memory.penetration.triangleCount() > 0) return {};
   const PlacedPolyhedron placed_a(a.core, X_WA.rotation, Vec3::Zero());
   const PlacedPolyhedron placed_b(b.core, X_WB.rotation, X_WB.position - X_WA.position);
   if (memory.features.a.index < 0 || memory.features.b.index < 0)
@@ -209,11 +206,12 @@ ClosestFeatures query(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b
                       PairMemory& memory) {
   const Scale scale(a.core, X_WA, b.core, X_WB);
   PlacedGap gap;
-  const int visited = findInPlace(a, X_WA, b, X_WB, scale.shift_m, memory, gap);
-  if (visited > 0) return answerOf(a, X_WA, b, gap, scale, memory.features, {visited, false});
+  const PairsInPlace in_place = findInPlace(a, X_WA, b, X_WB, scale.shift_m, memory, gap);
+  if (in_place.found) return answerOf(a, X_WA, b, gap, scale, memory.features, {in_place.visited, false});
   const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
   Visits visits;
   const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
+  visits.states += in_place.visited;
   memory.features = core.features;
   const Rotation R_WA(X_WA.rotation);
   gap = {core.gap_m, R_WA * core.normal, R_WA * core.p_a};

@@ -10,7 +10,7 @@ namespace {
 
 // Edges that cross at a smaller angle have no well-defined common perpendicular.
 constexpr double kCrossingSineSquared = 1e-6;
-constexpr int kPairsInPlace = 8;  // tried before a walk begins
+constexpr int kMostPairs = 8;  // tried before a walk begins
 
 double steepestSpoke(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
   double steepest = -std::numeric_limits<double>::infinity();
@@ -256,16 +256,19 @@ bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, Featur
   return WarmPair(a, b, noise_m).proves(features, gap);
 }
 
-int findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
-                       FeaturePair& features, PlacedGap& gap) {
+PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                                FeaturePair& features, PlacedGap& gap) {
   const WarmPair pair(a, b, noise_m);
-  for (int visited = 1; visited <= kPairsInPlace; ++visited) {
-    if (pair.proves(features, gap)) return visited;
+  PairsInPlace tried;
+  while (tried.visited < kMostPairs) {
+    ++tried.visited;
+    tried.found = pair.proves(features, gap);
+    if (tried.found) break;
     const FeaturePair next = pair.leadsTo(features);
     if (next == features) break;
     features = next;
   }
-  return 0;
+  return tried;
 }
 
 FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b) {

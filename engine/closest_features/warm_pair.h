@@ -36,10 +36,17 @@ struct PlacedGap {
 /// every end of a feature's neighbours farther than that behind its support plane. Fills `gap` if so.
 bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
                     double noise_m, PlacedGap& gap);
-/// The same, asked of `features` and of what they lead on to, a few pairs: how many were asked about until
-/// one was clear; 0: none was. `features` are then where it stopped.
-int findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
-                       FeaturePair& features, PlacedGap& gap);
+
+/// What became of a few pairs that were asked in place.
+struct PairsInPlace {
+  int visited = 0;
+  bool found = false;  ///< The last one is clear.
+};
+
+/// The same, asked of `features` and of what they lead on to, a few pairs, until one is clear. `features` are
+/// then that one, or where to look further.
+PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                                FeaturePair& features, PlacedGap& gap);
 
 /// The vertices that face each other along the line of centres: where to start when nothing is remembered.
 FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b);

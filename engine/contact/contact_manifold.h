@@ -29,7 +29,11 @@ struct ContactManifold {
   static constexpr int kFacePoints = 4;
   int count = 0;
   std::array<ManifoldPoint, kMaxPoints> points;
-  std::span<const ManifoldPoint> view() const { return {points.data(), static_cast<std::size_t>(count)}; }
+  std::span<const ManifoldPoint> view() const& { return {points.data(), static_cast<std::size_t>(count)}; }
+  std::span<const ManifoldPoint> view() const&& = delete;  // it would outlive what it shows
+  // Of a manifold that is a temporary too: a loop over it keeps it.
+  const ManifoldPoint* begin() const { return points.data(); }
+  const ManifoldPoint* end() const { return points.data() + count; }
 };
 
 /// All points of contact of two parts whose closest features are known; at least one.

@@ -1,9 +1,9 @@
 #pragma once
 // What can keep an island from its rest (resting.h) for ever: a body on two or three points of contact is a
 // pendulum, and neither Coulomb's friction nor restitution takes energy from what rolls to and fro on them.
-// In solids that give, small swings die within seconds. Here they are damped, so that they end where the
-// forces balance: the more, the smaller they are. What goes on without turning round, however slowly, is not
-// damped. DEVIATES: the paper has no such mode. Tested in tests/engine/modes/swinging_test.cpp and
+// In solids that give, small swings die within seconds. Here they are damped as by dry friction, the more the
+// smaller they are, so that they end where the forces balance. What goes on without turning round, however
+// slowly, is not damped. DEVIATES: the paper has no such mode. Tested in tests/engine/modes/swinging_test.cpp and
 // tests/physics/swing_test.cpp.
 
 #include "engine/motion/rigid_body.h"

@@ -331,8 +331,7 @@ void ContactCluster::releaseForces(int index) {
   const int member_b = join(pair.body_b);
   ImpulseBody& a = ends_[at(member_a)];
   ImpulseBody& b = ends_[at(member_b)];
-  for (int i = 0; i < pair.remembered_count; ++i) {
-    const RememberedImpulse& acting = pair.remembered[at(i)];
+  for (const RememberedImpulse& acting : pair.remembered) {
     a.apply(restOfStep() * acting.force_W, acting.arm_a);
     b.apply(-restOfStep() * acting.force_W, acting.arm_b);
     a.turn(restOfStep() * acting.torque_W);
@@ -346,9 +345,9 @@ void ContactCluster::releaseDistant() {
     if (!members_[i].expanded || bodies_[at(members_[i].body)].is_static) continue;
     for (int p : table_.pairsOf(members_[i].body)) {
       ShapePair& pair = table_.pairs()[at(p)];
-      if (pair.remembered_count == 0 || pair_released_[at(p)] == number_) continue;
+      if (pair.remembered.empty() || pair_released_[at(p)] == number_) continue;
       releaseForces(p);
-      pair.remembered_count = 0;
+      pair.remembered.clear();
     }
   }
 }
@@ -366,8 +365,7 @@ void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
     row.lowest_speed = -std::numeric_limits<double>::max();
     if (collidesLater(row, sources_[k])) continue;
     if (pair.restitution > 0.0 && rowVelocity(row, momentum_).x() > pair.collision_speed_mps) continue;
-    for (int i = 0; i < pair.remembered_count; ++i) {
-      const RememberedImpulse& acting = pair.remembered[at(i)];
+    for (const RememberedImpulse& acting : pair.remembered) {
       if (acting.id != sources_[k].id) continue;
       row.impulse = inRowFrame(row, restOfStep() * acting.force_W);
       row.impulse.x() = std::max(0.0, row.impulse.x());
@@ -385,8 +383,8 @@ void ContactCluster::recallPoints() {
   const ShapePair& pair = table_.pairs()[at(event_pair_)];
   std::size_t shown = 0;
   while (shown < sources_.size() && sources_[shown].pair == event_pair_) ++shown;
-  for (int i = 0; i < pair.remembered_count && shown < ContactManifold::kMaxPoints; ++i) {
-    const RememberedImpulse& acting = pair.remembered[at(i)];
+  for (const RememberedImpulse& acting : pair.remembered) {
+    if (shown >= ContactManifold::kMaxPoints) break;
     const auto known = std::find_if(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(shown),
                                     [&](const SourcedRow& s) { return s.id == acting.id; });
     if (acting.force_W.isZero(0.0) || known != sources_.begin() + static_cast<std::ptrdiff_t>(shown))
@@ -449,11 +447,11 @@ void ContactCluster::findBends() {
 
 // What the rows' forces are from now on.
 void ContactCluster::keepForces() {
+  std::vector<RememberedImpulse> known;
   for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
     ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
-    const auto known = pair.remembered;
-    const int known_count = pair.remembered_count;
-    pair.remembered_count = 0;
+    known.swap(pair.remembered);
+    pair.remembered.clear();
     for (; end < sources_.size() && sources_[end].pair == sources_[first].pair; ++end) {
       const ContactRow& row = rows_[end];
       RememberedImpulse now{.id = sources_[end].id,
@@ -461,12 +459,12 @@ void ContactCluster::keepForces() {
                             .arm_a = row.r_a,
                             .arm_b = row.r_b,
                             .torque_W = rowImpulse(row, row.torque) / restOfStep()};
-      for (int i = 0; i < known_count; ++i)
-        if (known[at(i)].id == now.id) {
-          now.impulse_W = known[at(i)].impulse_W;
-          now.torque_impulse_W = known[at(i)].torque_impulse_W;
+      for (const RememberedImpulse& before : known)
+        if (before.id == now.id) {
+          now.impulse_W = before.impulse_W;
+          now.torque_impulse_W = before.torque_impulse_W;
         }
-      pair.remembered[at(pair.remembered_count++)] = now;
+      pair.remembered.push_back(now);
       if (row.impulse.x() > 0.0) pressed_[at(row.a)] = pressed_[at(row.b)] = 1;
     }
   }

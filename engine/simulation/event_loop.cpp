@@ -57,7 +57,6 @@ class EventLoop {
   std::vector<Pose> run() {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
     ends_.resize(bodies_.size());
-    is_changed_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
     for (std::size_t i = 0; i < table_.pairs().size(); ++i) predict(static_cast<int>(i));
     while (!events_.empty()) {  // every event spends budget of a body that still moves, so this ends
@@ -142,6 +141,7 @@ class EventLoop {
       cluster_.collide(spreads);
     }
     if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
+    changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
     if (supports) {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
@@ -152,7 +152,7 @@ class EventLoop {
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
-      if (bodies_[at(i)].events > most) hold(i);
+      if (bodies_[at(i)].events > most) hold(bodies_[at(i)]);
     searchAgain(time_s);
   }
 
@@ -193,7 +193,7 @@ class EventLoop {
       const bool keeps_path = cluster_.keepsPath(i);
       const bool is_as_searched = keeps_path && goesStraight(body);
       bring(member.body, time_s);
-      if (!is_as_searched) markChanged(member.body);
+      if (!is_as_searched) changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
@@ -219,10 +219,6 @@ class EventLoop {
       }
       cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
     }
-  }
-
-  void markChanged(int body) {
-    if (std::exchange(is_changed_[at(body)], 1) == 0) changed_.push_back(body);
   }
 
   static bool goesStraight(const Body& body) {
@@ -252,8 +248,10 @@ class EventLoop {
       Body& body = bodies_[at(index)];
       if (body.is_static || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
       if (body.resting) wakeInStep(index);
-      if (!isTouched(i)) bring(index, time_s);
-      markChanged(index);
+      if (!isTouched(i)) {
+        bring(index, time_s);
+        changed_.push_back(index);
+      }
       body.travel = Travel::kCarried;
       carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
     }
@@ -262,10 +260,8 @@ class EventLoop {
   // Its momentum goes on, and so do the forces of its contacts, which others have the opposites of: they have
   // just been solved together, and the next step solves them again. What weight would give it without a fall
   // is energy from nowhere.
-  void hold(int index) {
-    Body& body = bodies_[at(index)];
+  void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
-    markChanged(index);
     body.travel = Travel::kHeld;
     const double rest = settings_.step_s - body.path.start_s;
     const Vec3 unfallen = body.acceleration - settings_.gravity;
@@ -283,13 +279,11 @@ class EventLoop {
     extendPairs(time_s);
     std::vector<int> pairs;
     for (int body : changed_) {
-      is_changed_[at(body)] = 0;
       ends_[at(body)] = bodies_[at(body)].path.at(settings_.step_s);
       pairs.insert(pairs.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    changed_.clear();
     for (int pair : pairs) predict(pair);
   }
 
@@ -307,9 +301,8 @@ class EventLoop {
   PhaseClock* clock_;
   StepView* view_;
   ContactCluster cluster_;
-  std::vector<int> changed_;      ///< Bodies that the event gave a new path, ...
-  std::vector<char> is_changed_;  ///< ... and whether a body is one.
-  std::vector<Pose> ends_;        ///< Of the bodies on their paths, at the end of the step.
+  std::vector<int> changed_;  ///< Bodies that the event gave a new path.
+  std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
   std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
 };

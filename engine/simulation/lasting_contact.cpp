@@ -283,7 +283,7 @@ void assemble(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
   for (const auto& [island, i] : lastingPairs(bodies, pairs, settings.step_s))
     addRows(contacts, i, pairs[at(i)], bodies, shapes, settings, counters);
   for (ShapePair& pair : pairs)
-    if (givesWay(pair, bodies)) pair.remembered_count = 0;  // what a resting pair remembers, it keeps
+    if (givesWay(pair, bodies)) pair.remembered.clear();  // what a resting pair remembers, it keeps
   sortByIsland(contacts);
 }
 
@@ -378,13 +378,13 @@ void remember(const LastingContacts& contacts, std::vector<ShapePair>& pairs, do
     const ContactRow& row = contacts.rows[i];
     const Vec3 impulse_W = rowImpulse(row, row.impulse);
     const Vec3 torque_impulse_W = rowImpulse(row, row.torque);
-    pair.remembered[at(pair.remembered_count++)] = {.id = contacts.sources[i].id,
-                                                    .impulse_W = impulse_W,
-                                                    .force_W = impulse_W / step_s,
-                                                    .arm_a = row.r_a,
-                                                    .arm_b = row.r_b,
-                                                    .torque_impulse_W = torque_impulse_W,
-                                                    .torque_W = torque_impulse_W / step_s};
+    pair.remembered.push_back({.id = contacts.sources[i].id,
+                               .impulse_W = impulse_W,
+                               .force_W = impulse_W / step_s,
+                               .arm_a = row.r_a,
+                               .arm_b = row.r_b,
+                               .torque_impulse_W = torque_impulse_W,
+                               .torque_W = torque_impulse_W / step_s});
   }
 }
 
@@ -395,8 +395,7 @@ void correctLoad(const SourcedRow& sourced, const RowLoad& load, double step_s,
   ShapePair& pair = pairs[at(sourced.pair)];
   // Pairs may have been collected anew since.
   if (pair.body_a != sourced.row.a || pair.body_b != sourced.row.b) return;
-  for (int i = 0; i < pair.remembered_count; ++i) {
-    RememberedImpulse& remembered = pair.remembered[at(i)];
+  for (RememberedImpulse& remembered : pair.remembered) {
     if (remembered.id != sourced.id) continue;
     remembered.impulse_W = rowImpulse(sourced.row, load.impulse);
     remembered.force_W = remembered.impulse_W / step_s;

@@ -134,8 +134,9 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
   for (const IndexPair& shapes_of_pair : wanted) {
     while (old != pairs_.end() && old->shapes < shapes_of_pair) ++old;
     if (old != pairs_.end() && old->shapes == shapes_of_pair) {
-      fresh.push_back(*old);
-      fresh.back().collision_speed_mps = collisionSpeed(*old, bodies, settings);
+      fresh.push_back(std::move(*old));
+      fresh.back().collision_speed_mps = collisionSpeed(fresh.back(), bodies, settings);
+      ++old;
       continue;
     }
     ShapePair pair = makePair(shapes_of_pair, bodies, shapes, settings);
@@ -193,9 +194,9 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
 
 void PairTable::scaleImpulses(double factor) {
   for (ShapePair& pair : pairs_)
-    for (int i = 0; i < pair.remembered_count; ++i) {
-      pair.remembered[at(i)].impulse_W *= factor;
-      pair.remembered[at(i)].torque_impulse_W *= factor;
+    for (RememberedImpulse& remembered : pair.remembered) {
+      remembered.impulse_W *= factor;
+      remembered.torque_impulse_W *= factor;
     }
 }
 

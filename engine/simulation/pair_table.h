@@ -3,7 +3,6 @@
 // closest features at the current time, and the impulses of its contact points. Internal to the simulation
 // floor. Tested through tests/engine/simulation/.
 
-#include <array>
 #include <vector>
 
 #include "engine/broad_phase/bounds_tree.h"
@@ -34,9 +33,8 @@ struct ShapePair {
   double restitution = 0.0;
   double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
   FeaturePair tracked;
-  ClosestFeatures closest;  ///< At the end of the last step.
-  int remembered_count = 0;
-  std::array<RememberedImpulse, ContactManifold::kMaxPoints> remembered;
+  ClosestFeatures closest;                    ///< At the end of the last step.
+  std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 };
 
 class PairTable {

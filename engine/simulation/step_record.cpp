@@ -14,13 +14,12 @@ std::size_t at(int i) {
 void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& view) {
   const Body& a = world.bodies[at(pair.body_a)];
   const Body& b = world.bodies[at(pair.body_b)];
-  if (a.moves() || b.moves() || pair.remembered_count == 0) return;
+  if (a.moves() || b.moves() || pair.remembered.empty()) return;
   const ContactManifold manifold =
       contactManifold(pair.closest, *world.shapes[at(pair.shapes.a)].part, a.X_WB,
                       *world.shapes[at(pair.shapes.b)].part, b.X_WB, pair.window);
   for (const ManifoldPoint& point : manifold.view())
-    for (int i = 0; i < pair.remembered_count; ++i) {
-      const RememberedImpulse& remembered = pair.remembered[at(i)];
+    for (const RememberedImpulse& remembered : pair.remembered) {
       if (remembered.id != point.id) continue;
       view.lasting.push_back({pair.body_a, pair.body_b, a.X_WB.inverse() * point.p_W,
                               b.X_WB.inverse() * point.p_W, point.n_W, point.gap_m,

@@ -21,14 +21,14 @@ class Memory {
   explicit Memory(const ShapePair& pair) : pair_(pair) {}
 
   int named(std::uint64_t id) const {
-    for (int i = 0; i < pair_.remembered_count; ++i)
+    for (int i = 0; i < count(); ++i)
       if (pair_.remembered[at(i)].id == id) return i;
     return -1;
   }
   int nearestTo(const Vec3& arm_b) const {
     int nearest = -1;
     double distance = kSamePlace * pair_.window.rest;
-    for (int i = 0; i < pair_.remembered_count; ++i) {
+    for (int i = 0; i < count(); ++i) {
       const double d = (pair_.remembered[at(i)].arm_b - arm_b).norm();
       if (taken_[at(i)] || d >= distance) continue;
       nearest = i;
@@ -43,7 +43,7 @@ class Memory {
   /// Impulse and moment on B of what no row has taken.
   Vec6 rest() const {
     Vec6 wrench = Vec6::Zero();
-    for (int i = 0; i < pair_.remembered_count; ++i) {
+    for (int i = 0; i < count(); ++i) {
       const RememberedImpulse& remembered = pair_.remembered[at(i)];
       if (taken_[at(i)]) continue;
       wrench.head<3>() += remembered.impulse_W;
@@ -53,6 +53,8 @@ class Memory {
   }
 
  private:
+  int count() const { return static_cast<int>(pair_.remembered.size()); }
+
   const ShapePair& pair_;
   std::array<bool, ContactManifold::kMaxPoints> taken_{};
 };
@@ -76,7 +78,7 @@ void spread(const Vec6& wrench, std::span<const SourcedRow> rows, std::span<Vec3
 
 void warmStart(const ShapePair& pair, bool still, std::span<SourcedRow> rows) {
   REQUIRE(rows.size() <= ContactManifold::kMaxPoints, rows.size());
-  if (rows.empty() || pair.remembered_count == 0) return;
+  if (rows.empty() || pair.remembered.empty()) return;
   Memory memory(pair);
   std::array<const RememberedImpulse*, ContactManifold::kMaxPoints> known{};
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -349,7 +349,8 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   if (pathsLeaveBounds(clock)) findPairs(clock);
 
   // Advance from one time of impact to the next.
-  finishStep(runEvents(bodies, shapes, table, planner, substep, counters, clock, view), clock);
+  const std::vector<Pose> ends = runEvents(bodies, shapes, table, planner, substep, counters, clock, view);
+  finishStep(ends, clock);
 
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);

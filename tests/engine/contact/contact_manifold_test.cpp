@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
 #include "tests/oracle/test_shapes.h"
 
@@ -20,6 +21,12 @@ ContactManifold manifoldOf(const Solid& a, const Pose& X_WA, const Solid& b, con
   const ClosestFeatures closest = closestFeatures(pa, X_WA, pb, X_WB, cold);
   return contactManifold(closest, pa, X_WA, pb, X_WB, collisionWindow(pa, pb));
 }
+
+template <typename Manifold>
+concept ShowsPointsOfATemporary = requires(Manifold m) {
+  std::move(m).view();
+};
+static_assert(!ShowsPointsOfATemporary<ContactManifold>);
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -290,7 +297,7 @@ TEST(ContactManifold, IdsStayWhenTheBodiesMoveALittle) {
   const Pose X_WA{Quat::Identity(), Vec3(0, 0, -0.5)};
   const auto idsAt = [&](const Pose& X_WB) {
     std::set<std::uint64_t> ids;
-    for (const ManifoldPoint& p : manifoldOf(a, X_WA, b, X_WB).view()) ids.insert(p.id);
+    for (const ManifoldPoint& p : manifoldOf(a, X_WA, b, X_WB)) ids.insert(p.id);
     return ids;
   };
   // Hanging over the rim by a third, so that two corners are cut by the face's sides.

@@ -13,12 +13,12 @@ ShapePair pairWith(const std::vector<std::pair<std::uint64_t, Vec3>>& points,
   ShapePair pair;
   pair.window.rest = 1e-3;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    RememberedImpulse& remembered = pair.remembered[i];
+    RememberedImpulse remembered;
     remembered.id = points[i].first;
     remembered.arm_b = points[i].second;
     remembered.impulse_W = impulses[i];
+    pair.remembered.push_back(remembered);
   }
-  pair.remembered_count = static_cast<int>(points.size());
   return pair;
 }
 
