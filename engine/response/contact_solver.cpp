@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "engine/foundation/tolerances.h"
 #include "engine/response/turning_resistance.h"
@@ -114,88 +112,6 @@ double& stirOf(std::span<ImpulseBody> bodies, int i) {
   return bodies[at(i)].stir;
 }
 
-// One sweep. Rows are visited whose bodies have been stirred since their last visit.
-void sweep(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
-           double unnoticed_stir, SolverReport& report) {
-  report.residual_mps = 0.0;
-  ++report.sweeps;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
-    double& stir_a = stirOf(bodies, row.a);
-    double& stir_b = stirOf(bodies, row.b);
-    if (row.seen_stir >= 0.0 && stir_a + stir_b - row.seen_stir <= unnoticed_stir) continue;
-    const double before = stir_a + stir_b;
-    const RowChange change = solveRow(row, bodies, friction);
-    if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
-    if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
-    row.seen_stir = change.settled ? stir_a + stir_b : before;
-    report.residual_mps = std::max(report.residual_mps, change.speed_mps);
-    ++report.visits;
-  }
-}
-
-// The bodies that the rows refer to, each once: of a world, those of one island.
-std::vector<std::size_t> bodiesOf(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
-  std::vector<std::size_t> listed;
-  for (const ContactRow& row : rows)
-    for (const int i : {row.a, row.b})
-      if (!std::exchange(bodies[at(i)].listed, true)) listed.push_back(at(i));
-  for (const std::size_t i : listed) bodies[i].listed = false;
-  return listed;
-}
-
-// Impulses and the velocities they give: a point, or a direction, of the search.
-struct Iterate {
-  std::vector<Vec3> impulses;
-  std::vector<Vec3> torques;  ///< None where no row resists turning.
-  std::vector<Velocity> velocities;
-};
-
-void store(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
-           std::span<const std::size_t> involved, Iterate& iterate) {
-  for (std::size_t i = 0; i < rows.size(); ++i) iterate.impulses[i] = rows[i].impulse;
-  for (std::size_t i = 0; i < iterate.torques.size(); ++i) iterate.torques[i] = rows[i].torque;
-  for (std::size_t k = 0; k < involved.size(); ++k) iterate.velocities[k] = bodies[involved[k]].velocity;
-}
-
-// The squared length of the step that sweeps took, in the measure of energy.
-double squaredStep(std::span<const ContactRow> rows, const Iterate& before) {
-  double squared = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 d = rows[i].impulse - before.impulses[i];
-    squared += d.x() * d.x() * rows[i].normal_response.x() +
-               d.tail<2>().squaredNorm() * rows[i].largest_slip_response;
-  }
-  for (std::size_t i = 0; i < before.torques.size(); ++i)
-    squared += (rows[i].torque - before.torques[i]).squaredNorm() * rows[i].largest_turn_response;
-  return squared;
-}
-
-// direction = step + share * direction; the part of the old direction is taken as well, and the next step
-// begins.
-void continueAlong(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                   std::span<const std::size_t> involved, double share, Iterate& before, Iterate& direction) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 kept = share * direction.impulses[i];
-    direction.impulses[i] = rows[i].impulse - before.impulses[i] + kept;
-    before.impulses[i] = rows[i].impulse += kept;
-  }
-  for (std::size_t i = 0; i < before.torques.size(); ++i) {
-    const Vec3 kept = share * direction.torques[i];
-    direction.torques[i] = rows[i].torque - before.torques[i] + kept;
-    before.torques[i] = rows[i].torque += kept;
-  }
-  for (std::size_t k = 0; k < involved.size(); ++k) {
-    Velocity& d = direction.velocities[k];
-    Velocity& v = bodies[involved[k]].velocity;
-    const Velocity kept{share * d.linear, share * d.angular};
-    d.linear = v.linear - before.velocities[k].linear + kept.linear;
-    d.angular = v.angular - before.velocities[k].angular + kept.angular;
-    before.velocities[k].linear = v.linear += kept.linear;
-    before.velocities[k].angular = v.angular += kept.angular;
-  }
-}
-
 }  // namespace
 
 Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
@@ -227,6 +143,25 @@ void setCoefficient(ContactRow& row, double coefficient) {
   row.parts_idly = coefficient * row.normal_response.tail<2>().norm() < row.normal_response.x();
 }
 
+void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
+               double unnoticed_stir, SolverReport& report) {
+  report.residual_mps = 0.0;
+  ++report.sweeps;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
+    double& stir_a = stirOf(bodies, row.a);
+    double& stir_b = stirOf(bodies, row.b);
+    if (row.seen_stir >= 0.0 && stir_a + stir_b - row.seen_stir <= unnoticed_stir) continue;
+    const double before = stir_a + stir_b;
+    const RowChange change = solveRow(row, bodies, friction);
+    if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
+    if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
+    row.seen_stir = change.settled ? stir_a + stir_b : before;
+    report.residual_mps = std::max(report.residual_mps, change.speed_mps);
+    ++report.visits;
+  }
+}
+
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings) {
   for (ContactRow& row : rows) {
@@ -239,37 +174,8 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    sweep(rows, bodies, settings.friction, forward, kStirShare * enough, report);
+    sweepRows(rows, bodies, settings.friction, forward, kStirShare * enough, report);
     if (report.residual_mps <= enough) break;
-  }
-  return report;
-}
-
-SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                                 const SolverSettings& settings) {
-  constexpr double kVisitAll = -std::numeric_limits<double>::infinity();
-  SolverReport report;
-  const std::vector<std::size_t> involved = bodiesOf(rows, bodies);
-  const bool turning = settings.friction && std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) {
-                         return row.resistance.acts();
-                       });
-  Iterate direction{std::vector<Vec3>(rows.size(), Vec3::Zero()),
-                    std::vector<Vec3>(turning ? rows.size() : 0, Vec3::Zero()),
-                    std::vector<Velocity>(involved.size())};
-  Iterate before = direction;
-  store(rows, bodies, involved, before);
-  double last_squared = 0.0;
-  while (report.sweeps < settings.sweeps) {
-    sweep(rows, bodies, settings.friction, true, kVisitAll, report);
-    sweep(rows, bodies, settings.friction, false, kVisitAll, report);
-    // The last sweep always ends within the cones: no step along the direction follows it.
-    const bool careful = report.sweeps < settings.careful_sweeps;
-    const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
-    if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
-    const double squared = squaredStep(rows, before);
-    const bool shrinks = squared < last_squared;  // else the direction has lost its worth
-    continueAlong(rows, bodies, involved, shrinks ? squared / last_squared : 0.0, before, direction);
-    last_squared = squared;
   }
   return report;
 }

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "engine/response/point_collision.h"
 
@@ -123,12 +122,12 @@ struct SolverReport {
   long products = 0;          ///< Of 6 x 6 blocks: what a step of all held rows takes (standing_solver.h).
 };
 
+/// One sweep, from the first row to the last or back, over those whose bodies have been stirred by more since
+/// their last visit. Adds to the report; its residual is of this sweep.
+void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
+               double unnoticed_stir, SolverReport& report);
+
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings);
-
-/// The same by nonsmooth nonlinear conjugate gradients on those sweeps, there and back at a time (Silcowitz,
-/// Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other.
-SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                                 const SolverSettings& settings);
 
 }  // namespace carom

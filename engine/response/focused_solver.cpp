@@ -1,7 +1,12 @@
 #include "engine/response/focused_solver.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
 #include <vector>
+
+#include "engine/response/conjugate_sweeps.h"
 
 namespace carom {
 namespace {
@@ -12,44 +17,63 @@ constexpr double kLocalShare = 0.15;  // of the bodies: so many of the most stir
 constexpr double kWorthwhile = 0.7;   // ... if they have so much of the squared stir
 constexpr std::size_t kFewestRows = 10;
 
-double& stirOf(std::span<ImpulseBody> bodies, int i) {
-  return bodies[static_cast<std::size_t>(i)].stir;
+void clearStirs(const InvolvedBodies& involved, std::span<ImpulseBody> bodies) {
+  for (const std::size_t i : involved.indices) bodies[i].stir = 0.0;
 }
 
-void clearStirs(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
-  for (const ContactRow& row : rows) stirOf(bodies, row.a) = stirOf(bodies, row.b) = 0.0;
-}
+// How much the sweeps have stirred the bodies.
+class Stirs {
+ public:
+  Stirs(const InvolvedBodies& involved, std::span<const ImpulseBody> bodies) : ends_(involved.ends) {
+    for (const std::size_t i : involved.indices) stirs_.push_back(bodies[i].stir);
+  }
 
-// The rows of the most stirred bodies, as indices.
-std::vector<std::size_t> rowsOfMostStirred(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
-  std::vector<double> stirs;  // a body counts as often as it has rows
-  stirs.reserve(2 * rows.size());
-  for (const ContactRow& row : rows)
-    for (const int i : {row.a, row.b})
-      if (stirOf(bodies, i) > 0.0) stirs.push_back(stirOf(bodies, i));
-  std::vector<std::size_t> chosen;
-  if (stirs.empty()) return chosen;
-  const auto most = static_cast<std::ptrdiff_t>(kLocalShare * static_cast<double>(stirs.size()));
-  std::nth_element(stirs.begin(), stirs.begin() + most, stirs.end(), std::greater<>());
-  const double least = stirs[static_cast<std::size_t>(most)];
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (std::max(stirOf(bodies, rows[i].a), stirOf(bodies, rows[i].b)) > least) chosen.push_back(i);
-  return chosen;
-}
+  // The rows of the most stirred bodies, as indices.
+  std::vector<std::size_t> rowsOfMostStirred() const {
+    std::vector<std::size_t> chosen;
+    const double least = leastOfMost();
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      if (std::max(of(ends_[i][0]), of(ends_[i][1])) > least) chosen.push_back(i);
+    return chosen;
+  }
 
-// Whether what is left to do lies mostly in these rows. In a wall from a cold start it lies everywhere, and
-// conjugate gradients must not be broken off.
-bool haveMostStir(std::span<const std::size_t> chosen, std::span<const ContactRow> rows,
-                  std::span<ImpulseBody> bodies) {
-  const auto squared = [&](const ContactRow& row) {
-    const double stir = stirOf(bodies, row.a) + stirOf(bodies, row.b);
+  // Whether what is left to do lies mostly in these rows. In a wall from a cold start it lies everywhere, and
+  // conjugate gradients must not be broken off.
+  bool areMostIn(std::span<const std::size_t> chosen) const {
+    double all = 0.0, theirs = 0.0;
+    for (std::size_t i = 0; i < ends_.size(); ++i) all += squared(i);
+    for (const std::size_t i : chosen) theirs += squared(i);
+    return theirs >= kWorthwhile * all;
+  }
+
+ private:
+  double of(int place) const { return stirs_[static_cast<std::size_t>(place)]; }
+  double squared(std::size_t row) const {
+    const double stir = of(ends_[row][0]) + of(ends_[row][1]);
     return stir * stir;
-  };
-  double all = 0.0, theirs = 0.0;
-  for (const ContactRow& row : rows) all += squared(row);
-  for (const std::size_t i : chosen) theirs += squared(rows[i]);
-  return theirs >= kWorthwhile * all;
-}
+  }
+  // The most stirred are above it. A body counts as often as it has rows.
+  double leastOfMost() const {
+    std::vector<int> rows(stirs_.size(), 0);
+    for (const std::array<int, 2>& ends : ends_)
+      for (const int place : ends) ++rows[static_cast<std::size_t>(place)];
+    std::vector<std::pair<double, int>> stirred;
+    int all = 0;
+    for (std::size_t i = 0; i < stirs_.size(); ++i) {
+      if (stirs_[i] <= 0.0) continue;
+      stirred.emplace_back(stirs_[i], rows[i]);
+      all += rows[i];
+    }
+    std::sort(stirred.begin(), stirred.end(), std::greater<>());
+    int above = static_cast<int>(kLocalShare * all);
+    for (const auto& [stir, count] : stirred)
+      if ((above -= count) < 0) return stir;
+    return 0.0;
+  }
+
+  const std::vector<std::array<int, 2>>& ends_;
+  std::vector<double> stirs_;  // by the bodies' places
+};
 
 // Sweeps over some rows, then over those among them that need it most, and so on: each time at most twice
 // `kLocalShare` of them. Returns the row visits.
@@ -59,12 +83,18 @@ long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chose
   std::vector<ContactRow> local;
   local.reserve(chosen.size());
   for (const std::size_t i : chosen) local.push_back(rows[i]);
-  clearStirs(local, bodies);
-  const SolverReport report = solveContactsFinely(local, bodies, settings);
+  ConjugateSweeps sweeps(local, bodies);
+  clearStirs(sweeps.involved(), bodies);
+  const SolverReport report = sweeps.solve(settings);
   long visits = report.visits;
-  if (report.residual_mps > settings.residual_mps)
-    visits += sweepInwards(local, rowsOfMostStirred(local, bodies), bodies, settings);
-  for (std::size_t k = 0; k < chosen.size(); ++k) rows[chosen[k]] = local[k];
+  if (report.residual_mps > settings.residual_mps) {
+    const Stirs stirs(sweeps.involved(), bodies);
+    visits += sweepInwards(local, stirs.rowsOfMostStirred(), bodies, settings);
+  }
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    rows[chosen[k]].impulse = local[k].impulse;
+    rows[chosen[k]].torque = local[k].torque;
+  }
   return visits;
 }
 
@@ -73,13 +103,14 @@ long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chose
 SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                   const SolverSettings& settings) {
   if (rows.size() < kFocusedRows) return solveContactsFinely(rows, bodies, settings);
+  ConjugateSweeps sweeps(rows, bodies);
   SolverReport total;
   const auto count = [&](long visits) {
     total.visits += visits;
     total.sweeps = static_cast<int>(total.visits / static_cast<long>(rows.size()));
   };
   const auto sweepAll = [&](const SolverSettings& all) {
-    const SolverReport report = solveContactsFinely(rows, bodies, all);
+    const SolverReport report = sweeps.solve(all);
     total.residual_mps = report.residual_mps;
     count(report.visits);
   };
@@ -88,12 +119,13 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
     SolverSettings round{.sweeps = kWideSweeps,
                          .residual_mps = careful ? settings.residual_mps : settings.coarse_residual_mps,
                          .friction = settings.friction};
-    clearStirs(rows, bodies);
+    clearStirs(sweeps.involved(), bodies);
     sweepAll(round);
     if (total.residual_mps <= round.residual_mps || total.sweeps + kWideSweeps > settings.sweeps)
       return total;
-    const std::vector<std::size_t> chosen = rowsOfMostStirred(rows, bodies);
-    if (!haveMostStir(chosen, rows, bodies)) {
+    const Stirs stirs(sweeps.involved(), bodies);
+    const std::vector<std::size_t> chosen = stirs.rowsOfMostStirred();
+    if (!stirs.areMostIn(chosen)) {
       SolverSettings rest = settings;
       rest.sweeps -= total.sweeps;
       rest.careful_sweeps = std::max(0, rest.careful_sweeps - total.sweeps);

@@ -15,8 +15,8 @@ struct ImpulseBody {
   double inverse_mass = 0.0;
   Mat3 inverse_tensor = Mat3::Zero();
   // Of the contact solver:
-  double stir = 0.0;    ///< The sum of the speeds, m/s, that its rows have changed.
-  bool listed = false;  ///< While it lists the bodies of its rows: it has this one.
+  double stir = 0.0;  ///< The sum of the speeds, m/s, that its rows have changed.
+  int place = -1;     ///< While it lists the bodies of its rows: where this one is in the list.
 
   /// Changes the velocity by an impulse (N s) at arm r from the centre of mass.
   void apply(const Vec3& impulse, const Vec3& r) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/response/collision.h"
+#include "engine/response/conjugate_sweeps.h"
 #include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/response/conjugate_sweeps.h"
 #include "engine/response/standing_solver.h"
 #include "tests/engine/response/masonry.h"
 

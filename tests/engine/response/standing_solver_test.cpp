@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/response/conjugate_sweeps.h"
 #include "engine/response/held_rows.h"
 #include "tests/engine/response/masonry.h"
 

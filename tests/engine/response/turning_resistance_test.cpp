@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "engine/response/collision.h"
+#include "engine/response/conjugate_sweeps.h"
 #include "tests/engine/response/random_contact.h"
 
 namespace carom {

@@ -1,0 +1,107 @@
+#include "engine/response/conjugate_sweeps.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace carom {
+
+InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
+  const auto placeOf = [&](int i) {
+    ImpulseBody& body = bodies[static_cast<std::size_t>(i)];
+    if (body.place < 0) {
+      body.place = static_cast<int>(indices.size());
+      indices.push_back(static_cast<std::size_t>(i));
+    }
+    return body.place;
+  };
+  ends.reserve(rows.size());
+  for (const ContactRow& row : rows) {
+    const int a = placeOf(row.a);
+    ends.push_back({a, placeOf(row.b)});
+  }
+  for (const std::size_t i : indices) bodies[i].place = -1;
+}
+
+ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies)
+    : rows_(rows), bodies_(bodies), involved_(rows, bodies) {
+  turning_ =
+      std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resistance.acts(); });
+}
+
+// The search begins here, without a direction.
+void ConjugateSweeps::begin(bool friction) {
+  const std::size_t turning_rows = friction && turning_ ? rows_.size() : 0;
+  direction_.impulses.assign(rows_.size(), Vec3::Zero());
+  direction_.torques.assign(turning_rows, Vec3::Zero());
+  direction_.velocities.assign(involved_.indices.size(), {});
+  before_.impulses.clear();
+  before_.torques.clear();
+  before_.velocities.clear();
+  for (const ContactRow& row : rows_) before_.impulses.push_back(row.impulse);
+  for (std::size_t i = 0; i < turning_rows; ++i) before_.torques.push_back(rows_[i].torque);
+  for (const std::size_t i : involved_.indices) before_.velocities.push_back(bodies_[i].velocity);
+}
+
+// The squared length of the step that sweeps took, in the measure of energy.
+double ConjugateSweeps::squaredStep() const {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Vec3 d = rows_[i].impulse - before_.impulses[i];
+    squared += d.x() * d.x() * rows_[i].normal_response.x() +
+               d.tail<2>().squaredNorm() * rows_[i].largest_slip_response;
+  }
+  for (std::size_t i = 0; i < before_.torques.size(); ++i)
+    squared += (rows_[i].torque - before_.torques[i]).squaredNorm() * rows_[i].largest_turn_response;
+  return squared;
+}
+
+// direction = step + share * direction; the part of the old direction is taken as well, and the next step
+// begins.
+void ConjugateSweeps::continueAlong(double share) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Vec3 kept = share * direction_.impulses[i];
+    direction_.impulses[i] = rows_[i].impulse - before_.impulses[i] + kept;
+    before_.impulses[i] = rows_[i].impulse += kept;
+  }
+  for (std::size_t i = 0; i < before_.torques.size(); ++i) {
+    const Vec3 kept = share * direction_.torques[i];
+    direction_.torques[i] = rows_[i].torque - before_.torques[i] + kept;
+    before_.torques[i] = rows_[i].torque += kept;
+  }
+  for (std::size_t k = 0; k < involved_.indices.size(); ++k) {
+    Velocity& d = direction_.velocities[k];
+    Velocity& v = bodies_[involved_.indices[k]].velocity;
+    const Velocity kept{share * d.linear, share * d.angular};
+    d.linear = v.linear - before_.velocities[k].linear + kept.linear;
+    d.angular = v.angular - before_.velocities[k].angular + kept.angular;
+    before_.velocities[k].linear = v.linear += kept.linear;
+    before_.velocities[k].angular = v.angular += kept.angular;
+  }
+}
+
+SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
+  constexpr double kVisitAll = -std::numeric_limits<double>::infinity();
+  SolverReport report;
+  begin(settings.friction);
+  double last_squared = 0.0;
+  while (report.sweeps < settings.sweeps) {
+    for (const bool forward : {true, false})
+      sweepRows(rows_, bodies_, settings.friction, forward, kVisitAll, report);
+    // The last sweep always ends within the cones: no step along the direction follows it.
+    const bool careful = report.sweeps < settings.careful_sweeps;
+    const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
+    if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
+    const double squared = squaredStep();
+    const bool shrinks = squared < last_squared;  // else the direction has lost its worth
+    continueAlong(shrinks ? squared / last_squared : 0.0);
+    last_squared = squared;
+  }
+  return report;
+}
+
+SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                 const SolverSettings& settings) {
+  return ConjugateSweeps(rows, bodies).solve(settings);
+}
+
+}  // namespace carom

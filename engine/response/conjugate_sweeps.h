@@ -1,0 +1,52 @@
+#pragma once
+// Nonsmooth nonlinear conjugate gradients on the sweeps of contact_solver.h, there and back at a time
+// (Silcowitz, Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other. Tested in
+// tests/engine/response/contact_solver_test.cpp.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/response/contact_solver.h"
+
+namespace carom {
+
+/// The bodies that rows refer to, each once: of a world, those of one island.
+struct InvolvedBodies {
+  InvolvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies);
+
+  std::vector<std::size_t> indices;
+  std::vector<std::array<int, 2>> ends;  ///< Of each row, a and b, as places in `indices`.
+};
+
+/// Rows that are solved several times: what is found of them once is kept.
+class ConjugateSweeps {
+ public:
+  ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies);
+
+  /// As solveContacts, from the impulses and velocities as they are now.
+  SolverReport solve(const SolverSettings& settings);
+  const InvolvedBodies& involved() const { return involved_; }
+
+ private:
+  struct Iterate {  // impulses and the velocities they give: a point, or a direction, of the search
+    std::vector<Vec3> impulses;
+    std::vector<Vec3> torques;  // none where no row resists turning
+    std::vector<Velocity> velocities;
+  };
+  void begin(bool friction);
+  double squaredStep() const;
+  void continueAlong(double share);
+
+  std::span<ContactRow> rows_;
+  std::span<ImpulseBody> bodies_;
+  InvolvedBodies involved_;
+  bool turning_ = false;
+  Iterate before_, direction_;
+};
+
+SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                 const SolverSettings& settings);
+
+}  // namespace carom
