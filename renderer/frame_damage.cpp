@@ -182,12 +182,14 @@ GridBlock ScreenBounds::of(const OcclusionTriangle& triangle) const {
 
 GridBlock shadowMapBounds(const FrameBlock& block, const DrawnBody& caster, int texels) {
   constexpr int kRasterReach_texels = 2;
+  const GridBlock map{0, texels, 0, texels};
   const LightBox box = lightBox(rowsOf(block.shadow_rows), caster);
+  if (!box.low.allFinite() || !box.high.allFinite()) return map;
   const GridBlock covered{texelBelow(box.low.x(), texels) - kRasterReach_texels,
                           texelBelow(box.high.x(), texels) + 1 + kRasterReach_texels,
                           texelBelow(box.low.y(), texels) - kRasterReach_texels,
                           texelBelow(box.high.y(), texels) + 1 + kRasterReach_texels};
-  return common(covered, {0, texels, 0, texels});
+  return common(covered, map);
 }
 
 FrameDamage wholeDamage(const FrameSizes& sizes) {

@@ -1,7 +1,7 @@
 #pragma once
 // Nonsmooth nonlinear conjugate gradients on the sweeps of contact_solver.h, there and back at a time
 // (Silcowitz, Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other. Tested in
-// tests/engine/response/contact_solver_test.cpp.
+// tests/engine/response/conjugate_sweeps_test.cpp.
 
 #include <array>
 #include <cstddef>

@@ -194,6 +194,12 @@ TEST_F(FrameDamageOf, WhatIsNoNumberMayShadeAnything) {
   now_.casting[0].record.rows[1][3] = std::numeric_limits<float>::quiet_NaN();
   before_.visible = now_.visible = {bodyAt(Vec3(2.0, 1.0, 0.0), 0.4)};
   EXPECT_TRUE(isDamaged(damage().image, Vec3(2.0, 1.0, 0.0)));
+  constexpr int kTexels = 64;
+  const GridBlock shaded = shadowMapBounds(now_.block, now_.casting[0], kTexels);
+  EXPECT_EQ(shaded.x_begin, 0);
+  EXPECT_EQ(shaded.x_end, kTexels);
+  EXPECT_EQ(shaded.y_begin, 0);
+  EXPECT_EQ(shaded.y_end, kTexels);
 }
 
 TEST(ScreenBounds, HoldTheCornersOfABody) {

@@ -1,0 +1,64 @@
+// Sweeps along conjugate directions: the same conditions as from plain sweeps, in fewer of them.
+
+#include "engine/response/conjugate_sweeps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/engine/response/masonry.h"
+
+namespace carom {
+namespace {
+
+TEST(InvolvedBodies, AreThoseOfTheRowsEachOnce) {
+  Masonry m = wall(3, 4);
+  m.lay(Vec3(50, 0, 0), 1.0);  // touches nothing
+  const InvolvedBodies involved(m.rows, m.bodies);
+  std::vector<std::size_t> ascending = involved.indices;
+  std::sort(ascending.begin(), ascending.end());
+  ASSERT_EQ(ascending.size(), m.bodies.size() - 1);
+  for (std::size_t i = 0; i < ascending.size(); ++i) EXPECT_EQ(ascending[i], i);
+  ASSERT_EQ(involved.ends.size(), m.rows.size());
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    EXPECT_EQ(involved.indices[at(involved.ends[i][0])], at(m.rows[i].a));
+    EXPECT_EQ(involved.indices[at(involved.ends[i][1])], at(m.rows[i].b));
+  }
+}
+
+// Islands are listed one after another from the same bodies.
+TEST(InvolvedBodies, LeaveNothingBehindForTheNextList) {
+  Masonry m = columns(2, 3);
+  const std::span<ContactRow> rows(m.rows);
+  const std::size_t half = rows.size() / 2;
+  const InvolvedBodies first(rows.first(half), m.bodies), second(rows.last(half), m.bodies);
+  EXPECT_EQ(first.indices, (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(second.indices, (std::vector<std::size_t>{0, 4, 5, 6}));
+}
+
+TEST(ConjugateSweeps, ReachTheResidualInAFractionOfTheSweeps) {
+  Masonry plainly = wall(6, 5), finely = plainly;
+  SolverSettings settings{.sweeps = 500, .residual_mps = 1e-5 * kGained};
+  const SolverReport fine = solveContactsFinely(finely.rows, finely.bodies, settings);
+  EXPECT_LE(fine.residual_mps, settings.residual_mps);
+  expectWithinCones(finely);
+  settings.sweeps = 3 * fine.sweeps;
+  EXPECT_GT(solveContacts(plainly.rows, plainly.bodies, settings).residual_mps, settings.residual_mps);
+}
+
+// Each call begins without a direction, whatever the last one left.
+TEST(ConjugateSweeps, OneAfterAnotherAreThoseOfFreshOnesBitForBit) {
+  Masonry kept = wall(6, 5), fresh = kept;
+  const SolverSettings settings{.sweeps = 12, .residual_mps = 1e-12};
+  ConjugateSweeps sweeps(kept.rows, kept.bodies);
+  for (int round = 0; round < 3; ++round) {
+    const SolverReport a = sweeps.solve(settings);
+    const SolverReport b = solveContactsFinely(fresh.rows, fresh.bodies, settings);
+    EXPECT_EQ(a.residual_mps, b.residual_mps) << round;
+    for (std::size_t i = 0; i < kept.rows.size(); ++i)
+      ASSERT_EQ(kept.rows[i].impulse, fresh.rows[i].impulse) << round << " " << i;
+  }
+}
+
+}  // namespace
+}  // namespace carom
