@@ -33,8 +33,12 @@ TEST(ShaderCache, DrawsTheSameFrameFilledEmptyDamagedAndNowhere) {
   ASSERT_FALSE(expected.empty());
   const TemporaryFolder home;
   const std::string variable = "XDG_CACHE_HOME=" + home.path().string();
-  EXPECT_EQ(frameWith({variable}), expected);
-  const std::vector<fs::path> filled = cachedFiles(home.path());
+  // Mesa writes in a thread of the lowest priority and drops at the end what is not written yet.
+  std::vector<fs::path> filled;
+  for (int run = 0; run < 20 && filled.size() <= 2; ++run) {
+    EXPECT_EQ(frameWith({variable}), expected);
+    filled = cachedFiles(home.path());
+  }
   EXPECT_GT(filled.size(), 2u);
   EXPECT_EQ(frameWith({variable}), expected);
   for (const fs::path& file : filled) {
