@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
+#include "demos/exit_code.h"
 #include "demos/json.h"
 #include "program_run.h"
 
@@ -52,6 +53,14 @@ class Burners {
  private:
   std::vector<pid_t> children_;
 };
+
+/// The end of the first run that could judge, or of the last of some: on a busy machine none may.
+ProgramEnd judged(const std::vector<std::string>& arguments) {
+  ProgramEnd end = runCarom(arguments);
+  for (int run = 1; run < 10 && end.code == static_cast<int>(ExitCode::kInconclusive); ++run)
+    end = runCarom(arguments);
+  return end;
+}
 
 double measured_ms(const ProgramEnd& end) {
   return Json::parse(end.out, "stdout").at("frame_ms").at("atPercentile").asNumber();
@@ -212,10 +221,14 @@ TEST(Budget, ThePhasesOfEveryFrameAddUpToNoMoreThanTheFrame) {
   EXPECT_EQ(rows, 20);
 }
 
-TEST(Budget, ASlowedPhaseEndsWith1AndIsNamedAndAnotherSubjectEndsWith3) {
+TEST(Budget, AnotherSubjectEndsWith3AndASlowedPhaseWith1AndIsNamed) {
   const TemporaryFolder folder;
   const std::string old = (folder.path() / "old.json").string();
   ASSERT_EQ(runCarom(quick({"--budget", "100000", "--json", old})).code, 0);
+  const ProgramEnd seed = runCarom(quick({"--seed", "99", "--baseline", old}));
+  EXPECT_EQ(seed.code, 3);
+  expectOneLine(seed, old + ": is of another content of the scene");
+
   // The past is made faster by far more than noise: what is measured now has become slower.
   std::string text = readTextFile(old);
   const std::size_t draw = text.find("\"name\": \"draw\"");
@@ -223,19 +236,16 @@ TEST(Budget, ASlowedPhaseEndsWith1AndIsNamedAndAnotherSubjectEndsWith3) {
   text.replace(mean, text.find_first_of(",\n", mean) - mean, "\"mean\": 0.001");
   const std::string faster = folder.file("faster.json", text).string();
 
-  const ProgramEnd slow =
-      runCarom(quick({"--budget", "100000", "--baseline", faster, "--tolerance", "900%"}));
+  const ProgramEnd slow = judged(quick({"--budget", "100000", "--baseline", faster, "--tolerance", "900%"}));
+  if (slow.code == static_cast<int>(ExitCode::kInconclusive)) GTEST_SKIP() << "too busy a machine";
   EXPECT_EQ(slow.code, 1) << slow.err;
   EXPECT_NE(slow.out.find("\nslower: draw, mean "), std::string::npos) << slow.out;
   EXPECT_EQ(slow.out.find("slower: encode"), std::string::npos) << slow.out;
 
-  const ProgramEnd same = runCarom(quick({"--budget", "100000", "--baseline", old, "--tolerance", "900%"}));
+  const ProgramEnd same = judged(quick({"--budget", "100000", "--baseline", old, "--tolerance", "900%"}));
+  if (same.code == static_cast<int>(ExitCode::kInconclusive)) GTEST_SKIP() << "too busy a machine";
   EXPECT_EQ(same.code, 0) << same.out;
   EXPECT_NE(same.out.find("\nno phase is slower than in "), std::string::npos) << same.out;
-
-  const ProgramEnd seed = runCarom(quick({"--seed", "99", "--baseline", old}));
-  EXPECT_EQ(seed.code, 3);
-  expectOneLine(seed, old + ": is of another content of the scene");
 }
 
 TEST(Budget, BadScenesAndPlacesEndAsEverywhere) {
