@@ -54,11 +54,14 @@ class Burners {
   std::vector<pid_t> children_;
 };
 
+bool isInconclusive(const ProgramEnd& end) {
+  return end.code == static_cast<int>(ExitCode::kInconclusive);
+}
+
 /// The end of the first run that could judge, or of the last of some: on a busy machine none may.
 ProgramEnd judged(const std::vector<std::string>& arguments) {
   ProgramEnd end = runCarom(arguments);
-  for (int run = 1; run < 10 && end.code == static_cast<int>(ExitCode::kInconclusive); ++run)
-    end = runCarom(arguments);
+  for (int run = 1; run < 10 && isInconclusive(end); ++run) end = runCarom(arguments);
   return end;
 }
 
@@ -237,15 +240,20 @@ TEST(Budget, AnotherSubjectEndsWith3AndASlowedPhaseWith1AndIsNamed) {
   const std::string faster = folder.file("faster.json", text).string();
 
   const ProgramEnd slow = judged(quick({"--budget", "100000", "--baseline", faster, "--tolerance", "900%"}));
-  if (slow.code == static_cast<int>(ExitCode::kInconclusive)) GTEST_SKIP() << "too busy a machine";
-  EXPECT_EQ(slow.code, 1) << slow.err;
-  EXPECT_NE(slow.out.find("\nslower: draw, mean "), std::string::npos) << slow.out;
+  const bool told = !isInconclusive(slow);  // else it says of which phase, and what hides it
+  if (told) {
+    EXPECT_EQ(slow.code, 1) << slow.err;
+  }
+  EXPECT_NE(slow.out.find(told ? "\nslower: draw, mean " : "\ninconclusive: draw, mean "), std::string::npos)
+      << slow.out;
   EXPECT_EQ(slow.out.find("slower: encode"), std::string::npos) << slow.out;
 
   const ProgramEnd same = judged(quick({"--budget", "100000", "--baseline", old, "--tolerance", "900%"}));
-  if (same.code == static_cast<int>(ExitCode::kInconclusive)) GTEST_SKIP() << "too busy a machine";
-  EXPECT_EQ(same.code, 0) << same.out;
-  EXPECT_NE(same.out.find("\nno phase is slower than in "), std::string::npos) << same.out;
+  EXPECT_EQ(same.out.find("\nslower: "), std::string::npos) << same.out;
+  if (!isInconclusive(same)) {
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_NE(same.out.find("\nno phase is slower than in "), std::string::npos) << same.out;
+  }
 }
 
 TEST(Budget, BadScenesAndPlacesEndAsEverywhere) {

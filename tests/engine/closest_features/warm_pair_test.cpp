@@ -238,7 +238,7 @@ TEST(WarmQuery, OfFeaturesThatAreStillTheClosest_VisitsOnePair) {
         ASSERT_EQ(c.states, 1) << run << ", step " << i;
       } else {
         ++changed;
-        ASSERT_LE(c.states, 8 + 12) << "in place and by a walk, " << run << ", step " << i;
+        ASSERT_LE(c.states, 13) << "in place and by a walk, " << run << ", step " << i;
       }
       last = c.features;
     }
