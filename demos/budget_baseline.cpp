@@ -27,6 +27,8 @@ BudgetSubject readSubject(const Json& json) {
   s.camera = json.at("camera").asString();
   const Json* preset = json.find("preset");  // older files name none
   s.preset = preset != nullptr ? preset->asString() : "realtime";
+  const Json* threads = json.find("threads");
+  s.threads = threads != nullptr ? count(*threads) : 1;
   s.machine = json.at("machine").asString();
   s.renderer = json.at("renderer").asString();
   s.build = json.at("build").asString();
@@ -104,6 +106,7 @@ void requireSameSubject(const Baseline& baseline, const BudgetSubject& subject) 
   require("length", length(was), length(subject));
   require("camera", was.camera, subject.camera);
   require("preset", was.preset, subject.preset);
+  require("number of threads", std::to_string(was.threads), std::to_string(subject.threads));
   require("machine", was.machine, subject.machine);
   require("renderer", was.renderer, subject.renderer);
   require("build", was.build, subject.build);

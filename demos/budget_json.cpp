@@ -33,6 +33,7 @@ Json subjectJson(const BudgetSubject& s) {
                        {"frames", s.frames},
                        {"camera", s.camera},
                        {"preset", s.preset},
+                       {"threads", s.threads},
                        {"machine", s.machine},
                        {"renderer", s.renderer},
                        {"build", s.build}});

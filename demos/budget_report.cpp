@@ -29,6 +29,7 @@ std::string headText(const BudgetResult& result) {
                             s.scene.c_str(), s.frames, s.fps, s.width, s.height, s.preset.c_str(),
                             result.replays.size(), hexText(result.least.back().state_hash).c_str());
   text += s.machine + "; " + s.renderer + "; " + s.build;
+  if (s.threads > 1) text += format("; %d threads step", s.threads);
   if (result.outside_load) text += format("; others used %.0f %% of the CPU", 100.0 * *result.outside_load);
   return text + "\n";
 }

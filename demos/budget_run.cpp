@@ -38,7 +38,7 @@ void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
 
 Replay runOnce(const ReplayPlan& plan, renderer::FrameRenderer& pictures,
                const std::function<void(int)>& done) {
-  SceneWorld scene = makeSceneWorld(plan.scene, plan.mesh);
+  SceneWorld scene = makeSceneWorld(plan.scene, plan.mesh, plan.threads);
   pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera.at(0.0, scene.world.states()), {},
                 drawnWater(plan.scene, 0.0));
   PhaseStopwatch watch(steadySeconds, plan.keeps_slices);

@@ -42,6 +42,7 @@ BudgetSubject subjectOf(const BudgetOptions& options, const Scene& scene, const 
   subject.frames = frames;
   subject.camera = camera;
   subject.preset = options.preset;
+  subject.threads = threadsOf(options.choice);
   subject.machine = machineName();
   subject.build = buildName();
   return subject;
@@ -101,8 +102,14 @@ ExitCode budget(const BudgetOptions& options) {
 
   catchInterrupts();
   const CameraPath path(camera.camera, made, static_cast<double>(options.width) / options.height);
-  const ReplayPlan plan{scene,           options.choice.mesh,   clock, path, frames,
-                        options.replays, !options.trace.empty()};
+  const ReplayPlan plan{.scene = scene,
+                        .mesh = options.choice.mesh,
+                        .clock = clock,
+                        .camera = path,
+                        .frames = frames,
+                        .replays = options.replays,
+                        .threads = subject.threads,
+                        .keeps_slices = !options.trace.empty()};
   const MachineLoad load;
   std::vector<Replay> replays;
   {

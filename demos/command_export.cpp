@@ -99,7 +99,7 @@ ExitCode exportMotion(const ExportOptions& options) {
   std::optional<RecordingReader> recording;
   if (isRecording(options.choice.scene)) recording.emplace(options.choice.scene);
   const Plan plan = recording ? recordedPlan(options, *recording) : simulatedPlan(options);
-  SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh);
+  SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh, threadsOf(plan.choice));
   RunFacts facts;
   std::optional<FrameSource> source;
   if (recording)

@@ -17,6 +17,7 @@ namespace carom::demos {
 namespace {
 
 constexpr int kMostWorkers = 64;
+constexpr int kMostThreads = 64;
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
 constexpr double kLowestSpeed = 0.001, kHighestSpeed = 1000.0;
@@ -78,6 +79,14 @@ void addSceneOptions(CLI::App& command, SceneChoice& choice) {
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
   command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
   command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+}
+
+void addThreadsOption(CLI::App& command, SceneChoice& choice) {
+  command
+      .add_option("--threads", choice.threads,
+                  "That step crowds together (0: one for each processor); states are the same for any number")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
 }
 
 void addTellingOptions(CLI::App& command, Telling& telling) {
@@ -204,6 +213,7 @@ void CommandLine::addRender() {
                    "Processes that draw (0: one for each processor); frames are the same for any number")
       ->check(CLI::Range(0, kMostWorkers))
       ->capture_default_str();
+  addThreadsOption(*render_command, render_options.choice);
   addTellingOptions(*render_command, render_options.telling);
   render_command->add_flag("-v,--verbose", render_options.telling.verbose,
                            "Tell about scene and renderer first");
@@ -270,6 +280,7 @@ void CommandLine::addSimulate() {
                                "One row a step: energy, momentum, gap, counters");
   simulate_command->add_option("--expect-hash", simulate_options.expected_hash,
                                "Exit 1 when the final state hash differs");
+  addThreadsOption(*simulate_command, simulate_options.choice);
   addTellingOptions(*simulate_command, simulate_options.telling);
   simulate_command->footer("Example: carom simulate resting --csv run.csv --audit steps.csv");
 }
@@ -285,6 +296,7 @@ void CommandLine::addExport() {
   addTrajectoryOptions(*export_command, options.trajectory);
   export_command->add_option("--fps", options.fps, "Frames a second (30; a recording has its own)");
   export_command->add_option("--scene", options.moved, "Where the scene of the recording is now");
+  addThreadsOption(*export_command, options.choice);
   addTellingOptions(*export_command, options.telling);
   export_command->footer("Example: carom export sliding sliding.glb");
 }
@@ -374,6 +386,8 @@ void CommandLine::addBudget() {
   addGlOption(*budget_command, options.gl)->capture_default_str();
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
   addPresetOption(*budget_command, options.preset);
+  options.choice.threads = 1;  // what is measured is a frame on one thread
+  addThreadsOption(*budget_command, options.choice);
   budget_command->add_option("--json", options.json,
                              "All figures as JSON, to a file or - for standard output");
   budget_command->add_option("--csv", options.csv, "One row a frame, to a file or - for standard output");

@@ -455,7 +455,7 @@ ExitCode render(const RenderOptions& options) {
   const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
   Manifest manifest = emptyManifest(options, plan);
 
-  SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh);
+  SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh, threadsOf(plan.choice));
   Overlays overlays({shown, options.focus, recording.has_value()}, made, plan.clock);
   manifest.overlays = overlays.identity();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);

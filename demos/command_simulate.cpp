@@ -79,7 +79,7 @@ void printFacts(const World& world, const RunFacts& facts) {
 
 ExitCode simulate(const SimulateOptions& options) {
   const Scene scene = chosenScene(options.choice);
-  SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
+  SceneWorld made = makeSceneWorld(scene, options.choice.mesh, threadsOf(options.choice));
   const FrameClock clock({options.fps, scene.rate_hz});
   const int steps = clock.stepCount(scene.duration_s);
   if (!options.output.empty() && clock.frameCount(scene.duration_s) < 1)

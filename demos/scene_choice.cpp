@@ -3,12 +3,19 @@
 
 #include <algorithm>
 #include <string_view>
+#include <thread>
 
 #include "demos/asset_path.h"
 #include "demos/nearest_name.h"
 #include "demos/scene_file.h"
 
 namespace carom::demos {
+
+int threadsOf(const SceneChoice& choice) {
+  constexpr int kMost = 8;
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  return choice.threads > 0 ? choice.threads : std::clamp(processors, 1, kMost);
+}
 
 Scene chosenScene(const SceneChoice& choice) {
   Scene scene = readSceneFile(findScene(choice.scene));

@@ -126,12 +126,13 @@ void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {
 
 }  // namespace
 
-SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh) {
+SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   if (mesh) requireReplaceableHull(scene);
   WorldSettings settings;
   settings.step_s = 1.0 / scene.rate_hz;
   settings.gravity = scene.gravity;
   settings.air = scene.air;
+  settings.threads = threads;
   for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
   SceneWorld made{World(settings), {}, {}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);

@@ -21,9 +21,10 @@ struct SceneWorld {
   std::vector<SurfaceLook> looks;
 };
 
-/// Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no
+/// `threads` step it (WorldSettings). Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no
 /// volume, and when bodies overlap at the start (both named, with the depth).
-SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh);
+SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh,
+                          int threads = 1);
 
 /// What the renderer is to draw for these states of the scene's bodies.
 std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::span<const BodyState> states);

@@ -40,7 +40,7 @@ inline constexpr int kSolverStandingSweeps = 20;       // of what stands, before
 inline constexpr int kSolverCrowdStandingSweeps = 28;  // ... of a crowd that does
 // Crowds (focused_solver.h) are swept alone for a pause, to the stirred residual, when solving them at once
 // did not converge, or was too dear, in so many steps more often than not.
-inline constexpr long kSolverDearProducts = 100;  // of blocks, a row
+inline constexpr long kSolverDearProducts = 16;  // of blocks, a row: more takes longer than the sweeps
 inline constexpr int kSolverPatience = 8;
 inline constexpr int kSolverPause = 120;  // steps
 inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already

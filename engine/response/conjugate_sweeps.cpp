@@ -2,8 +2,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace carom {
+namespace {
+
+constexpr std::size_t kBlock = 2048;  // rows, or bodies, that are summed up, or worked on, together
+
+std::size_t blocksOf(std::size_t count) {
+  return (count + kBlock - 1) / kBlock;
+}
+
+}  // namespace
 
 InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
   const auto placeOf = [&](int i) {
@@ -22,10 +32,25 @@ InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<Impul
   for (const std::size_t i : indices) bodies[i].place = -1;
 }
 
-ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies)
-    : rows_(rows), bodies_(bodies), involved_(rows, bodies) {
+ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
+    : rows_(rows), bodies_(bodies), crew_(crew), involved_(rows, bodies), sweeps_(rows, bodies, crew) {
   turning_ =
       std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resistance.acts(); });
+}
+
+// Calls work(block, begin, end) for blocks of the things from 0 to `count`, side by side. The blocks are the
+// same for every crew.
+template <typename Work>
+void ConjugateSweeps::inBlocks(std::size_t count, const Work& work) {
+  const std::size_t blocks = blocksOf(count);
+  const auto workBlock = [&](int k) {
+    const auto block = static_cast<std::size_t>(k);
+    work(block, block * kBlock, std::min(count, (block + 1) * kBlock));
+  };
+  if (crew_ != nullptr && blocks > 1)
+    crew_->run(static_cast<int>(blocks), workBlock);
+  else
+    for (std::size_t block = 0; block < blocks; ++block) workBlock(static_cast<int>(block));
 }
 
 // The search begins here, without a direction.
@@ -34,49 +59,62 @@ void ConjugateSweeps::begin(bool friction) {
   direction_.impulses.assign(rows_.size(), Vec3::Zero());
   direction_.torques.assign(turning_rows, Vec3::Zero());
   direction_.velocities.assign(involved_.indices.size(), {});
-  before_.impulses.clear();
-  before_.torques.clear();
-  before_.velocities.clear();
-  for (const ContactRow& row : rows_) before_.impulses.push_back(row.impulse);
-  for (std::size_t i = 0; i < turning_rows; ++i) before_.torques.push_back(rows_[i].torque);
-  for (const std::size_t i : involved_.indices) before_.velocities.push_back(bodies_[i].velocity);
+  before_.impulses.resize(rows_.size());
+  before_.torques.resize(turning_rows);
+  before_.velocities.resize(involved_.indices.size());
+  inBlocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) before_.impulses[i] = rows_[i].impulse;
+  });
+  for (std::size_t i = 0; i < turning_rows; ++i) before_.torques[i] = rows_[i].torque;
+  for (std::size_t k = 0; k < involved_.indices.size(); ++k)
+    before_.velocities[k] = bodies_[involved_.indices[k]].velocity;
 }
 
 // The squared length of the step that sweeps took, in the measure of energy.
-double ConjugateSweeps::squaredStep() const {
-  double squared = 0.0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Vec3 d = rows_[i].impulse - before_.impulses[i];
-    squared += d.x() * d.x() * rows_[i].normal_response.x() +
-               d.tail<2>().squaredNorm() * rows_[i].largest_slip_response;
-  }
-  for (std::size_t i = 0; i < before_.torques.size(); ++i)
-    squared += (rows_[i].torque - before_.torques[i]).squaredNorm() * rows_[i].largest_turn_response;
-  return squared;
+double ConjugateSweeps::squaredStep() {
+  squares_.assign(blocksOf(rows_.size()), 0.0);
+  const bool turning = !before_.torques.empty();
+  inBlocks(rows_.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+    double squared = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 d = rows_[i].impulse - before_.impulses[i];
+      squared += d.x() * d.x() * rows_[i].normal_response.x() +
+                 d.tail<2>().squaredNorm() * rows_[i].largest_slip_response;
+    }
+    for (std::size_t i = begin; turning && i < end; ++i)
+      squared += (rows_[i].torque - before_.torques[i]).squaredNorm() * rows_[i].largest_turn_response;
+    squares_[block] = squared;
+  });
+  return std::accumulate(squares_.begin(), squares_.end(), 0.0);
 }
 
 // direction = step + share * direction; the part of the old direction is taken as well, and the next step
 // begins.
 void ConjugateSweeps::continueAlong(double share) {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Vec3 kept = share * direction_.impulses[i];
-    direction_.impulses[i] = rows_[i].impulse - before_.impulses[i] + kept;
-    before_.impulses[i] = rows_[i].impulse += kept;
-  }
-  for (std::size_t i = 0; i < before_.torques.size(); ++i) {
-    const Vec3 kept = share * direction_.torques[i];
-    direction_.torques[i] = rows_[i].torque - before_.torques[i] + kept;
-    before_.torques[i] = rows_[i].torque += kept;
-  }
-  for (std::size_t k = 0; k < involved_.indices.size(); ++k) {
-    Velocity& d = direction_.velocities[k];
-    Velocity& v = bodies_[involved_.indices[k]].velocity;
-    const Velocity kept{share * d.linear, share * d.angular};
-    d.linear = v.linear - before_.velocities[k].linear + kept.linear;
-    d.angular = v.angular - before_.velocities[k].angular + kept.angular;
-    before_.velocities[k].linear = v.linear += kept.linear;
-    before_.velocities[k].angular = v.angular += kept.angular;
-  }
+  const bool turning = !before_.torques.empty();
+  inBlocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 kept = share * direction_.impulses[i];
+      direction_.impulses[i] = rows_[i].impulse - before_.impulses[i] + kept;
+      before_.impulses[i] = rows_[i].impulse += kept;
+    }
+    for (std::size_t i = begin; turning && i < end; ++i) {
+      const Vec3 kept = share * direction_.torques[i];
+      direction_.torques[i] = rows_[i].torque - before_.torques[i] + kept;
+      before_.torques[i] = rows_[i].torque += kept;
+    }
+  });
+  inBlocks(involved_.indices.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Velocity& d = direction_.velocities[k];
+      Velocity& v = bodies_[involved_.indices[k]].velocity;
+      const Velocity kept{share * d.linear, share * d.angular};
+      d.linear = v.linear - before_.velocities[k].linear + kept.linear;
+      d.angular = v.angular - before_.velocities[k].angular + kept.angular;
+      before_.velocities[k].linear = v.linear += kept.linear;
+      before_.velocities[k].angular = v.angular += kept.angular;
+    }
+  });
 }
 
 SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
@@ -85,8 +123,7 @@ SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
   begin(settings.friction);
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
-    for (const bool forward : {true, false})
-      sweepRows(rows_, bodies_, settings.friction, forward, kVisitAll, report);
+    for (const bool forward : {true, false}) sweeps_.sweep(settings.friction, forward, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
@@ -101,7 +138,7 @@ SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
 
 SolverReport solveContactsFinely(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                  const SolverSettings& settings) {
-  return ConjugateSweeps(rows, bodies).solve(settings);
+  return ConjugateSweeps(rows, bodies, settings.crew).solve(settings);
 }
 
 }  // namespace carom

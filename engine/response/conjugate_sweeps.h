@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/shared_sweeps.h"
 
 namespace carom {
 
@@ -23,7 +23,7 @@ struct InvolvedBodies {
 /// Rows that are solved several times: what is found of them once is kept.
 class ConjugateSweeps {
  public:
-  ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies);
+  ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew = nullptr);
 
   /// As solveContacts, from the impulses and velocities as they are now.
   SolverReport solve(const SolverSettings& settings);
@@ -36,13 +36,18 @@ class ConjugateSweeps {
     std::vector<Velocity> velocities;
   };
   void begin(bool friction);
-  double squaredStep() const;
+  double squaredStep();
   void continueAlong(double share);
+  template <typename Work>
+  void inBlocks(std::size_t count, const Work& work);
 
   std::span<ContactRow> rows_;
   std::span<ImpulseBody> bodies_;
+  Crew* crew_;
   InvolvedBodies involved_;
+  SharedSweeps sweeps_;
   bool turning_ = false;
+  std::vector<double> squares_;  // of blocks of rows
   Iterate before_, direction_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/foundation/tolerances.h"
+#include "engine/response/shared_sweeps.h"
 #include "engine/response/turning_resistance.h"
 
 namespace carom {
@@ -169,12 +170,13 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     row.seen_stir = -1.0;
     stirOf(bodies, row.a) = stirOf(bodies, row.b) = 0.0;
   }
+  SharedSweeps sweeps(rows, bodies, settings.crew);
   SolverReport report;
   while (report.sweeps < settings.sweeps) {
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    sweepRows(rows, bodies, settings.friction, forward, kStirShare * enough, report);
+    sweeps.sweep(settings.friction, forward, kStirShare * enough, report);
     if (report.residual_mps <= enough) break;
   }
   return report;

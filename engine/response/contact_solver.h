@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/foundation/crew.h"
 #include "engine/response/point_collision.h"
 
 namespace carom {
@@ -34,6 +35,7 @@ struct ContactRow {
 
   // Filled by `prepareRow`.
   bool parts_idly = false;  ///< No impulse within the cone holds it where it separates without.
+  int part = 1;             ///< Of the bodies, that has both: see dissection.h.
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
   Mat3 inverse_response = Mat3::Zero();
@@ -72,8 +74,10 @@ inline Vec3 rowImpulse(const ContactRow& row, const Vec3& impulse) {
 }
 inline void applyToRow(const ContactRow& row, const Vec3& impulse, std::span<ImpulseBody> bodies) {
   const Vec3 on_b = rowImpulse(row, impulse);
-  bodies[static_cast<std::size_t>(row.a)].apply(-on_b, row.r_a);
-  bodies[static_cast<std::size_t>(row.b)].apply(on_b, row.r_b);
+  ImpulseBody& a = bodies[static_cast<std::size_t>(row.a)];
+  ImpulseBody& b = bodies[static_cast<std::size_t>(row.b)];
+  if (a.inverse_mass > 0.0) a.apply(-on_b, row.r_a);
+  if (b.inverse_mass > 0.0) b.apply(on_b, row.r_b);
 }
 /// Velocity of the point on B relative to that on A, m/s, world frame.
 inline Vec3 rowVelocityInWorld(const ContactRow& row, std::span<const ImpulseBody> bodies) {
@@ -113,6 +117,7 @@ struct SolverSettings {
   /// Of 6 x 6 blocks: where a step of all held rows takes more, none is made (standing_solver.h).
   long most_products = std::numeric_limits<long>::max();
   bool resumes = false;  ///< Goes on where the last call stopped: rows that it left settled are not visited.
+  Crew* crew = nullptr;  ///< Who sweeps; none: the caller alone, which changes no bit of the outcome.
 };
 
 struct SolverReport {

@@ -83,7 +83,7 @@ long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chose
   std::vector<ContactRow> local;
   local.reserve(chosen.size());
   for (const std::size_t i : chosen) local.push_back(rows[i]);
-  ConjugateSweeps sweeps(local, bodies);
+  ConjugateSweeps sweeps(local, bodies, settings.crew);
   clearStirs(sweeps.involved(), bodies);
   const SolverReport report = sweeps.solve(settings);
   long visits = report.visits;
@@ -103,7 +103,7 @@ long sweepInwards(std::span<ContactRow> rows, std::span<const std::size_t> chose
 SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                   const SolverSettings& settings) {
   if (rows.size() < kFocusedRows) return solveContactsFinely(rows, bodies, settings);
-  ConjugateSweeps sweeps(rows, bodies);
+  ConjugateSweeps sweeps(rows, bodies, settings.crew);
   SolverReport total;
   const auto count = [&](long visits) {
     total.visits += visits;
@@ -118,7 +118,8 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
     const bool careful = total.sweeps < settings.careful_sweeps;
     SolverSettings round{.sweeps = kWideSweeps,
                          .residual_mps = careful ? settings.residual_mps : settings.coarse_residual_mps,
-                         .friction = settings.friction};
+                         .friction = settings.friction,
+                         .crew = settings.crew};
     clearStirs(sweeps.involved(), bodies);
     sweepAll(round);
     if (total.residual_mps <= round.residual_mps || total.sweeps + kWideSweeps > settings.sweeps)

@@ -70,8 +70,10 @@ Vec3 rowSpin(const ContactRow& row, std::span<const ImpulseBody> bodies) {
 
 void applyTorqueToRow(const ContactRow& row, const Vec3& torque, std::span<ImpulseBody> bodies) {
   const Vec3 on_b = rowImpulse(row, torque);
-  bodies[static_cast<std::size_t>(row.a)].turn(-on_b);
-  bodies[static_cast<std::size_t>(row.b)].turn(on_b);
+  ImpulseBody& a = bodies[static_cast<std::size_t>(row.a)];
+  ImpulseBody& b = bodies[static_cast<std::size_t>(row.b)];
+  if (a.inverse_mass > 0.0) a.turn(-on_b);
+  if (b.inverse_mass > 0.0) b.turn(on_b);
 }
 
 void prepareResistance(ContactRow& row, std::span<const ImpulseBody> bodies) {

@@ -1,8 +1,10 @@
 #pragma once
 // What the world keeps of a body and of its parts. Internal to the simulation floor.
 
+#include <cstddef>
 #include <optional>
 
+#include "engine/modes/resting.h"
 #include "engine/modes/swinging.h"
 #include "engine/motion/rigid_body.h"
 #include "engine/motion/trajectory.h"
@@ -54,6 +56,7 @@ struct Body {
   bool collided = false;
 
   bool moves() const { return !is_static && !resting; }
+  bool liesStill() const { return !moves() || carom::liesStill(velocity, radius_m); }
   /// Nothing has turned it in this step but its own spin.
   bool flewFreely() const {
     return travel == Travel::kBallistic && path.start_s == 0.0 && torque.isZero(0.0) &&
@@ -95,6 +98,9 @@ inline void turnFreely(Body& body, double dt_s) {
   if (miss > kTumblingMiss && (body.material.restitution > 0.0 || fast))
     body.path.tumbling = tumbling(body.inertia, R, omega, dt_s);
 }
+
+/// So many bodies are worked on by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewBodies = 500;
 
 /// One convex part of one body: what the broad phase pairs. The shapes of a world ascend by body.
 struct Shape {

@@ -28,13 +28,12 @@ void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool be
   body.path.turnAt(mean.angular);
 }
 
-void straightenDips(const SourcedRow& sourced, const CollisionWindow& window, double rest_of_step_s,
+void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,
                     std::span<const Vec3> accelerations, std::span<char> bends) {
   // A parabola lies below its chord by up to an eighth of the acceleration times the time squared.
   const double share = 0.125 * rest_of_step_s * rest_of_step_s;
-  const double room = std::min(sourced.gap_m, window.rest) - window.floor;
+  const double room = std::min(gap_m, window.rest) - window.floor;
   const double dip = std::max(kDipShare * room, kNoDip * window.rest);
-  const ContactRow& row = sourced.row;
   if (-share * row.n.dot(accelerations[at(row.a)]) > dip) bends[at(row.a)] = 0;
   if (share * row.n.dot(accelerations[at(row.b)]) > dip) bends[at(row.b)] = 0;
 }

@@ -26,7 +26,7 @@ void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool be
 
 /// Clears `bends` for the bodies of a row (indices of `bends` and `accelerations`) whose bent paths would
 /// dip, on their way, by a noticeable share of what lies between the row's gap and the window's floor.
-void straightenDips(const SourcedRow& sourced, const CollisionWindow& window, double rest_of_step_s,
+void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,
                     std::span<const Vec3> accelerations, std::span<char> bends);
 
 }  // namespace carom

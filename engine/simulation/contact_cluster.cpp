@@ -443,7 +443,8 @@ void ContactCluster::findBends() {
     accelerations.push_back((ends_[i].velocity.linear - momentum_[i].velocity.linear) / restOfStep());
   bends_.assign(members_.size(), 1);
   for (const SourcedRow& sourced : sources_)
-    straightenDips(sourced, table_.pairs()[at(sourced.pair)].window, restOfStep(), accelerations, bends_);
+    straightenDips(sourced.row, sourced.gap_m, table_.pairs()[at(sourced.pair)].window, restOfStep(),
+                   accelerations, bends_);
 }
 
 // What the rows' forces are from now on.
@@ -487,11 +488,22 @@ void ContactCluster::boundPaths(bool all) {
     prepareRow(rows_.back(), paths_);
   }
   solveSpreading(kPathShare * safeResidual());
-  const PathBounds bounds{bodies_, shapes_, table_.pairs(), time_s_, settings_.step_s - time_s_};
   for (int round = 0; round < kTurningRounds; ++round) {
-    if (!raiseForTurning(bounds, sources_, paths_, rows_, counters_)) break;
+    if (!raiseForTurning()) break;
     solveSpreading(kPathShare * safeResidual());
   }
+}
+
+bool ContactCluster::raiseForTurning() {
+  const PathBounds bounds{bodies_, shapes_, time_s_, restOfStep()};
+  bool raised = false;
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;
+    const ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+    raised |=
+        carom::raiseForTurning(bounds, pair, paths_, std::span(rows_).subspan(first, end - first), counters_);
+  }
+  return raised;
 }
 
 }  // namespace carom

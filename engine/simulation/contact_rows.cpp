@@ -144,25 +144,16 @@ GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool press
   return {0.0, std::min(missing / dt_s, tolerance::kGapSpeed)};
 }
 
-bool raiseForTurning(const PathBounds& bounds, std::span<const SourcedRow> sources,
-                     std::span<const ImpulseBody> paths, std::span<ContactRow> rows, StepCounters& counters) {
-  bool raised = false;
-  int last_pair = -1;
-  double speed = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (sources[i].pair != last_pair) {
-      last_pair = sources[i].pair;
-      const ShapePair& pair = bounds.pairs[at(last_pair)];
-      const PairTravel travel{bounds.bodies[at(pair.body_a)].path.at(bounds.time_s),
-                              paths[at(rows[i].a)].velocity,
-                              bounds.bodies[at(pair.body_b)].path.at(bounds.time_s),
-                              paths[at(rows[i].b)].velocity, bounds.rest_of_step_s};
-      speed = turningSpeed(pair, bounds.shapes, travel, counters);
-    }
-    rows[i].lowest_speed += speed;
-    raised = raised || speed > 0.0;
-  }
-  return raised;
+bool raiseForTurning(const PathBounds& bounds, const ShapePair& pair, std::span<const ImpulseBody> paths,
+                     std::span<ContactRow> rows, StepCounters& counters) {
+  if (rows.empty()) return false;
+  const PairTravel travel{bounds.bodies[at(pair.body_a)].path.at(bounds.time_s),
+                          paths[at(rows.front().a)].velocity,
+                          bounds.bodies[at(pair.body_b)].path.at(bounds.time_s),
+                          paths[at(rows.front().b)].velocity, bounds.rest_of_step_s};
+  const double speed = turningSpeed(pair, bounds.shapes, travel, counters);
+  for (ContactRow& row : rows) row.lowest_speed += speed;
+  return speed > 0.0;
 }
 
 }  // namespace carom

@@ -9,14 +9,16 @@
 
 namespace carom {
 
-/// A row with where it came from.
-struct SourcedRow {
-  ContactRow row;
+/// Where a row comes from.
+struct RowSource {
   int pair = -1;
   std::uint64_t id = 0;
   double gap_m = 0.0;
   double off_middle_m = 0.0;  ///< The row's point lies so far from the gap's middle, towards B.
   double slack_m = 0.0;       ///< It may be so far beside its true place: gaps are held in a band.
+};
+struct SourcedRow : RowSource {
+  ContactRow row;
 };
 
 inline constexpr double kSamePlace = 10.0;  ///< Rest gaps: points this close are one.
@@ -59,16 +61,15 @@ GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool press
 struct PathBounds {
   const std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
-  const std::vector<ShapePair>& pairs;
   double time_s = 0.0;
   double rest_of_step_s = 0.0;
 };
 
 /// Rows are linear in time, but what turns while it slides along another approaches it with the square of the
-/// time. Raises the lowest speeds of pairs that would not end the step in the window on these `paths`
-/// (indexed by the rows, which stand in the order of `sources`); whether there were any.
-bool raiseForTurning(const PathBounds& bounds, std::span<const SourcedRow> sources,
-                     std::span<const ImpulseBody> paths, std::span<ContactRow> rows, StepCounters& counters);
+/// time. Raises the lowest speeds of the rows of a pair that would not end the step in the window on these
+/// `paths` (indexed by the rows); whether it would not.
+bool raiseForTurning(const PathBounds& bounds, const ShapePair& pair, std::span<const ImpulseBody> paths,
+                     std::span<ContactRow> rows, StepCounters& counters);
 inline constexpr int kTurningRounds = 2;  ///< Of raising and solving again.
 
 }  // namespace carom

@@ -29,6 +29,7 @@ struct Event {
 // because another event gives one of the bodies a new path.
 struct Prediction {
   int version = 0;
+  bool looked = false;  ///< And what was found not taken up yet.
   ImpactSearch search;
   TimeOfImpact found;
 };
@@ -42,13 +43,14 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters, PhaseClock* clock,
-            StepView* view)
+            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew, StepCounters& counters,
+            PhaseClock* clock, StepView* view)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
         planner_(planner),
         settings_(settings),
+        crew_(crew),
         counters_(counters),
         clock_(clock),
         view_(view),
@@ -57,45 +59,99 @@ class EventLoop {
   std::vector<Pose> run() {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
     ends_.resize(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
-    for (std::size_t i = 0; i < table_.pairs().size(); ++i) predict(static_cast<int>(i));
+    crew_.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
+    });
+    lookAtAll();
     while (!events_.empty()) {  // every event spends budget of a body that still moves, so this ends
       const Event event = events_.top();
       events_.pop();
-      if (event.version == predictions_[at(event.pair)].version) look(event.pair);
+      const Prediction& prediction = predictions_[at(event.pair)];
+      if (event.version != prediction.version) continue;
+      if (!prediction.looked) look(event.pair);
+      takeUp(event.pair);
     }
     return std::move(ends_);
   }
 
  private:
-  // Begins the search for the pair's next event, from the later of its bodies' path starts.
-  void predict(int index) {
+  // The first look at every pair. No event has come yet, so each can be made by itself; most find that the
+  // whole step is clear.
+  void lookAtAll() {
     predictions_.resize(table_.pairs().size());
-    Prediction& prediction = predictions_[at(index)];
-    ++prediction.version;
-    ShapePair& pair = table_.pairs()[at(index)];
-    const Body& a = bodies_[at(pair.body_a)];
-    const Body& b = bodies_[at(pair.body_b)];
-    if (a.path.still() && b.path.still()) return;
-    prediction.search = {pair.window, pair.collision_speed_mps, std::max(a.path.start_s, b.path.start_s),
-                         settings_.step_s, pair.restitution == 0.0};
-    const double begin_s = prediction.search.begin_s;
-    prediction.found = beginSearch(prediction.search, closestAt(index, begin_s));
-    events_.push({begin_s, index, prediction.version});
+    crew_.runStretches(predictions_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (mayMeet(static_cast<int>(i))) {
+          beginSearch(static_cast<int>(i), table_.pairs()[i].closest);
+          carryOn(static_cast<int>(i));
+        }
+    });
+    for (std::size_t i = 0; i < predictions_.size(); ++i) {
+      Prediction& prediction = predictions_[i];
+      if (!prediction.looked) continue;
+      counters_.distance_queries += prediction.found.queries;
+      counters_.newton_steps += prediction.found.newton_steps;
+      if (prediction.found.outcome == TimeOfImpact::Outcome::kClear) continue;
+      events_.push({prediction.found.time_s, static_cast<int>(i), prediction.version});
+      prediction.looked = prediction.found.outcome != TimeOfImpact::Outcome::kPending;
+    }
   }
 
-  // Carries the search of a pair on by one look; what it finds at this time is resolved.
-  void look(int index) {
+  bool mayMeet(int index) const {
+    const ShapePair& pair = table_.pairs()[at(index)];
+    return !bodies_[at(pair.body_a)].path.still() || !bodies_[at(pair.body_b)].path.still();
+  }
+
+  // The later of its bodies' path starts.
+  double beginOf(const ShapePair& pair) const {
+    return std::max(bodies_[at(pair.body_a)].path.start_s, bodies_[at(pair.body_b)].path.start_s);
+  }
+
+  // Begins the search for a pair's next event, where its bodies' paths do. `at_begin`: its closest features
+  // there.
+  void beginSearch(int index, const ClosestFeatures& at_begin) {
+    Prediction& prediction = predictions_[at(index)];
+    const ShapePair& pair = table_.pairs()[at(index)];
+    prediction.search = {pair.window, pair.collision_speed_mps, beginOf(pair), settings_.step_s,
+                         pair.restitution == 0.0};
+    prediction.found = carom::beginSearch(prediction.search, at_begin);
+    prediction.looked = false;
+  }
+
+  // The search of a pair whose bodies have new paths.
+  void predict(int index) {
+    predictions_.resize(table_.pairs().size());
+    const int version = ++predictions_[at(index)].version;
+    if (!mayMeet(index)) return;
+    const double begin_s = beginOf(table_.pairs()[at(index)]);
+    beginSearch(index, closestAt(index, begin_s));
+    events_.push({begin_s, index, version});
+  }
+
+  // Carries the search of a pair on by one look.
+  void carryOn(int index) {
     Prediction& prediction = predictions_[at(index)];
     ShapePair& pair = table_.pairs()[at(index)];
-    TimeOfImpact& found = prediction.found;
-    const int queries = found.queries;
-    const int newton_steps = found.newton_steps;
-    lookFurther(movingPart(pair.shapes.a), movingPart(pair.shapes.b), prediction.search, found, pair.tracked);
-    counters_.distance_queries += found.queries - queries;
-    counters_.newton_steps += found.newton_steps - newton_steps;
+    lookFurther(movingPart(pair.shapes.a), movingPart(pair.shapes.b), prediction.search, prediction.found,
+                pair.tracked);
+    prediction.looked = true;
+  }
+
+  void look(int index) {
+    const int queries = predictions_[at(index)].found.queries;
+    const int newton_steps = predictions_[at(index)].found.newton_steps;
+    carryOn(index);
+    counters_.distance_queries += predictions_[at(index)].found.queries - queries;
+    counters_.newton_steps += predictions_[at(index)].found.newton_steps - newton_steps;
+  }
+
+  // What a look has found: it goes on later, or is resolved.
+  void takeUp(int index) {
+    Prediction& prediction = predictions_[at(index)];
+    const TimeOfImpact& found = prediction.found;
     if (found.outcome == TimeOfImpact::Outcome::kClear) return;
     if (found.outcome == TimeOfImpact::Outcome::kPending) {
+      prediction.looked = false;
       events_.push({found.time_s, index, prediction.version});
       return;
     }
@@ -295,8 +351,9 @@ class EventLoop {
   std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
-  FlightPlanner& planner_;
+  const FlightPlanner& planner_;
   const WorldSettings& settings_;
+  Crew& crew_;
   StepCounters& counters_;
   PhaseClock* clock_;
   StepView* view_;
@@ -310,9 +367,9 @@ class EventLoop {
 }  // namespace
 
 std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-                            PhaseClock* clock, StepView* view) {
-  return EventLoop(bodies, shapes, table, planner, settings, counters, clock, view).run();
+                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
+                            StepCounters& counters, PhaseClock* clock, StepView* view) {
+  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, view).run();
 }
 
 }  // namespace carom

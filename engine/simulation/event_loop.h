@@ -15,7 +15,7 @@ namespace carom {
 /// where it began, if lower) throughout. `view`, unless null, is told of the collisions. Returns where the
 /// bodies' paths end.
 std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            FlightPlanner& planner, const WorldSettings& settings, StepCounters& counters,
-                            PhaseClock* clock, StepView* view);
+                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
+                            StepCounters& counters, PhaseClock* clock, StepView* view);
 
 }  // namespace carom

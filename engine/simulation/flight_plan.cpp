@@ -16,6 +16,12 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+// Only its room is kept.
+ForceScratch& scratch() {
+  static thread_local ForceScratch scratch;
+  return scratch;
+}
+
 }  // namespace
 
 FlightPlanner::FlightPlanner(const WorldSettings& settings)
@@ -43,7 +49,7 @@ bool FlightPlanner::isTouched(const Body& body, double rest_of_step_s) const {
   });
 }
 
-void FlightPlanner::plan(int index, Body& body) {
+void FlightPlanner::plan(int index, Body& body) const {
   Trajectory& path = body.path;
   const double dt = step_s_ - path.start_s;
   const Velocity& start = body.momentum_velocity;
@@ -57,7 +63,7 @@ void FlightPlanner::plan(int index, Body& body) {
   }
   const EnvironmentFlight flight =
       flyThroughEnvironment(environment_, environmentBody(index, body), path.X_WB, start,
-                            {body.contact_force, body.contact_torque}, time_s_ + path.start_s, dt, scratch_);
+                            {body.contact_force, body.contact_torque}, time_s_ + path.start_s, dt, scratch());
   const Vec3 mean = (flight.X_end.position - path.X_WB.position) / dt;
   const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, start.angular);
   path.acceleration = (flight.velocity_end - start.linear) / dt;
@@ -75,7 +81,7 @@ void FlightPlanner::takeContacts(Body& body, const Velocity& change) const {
   body.contact_torque = angularMomentum(body.inertia, body.path.X_WB.rotation, change.angular) / step_s_;
 }
 
-void FlightPlanner::leaveContacts(int index, Body& body) {
+void FlightPlanner::leaveContacts(int index, Body& body) const {
   if (body.contact_force.isZero(0.0) && body.contact_torque.isZero(0.0)) return;
   body.contact_force.setZero();
   body.contact_torque.setZero();
@@ -90,9 +96,9 @@ Velocity FlightPlanner::gained(const Body& body) const {
   return gain;
 }
 
-Velocity FlightPlanner::pushAtRest(int index, const Body& body) {
+Velocity FlightPlanner::pushAtRest(int index, const Body& body) const {
   const BodyForces forces = bodyForces(environment_, environmentBody(index, body), body.X_WB, Vec6::Zero(),
-                                       time_s_ + step_s_, scratch_);
+                                       time_s_ + step_s_, scratch());
   const Vec6 wrench = forces.total(Vec6::Zero());
   const Quat& R_WB = body.X_WB.rotation;
   return {step_s_ * body.inertia.inverse_mass * (R_WB * wrench.head<3>()),
@@ -108,9 +114,8 @@ bool FlightPlanner::restless(const Body& body) const {
 double FlightPlanner::potential(int index, const Body& body) const {
   double energy = gravityPotential(body.inertia, environment_.gravity, body.X_WB.position);
   if (surfaces_.empty()) return energy;  // vacuum, or a world not started
-  ForceScratch scratch;
   return energy +
-         buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_, scratch);
+         buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_, scratch());
 }
 
 }  // namespace carom

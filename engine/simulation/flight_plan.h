@@ -26,18 +26,19 @@ class FlightPlanner {
     step_s_ = step_s;
   }
 
-  /// Plans body `index` from `path.start_s` with its momentum velocity, to the end of the step.
-  void plan(int index, Body& body);
+  /// May be called for several bodies at the same time. Plans body `index` from `path.start_s` with its
+  /// momentum velocity, to the end of the step.
+  void plan(int index, Body& body) const;
   /// Remembers what the step's lasting contacts changed of the velocity, for the next plan.
   void takeContacts(Body& body, const Velocity& change) const;
   /// For a body that no contact presses: plans it anew where its plan foresaw some.
-  void leaveContacts(int index, Body& body);
+  void leaveContacts(int index, Body& body) const;
   /// What the environment gives a body from `path.start_s` to the end of the step.
   Velocity gained(const Body& body) const;
 
   /// The velocity that the environment would give the body in one step from standstill, where there is air or
   /// water.
-  Velocity pushAtRest(int index, const Body& body);
+  Velocity pushAtRest(int index, const Body& body) const;
   /// Whether the forces on a body that lies still change by themselves: it floats where waves go.
   bool restless(const Body& body) const;
   /// Energy of the body's place, J: weight, and the fluid that it displaces.
@@ -54,7 +55,6 @@ class FlightPlanner {
   double time_s_ = 0.0;
   std::vector<SolidSurface> surfaces_;
   std::vector<int> solid_of_;
-  ForceScratch scratch_;
 };
 
 }  // namespace carom

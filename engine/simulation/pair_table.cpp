@@ -1,6 +1,7 @@
 #include "engine/simulation/pair_table.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "engine/foundation/contract.h"
@@ -76,23 +77,26 @@ double pairingMargin(const Shape& shape) {
 
 }  // namespace
 
-void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                             double end_s) {
+void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s,
+                             Crew& crew) {
   tree_.clear();
   const bool first = proxies_.size() != shapes.size();
   proxies_.resize(shapes.size());
   starts_.resize(shapes.size());
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Body& body = bodies[at(shapes[i].body)];
-    proxies_[i].group = shapes[i].body;
-    const bool moves = body.moves();
-    if (first || moves || proxies_[i].moves) {
-      starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
-      const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
-      proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+  crew.runStretches(shapes.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Body& body = bodies[at(shapes[i].body)];
+      proxies_[i].group = shapes[i].body;
+      const bool moves = body.moves();
+      if (first || moves || proxies_[i].moves) {
+        starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
+        const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
+        proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+      }
+      proxies_[i].moves =
+          !body.is_static;  // resting bodies stay paired, so that their contacts are remembered
     }
-    proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that their contacts are remembered
-  }
+  });
 }
 
 ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
@@ -201,26 +205,35 @@ void PairTable::scaleImpulses(double factor) {
 }
 
 bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                 double end_s) const {
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Body& body = bodies[at(shapes[i].body)];
-    if (!body.moves()) continue;
-    if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], body.path, end_s))) return true;
-  }
-  return false;
+                                 double end_s, Crew& crew) const {
+  std::atomic<bool> leave = false;
+  crew.runStretches(shapes.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !leave; ++i) {
+      const Body& body = bodies[at(shapes[i].body)];
+      if (body.moves() && !proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], body.path, end_s)))
+        leave = true;
+    }
+  });
+  return leave;
 }
 
-void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
                         StepCounters& counters) {
-  for (ShapePair& pair : pairs_) {
-    const Body& a = bodies[at(pair.body_a)];
-    const Body& b = bodies[at(pair.body_b)];
-    if (!a.moves() && !b.moves()) continue;
-    pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
-                                   b.X_WB, pair.tracked);
-    ++counters.distance_queries;
-    counters.iteration_limits += pair.closest.reached_limit;
-  }
+  crew.runStretches(pairs_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    int queries = 0, limits = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      ShapePair& pair = pairs_[i];
+      const Body& a = bodies[at(pair.body_a)];
+      const Body& b = bodies[at(pair.body_b)];
+      if (!a.moves() && !b.moves()) continue;
+      pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
+                                     b.X_WB, pair.tracked);
+      ++queries;
+      limits += pair.closest.reached_limit;
+    }
+    std::atomic_ref(counters.distance_queries) += queries;
+    std::atomic_ref(counters.iteration_limits) += limits;
+  });
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "engine/broad_phase/candidate_pairs.h"
 #include "engine/contact/contact_manifold.h"
 #include "engine/contact/time_of_impact.h"
+#include "engine/foundation/crew.h"
 #include "engine/simulation/body.h"
 
 namespace carom {
@@ -37,10 +38,14 @@ struct ShapePair {
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 };
 
+/// So many pairs are worked on by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewPairs = 500;
+
 class PairTable {
  public:
   /// The bounds each shape sweeps from its path's start to `end_s`, with a margin of the collision window.
-  void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s);
+  void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s,
+                    Crew& crew);
   /// Makes the pairs those whose bounds overlap, keeping what was remembered; new ones are queried at the
   /// bodies' poses of the last finished step.
   void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
@@ -51,10 +56,11 @@ class PairTable {
   /// For a step of another length: what was remembered of the impulses, so many times.
   void scaleImpulses(double factor);
   /// Whether some body's path leaves the bounds it was paired by; all start where they did then.
-  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                        double end_s) const;
+  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s,
+                        Crew& crew) const;
   /// Queries the closest features again where a body moved.
-  void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, StepCounters& counters);
+  void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
+               StepCounters& counters);
 
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }

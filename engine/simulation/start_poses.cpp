@@ -59,7 +59,8 @@ std::vector<Overlap> separateTouching(std::vector<Body>& bodies, const std::vect
       changed = true;
     }
   }
-  table.requery(bodies, shapes, counters);
+  Crew alone;
+  table.requery(bodies, shapes, alone, counters);
   for (const ShapePair& pair : table.pairs())
     if (pair.closest.distance_m <= 0.0)
       overlaps.push_back({pair.body_a, pair.body_b, -pair.closest.distance_m});

@@ -34,7 +34,7 @@ void recordContacts(const RecordedWorld& world, const LastingContacts& contacts,
   view.lasting.clear();
   for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
     const ContactRow& row = contacts.rows[i];
-    const SourcedRow& source = contacts.sources[i];
+    const RowSource& source = contacts.sources[i];
     const Quat& R_WA = world.bodies[at(row.a)].X_WB.rotation;
     const Quat& R_WB = world.bodies[at(row.b)].X_WB.rotation;
     const Vec3 shift = -source.off_middle_m * row.n;  // what is shown stands halfway across the gap
@@ -54,7 +54,7 @@ void recordCollision(const std::vector<Body>& bodies, const ContactCluster& clus
     const int b = cluster.member(at(row.b)).body;
     const Quat R_WA = bodies[at(a)].path.at(time_s).rotation;
     const Quat R_WB = bodies[at(b)].path.at(time_s).rotation;
-    const SourcedRow& source = cluster.sources()[i];
+    const RowSource& source = cluster.sources()[i];
     const Vec3 shift = -source.off_middle_m * row.n;
     view.collisions.push_back({a, b, R_WA.conjugate() * (row.r_a + shift),
                                R_WB.conjugate() * (row.r_b + shift), row.n, source.gap_m,

@@ -24,7 +24,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-constexpr double kSameLength = 1e-9;  // relative: steps of one length but for rounding
+constexpr std::size_t kFewRows = 1000;  // are looked at by one thread
+constexpr double kSameLength = 1e-9;    // relative: steps of one length but for rounding
 
 void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
@@ -88,6 +89,7 @@ struct World::Impl {
   LastingContacts contacts;  ///< Of the last substep.
   bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
+  Crew crew;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
   int steps = 0;
@@ -100,8 +102,9 @@ struct World::Impl {
   void makeSubstep(double begin_s, PhaseClock* clock);
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
-  bool pathsLeaveBounds(PhaseClock* clock) const;
+  bool pathsLeaveBounds(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
+  void endPath(Body& body, const Pose& end) const;
   void finishStep(const std::vector<Pose>& ends, PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
@@ -123,16 +126,18 @@ void World::Impl::makeShapes() {
 // Every body starts the step as if it were in flight.
 void World::Impl::planFlight(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kForces);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    body.momentum_velocity = body.velocity;
-    body.events = 0;
-    body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
-    body.acceleration.setZero();
-    body.torque.setZero();
-    if (body.moves()) planner.plan(static_cast<int>(i), body);
-  }
+  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Body& body = bodies[i];
+      body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+      body.momentum_velocity = body.velocity;
+      body.events = 0;
+      body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
+      body.acceleration.setZero();
+      body.torque.setZero();
+      if (body.moves()) planner.plan(static_cast<int>(i), body);
+    }
+  });
 }
 
 void World::Impl::findPairs(PhaseClock* clock) {
@@ -143,44 +148,48 @@ void World::Impl::findPairs(PhaseClock* clock) {
     return;
   }
   pairs_sleep = sleeps;
-  table.updateBounds(bodies, shapes, substep.step_s);
+  table.updateBounds(bodies, shapes, substep.step_s, crew);
   table.collect(bodies, shapes, substep, counters, clock);
 }
 
-bool World::Impl::pathsLeaveBounds(PhaseClock* clock) const {
+bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  return table.pathsLeaveBounds(bodies, shapes, substep.step_s);
+  return table.pathsLeaveBounds(bodies, shapes, substep.step_s, crew);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  solveLastingContacts(bodies, shapes, table.pairs(), planner, substep, counters, contacts);
+  solveLastingContacts({bodies, shapes, table.pairs(), substep, crew}, planner, counters, contacts);
+}
+
+// The body where its path ends.
+void World::Impl::endPath(Body& body, const Pose& end) const {
+  const Vec3 spin_before = body.velocity.angular;
+  const Quat rotation_before = body.X_WB.rotation;
+  const bool flew_freely = body.flewFreely();
+  body.X_WB = end;
+  body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
+  if (!flew_freely || spin_before.isZero(0.0)) {
+    body.kept_angular_momentum.reset();
+    return;
+  }
+  if (!body.kept_angular_momentum)
+    body.kept_angular_momentum = angularMomentum(body.inertia, rotation_before, spin_before);
+  body.velocity.angular = angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum);
 }
 
 // The state at the step's end, and the closest features there.
 void World::Impl::finishStep(const std::vector<Pose>& ends, PhaseClock* clock) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (!body.moves()) continue;
-    const Vec3 spin_before = body.velocity.angular;
-    const Quat rotation_before = body.X_WB.rotation;
-    const bool flew_freely = body.flewFreely();
-    body.X_WB = ends[i];
-    body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
-    if (!flew_freely || spin_before.isZero(0.0)) {
-      body.kept_angular_momentum.reset();
-      continue;
-    }
-    if (!body.kept_angular_momentum)
-      body.kept_angular_momentum = angularMomentum(body.inertia, rotation_before, spin_before);
-    body.velocity.angular = angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum);
-  }
+  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (bodies[i].moves()) endPath(bodies[i], ends[i]);
+  });
   for (const Body& body : bodies) {
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
   }
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
-  table.requery(bodies, shapes, counters);
+  table.requery(bodies, shapes, crew, counters);
 }
 
 void World::Impl::accumulateStillness() {
@@ -253,7 +262,7 @@ bool World::Impl::islandCanRest(const std::vector<int>& members) {
       canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, slack_m, balance});
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!balance[k].impulse.isZero(0.0))
-      correctLoad(contacts.sources[source_of[k]], balance[k], substep.step_s, table.pairs());
+      correctLoad(contacts, source_of[k], balance[k], substep.step_s, table.pairs());
   return rests;
 }
 
@@ -296,10 +305,14 @@ void World::Impl::updateModes() {
     else
       body.mode = body.travel == Travel::kBallistic ? Mode::kFree : Mode::kContact;
   }
-  for (const ContactRow& row : contacts.rows) {
-    if (!slides(row, contacts.bodies)) continue;
-    for (int i : {row.a, row.b})
-      if (bodies[at(i)].mode == Mode::kContact) bodies[at(i)].mode = Mode::kSliding;
+  std::vector<char> sliding(contacts.rows.size());
+  crew.runStretches(sliding.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sliding[i] = slides(contacts.rows[i], contacts.bodies);
+  });
+  for (std::size_t i = 0; i < sliding.size(); ++i) {
+    if (!sliding[i]) continue;
+    for (int body : {contacts.rows[i].a, contacts.rows[i].b})
+      if (bodies[at(body)].mode == Mode::kContact) bodies[at(body)].mode = Mode::kSliding;
   }
 }
 
@@ -318,9 +331,8 @@ int World::Impl::substepsWanted() const {
   while (wanted < tolerance::kMostSubsteps &&
          settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
     wanted *= 2;
-  const bool stirred = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) {
-    return body.moves() && !liesStill(body.velocity, body.radius_m);
-  });
+  const bool stirred =
+      std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.liesStill(); });
   if (wanted == 1 || !stirred) return 1;
   int awake = 0;
   for (const ShapePair& pair : table.pairs()) {
@@ -349,7 +361,8 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   if (pathsLeaveBounds(clock)) findPairs(clock);
 
   // Advance from one time of impact to the next.
-  const std::vector<Pose> ends = runEvents(bodies, shapes, table, planner, substep, counters, clock, view);
+  const std::vector<Pose> ends =
+      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, view);
   finishStep(ends, clock);
 
   // Modes.
@@ -371,6 +384,7 @@ void World::Impl::publish() {
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
   REQUIRE(settings.step_s > 0.0 && std::isfinite(settings.step_s), settings.step_s);
   REQUIRE(settings.gravity.allFinite());
+  REQUIRE(settings.threads >= 1, settings.threads);
   requireEnvironment(settings);
   impl_->settings = settings;
   impl_->substep = settings;
@@ -417,6 +431,7 @@ std::vector<Overlap> World::start() {
   w.planFlight(nullptr);
   w.findPairs(nullptr);
   std::vector<Overlap> overlaps = separateTouching(w.bodies, w.shapes, w.table, w.settings.gravity);
+  w.crew = Crew(w.settings.threads);
   w.publish();
   return overlaps;
 }

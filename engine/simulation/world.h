@@ -67,6 +67,7 @@ struct WorldSettings {
   bool resting_mode = true;  ///< Off: bodies are simulated even when they lie still.
   Air air = {};
   std::vector<Fluid> fluids = {};
+  int threads = 1;  ///< That step crowds together; changes no bit of the outcome.
 };
 
 /// Two bodies that overlap at the start, and by how much.

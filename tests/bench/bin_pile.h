@@ -21,12 +21,17 @@ struct PilePlan {
   double rate_hz = 60.0;
   std::uint64_t seed = 1;
   bool resting_mode = true;
+  int threads = 1;
 };
 
 class BinPile {
  public:
   explicit BinPile(const PilePlan& plan)
-      : plan_(plan), world_({1.0 / plan.rate_hz, Vec3(0, 0, -9.81), plan.resting_mode}) {
+      : plan_(plan),
+        world_({.step_s = 1.0 / plan.rate_hz,
+                .gravity = Vec3(0, 0, -9.81),
+                .resting_mode = plan.resting_mode,
+                .threads = plan.threads}) {
     material_ = {plan.friction, plan.friction, 0.0, 1000.0};
     const double pitch = plan.crowd == Crowd::kHulls ? 1.08 : 0.9;  // no body's ball meets its neighbour's
     const int side = std::max(1, static_cast<int>(std::lround(std::cbrt(plan.bodies))));

@@ -26,8 +26,11 @@ PlainSolid plainSolid(const Solid& solid, double density_kgpm3) {
   return described;
 }
 
-std::vector<double> caromStepTimes(const PlainPile& pile, int steps) {
-  World world({pile.step_s, Vec3(0, 0, -pile.gravity), false});
+std::vector<double> stepTimes(const PlainPile& pile, int steps, int threads) {
+  World world({.step_s = pile.step_s,
+               .gravity = Vec3(0, 0, -pile.gravity),
+               .resting_mode = false,
+               .threads = threads});
   for (const PlainSolid& solid : pile.solids) {
     std::vector<Vec3> vertices;
     for (const auto& v : solid.hull.vertices) vertices.emplace_back(v[0], v[1], v[2]);
@@ -42,6 +45,12 @@ std::vector<double> caromStepTimes(const PlainPile& pile, int steps) {
                    body.is_static});
   REQUIRE(world.start().empty());
   return settledSteps(pile, steps, [&] { world.step(); });
+}
+std::vector<double> caromStepTimes(const PlainPile& pile, int steps) {
+  return stepTimes(pile, steps, 1);
+}
+std::vector<double> twoThreadsStepTimes(const PlainPile& pile, int steps) {
+  return stepTimes(pile, steps, 2);
 }
 
 }  // namespace
@@ -58,7 +67,7 @@ PlainPile plainPile(const World& world) {
 }
 
 std::vector<PileStepper> pileSteppers() {
-  std::vector<PileStepper> all{{"carom", caromStepTimes}};
+  std::vector<PileStepper> all{{"carom", caromStepTimes}, {"carom, 2 threads", twoThreadsStepTimes}};
 #ifdef CAROM_BENCH_BULLET
   all.push_back({"bullet", bulletStepTimes});
 #endif

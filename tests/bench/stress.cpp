@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   piles->add_option("--rate", pile.rate_hz, "steps a second")->check(CLI::Range(10.0, 10000.0));
   piles->add_option("--oracle-every", pile.oracle_every, "steps")->check(CLI::Range(1, 1000000));
   piles->add_option("--seed", pile.seed);
+  piles->add_option("--threads", pile.threads, "that step")->check(CLI::Range(1, 256));
   piles->add_option("--peer-steps", pile.peer_steps, "of the settled heap; 0: no comparison")
       ->check(CLI::Range(0, 100000));
 

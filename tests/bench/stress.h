@@ -44,6 +44,7 @@ struct PileRun {
   double rate_hz = 60.0;
   int oracle_every = 30;  ///< Steps.
   std::uint64_t seed = 1;
+  int threads = 1;       ///< That step.
   int peer_steps = 120;  ///< Of the settled heap, for each library; 0: no comparison.
 };
 bool runPiles(const PileRun& run);

@@ -141,7 +141,7 @@ void compareSettled(const BinPile& pile, int steps) {
   for (const PileStepper& stepper : pileSteppers()) {
     const std::vector<double> ms = stepper.stepTimes_ms(plain, steps);
     const double median = percentile(ms, 0.5), p99 = percentile(ms, 0.99);
-    std::printf("    %-8s %9.3f  p99 %9.3f  (%.1f)\n", stepper.name, median, p99, p99 / median);
+    std::printf("    %-16s %9.3f  p99 %9.3f  (%.1f)\n", stepper.name, median, p99, p99 / median);
     std::fflush(stdout);
   }
 }
@@ -152,9 +152,10 @@ bool runOne(const PileRun& run, Crowd crowd, double friction) {
                       .bodies = run.bodies > 0 ? run.bodies : (hulls ? 1000 : 5000),
                       .friction = friction,
                       .rate_hz = run.rate_hz,
-                      .seed = run.seed};
-  std::printf("%d %s, friction %g, %g s at %g Hz\n", plan.bodies, hulls ? "hulls" : "boxes", friction,
-              run.seconds, run.rate_hz);
+                      .seed = run.seed,
+                      .threads = run.threads};
+  std::printf("%d %s, friction %g, %g s at %g Hz, threads %d\n", plan.bodies, hulls ? "hulls" : "boxes",
+              friction, run.seconds, run.rate_hz, run.threads);
   std::fflush(stdout);
   BinPile pile(plan);
   if (!pile.world().start().empty()) {

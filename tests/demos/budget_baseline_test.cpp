@@ -95,6 +95,7 @@ TEST(BudgetBaseline, AnotherSceneSizeLengthMachineOrBuildIsRefusedByName) {
       {"length: 120 frames at 60 fps, not 120 frames at 30 fps;", [](BudgetSubject& s) { s.fps = 30.0; }},
       {"camera: main, not top;", [](BudgetSubject& s) { s.camera = "top"; }},
       {"preset: realtime, not fast;", [](BudgetSubject& s) { s.preset = "fast"; }},
+      {"number of threads: 1, not 2;", [](BudgetSubject& s) { s.threads = 2; }},
       {"machine: a CPU, 2 cores, not a CPU, 4 cores;",
        [](BudgetSubject& s) { s.machine = "a CPU, 4 cores"; }},
       {"renderer: a renderer, not softpipe;", [](BudgetSubject& s) { s.renderer = "softpipe"; }},
@@ -106,6 +107,15 @@ TEST(BudgetBaseline, AnotherSceneSizeLengthMachineOrBuildIsRefusedByName) {
     EXPECT_EQ(message.rfind("old.json: is of another " + part, 0), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
+}
+
+TEST(BudgetBaseline, AFileFromBeforeThreadsIsOfOne) {
+  const TemporaryFolder folder;
+  std::string text = budgetJson(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}), nullptr).text(2);
+  const std::string named = "\"threads\": 1,";
+  ASSERT_NE(text.find(named), std::string::npos);
+  text.erase(text.find(named), named.size());
+  EXPECT_EQ(readBaseline(folder.file("old.json", text)).subject.threads, 1);
 }
 
 TEST(BudgetBaseline, AFileThatIsNoBudgetIsRefusedInOneLine) {

@@ -34,6 +34,13 @@ TEST(BudgetReport, TellsTheSlowestFrameItsContactsAndWhichPhaseTookIt) {
   EXPECT_EQ(lastLine(report), "within: p99 10.0 ms, budget 16.7 ms, 6.7 ms (40 %) to spare");
 }
 
+TEST(BudgetReport, TellsHowManyThreadsStep_WhereThereAreSeveral) {
+  BudgetResult result = sampleResult({16.7, 99.0}, {sampleReplay(120), sampleReplay(120)});
+  EXPECT_EQ(budgetReport(result, nullptr).find("threads"), std::string::npos);
+  result.subject.threads = 2;
+  EXPECT_NE(budgetReport(result, nullptr).find("; a build; 2 threads step; others"), std::string::npos);
+}
+
 TEST(BudgetReport, TheHistogramMarksTheBudgetEvenWhereNoFrameLies) {
   for (const double budget_ms : {10.0, 39.0}) {
     const std::string report = budgetReport(sampleResult({budget_ms, 50.0}, {spiky(40), spiky(40)}), nullptr);

@@ -29,7 +29,8 @@ inline Replay sampleReplay(int frames, const std::function<void(FrameCost&)>& ch
 }
 
 inline BudgetSubject sampleSubject(int frames) {
-  return {"sample", "1234", 640, 360, 60.0, frames, "main", "realtime", "a CPU, 2 cores", "a renderer", "a build"};
+  return {"sample", "1234",           640,          360,      60.0, frames, "main", "realtime",
+          1,        "a CPU, 2 cores", "a renderer", "a build"};
 }
 
 inline BudgetResult sampleResult(const BudgetGate& gate, std::vector<Replay> replays,

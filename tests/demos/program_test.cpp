@@ -239,6 +239,30 @@ TEST(Program, SimulatePrintsAHashThatCanBeExpected) {
   expectOneLine(differs, "state hash " + hash + " differs from the expected 0123456789abcdef");
 }
 
+constexpr const char* kCrowd = R"({ "format": 1, "rate": 60, "duration": 0.1,
+  "materials": { "stone": { "staticFriction": 0.5 } },
+  "bodies": [
+    { "name": "floor", "shape": { "box": [40, 40, 1] }, "position": [0, 0, -0.5], "static": true, "material": "stone" },
+    { "name": "crate", "shape": { "box": [0.5, 0.5, 0.5] }, "position": [-4, -4, 0.2505], "material": "stone",
+      "linearVelocity": [0.5, 0, 0], "repeat": { "count": [16, 16, 4], "step": [0.5005, 0.5005, 0.5005] } }
+  ] })";
+
+TEST(Program, ThreadsChangeNoBitOfACrowd) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.file("crowd.json", kCrowd).string();
+  const auto simulated = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"simulate", scene, "-q"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramEnd end = runCarom(arguments);
+    EXPECT_EQ(end.code, 0) << end.err;
+    return end.out;
+  };
+  const std::string alone = simulated({"--threads", "1"});
+  EXPECT_EQ(simulated({"--threads", "2"}), alone);
+  EXPECT_EQ(simulated({"--threads", "5"}), alone);
+  EXPECT_EQ(simulated({}), alone);
+}
+
 TEST(Program, SimulateWritesTrajectoryAndAuditRows) {
   const TemporaryFolder folder;
   const std::string scene = folder.file("ball.json", kBall).string();

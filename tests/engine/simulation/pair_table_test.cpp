@@ -33,7 +33,7 @@ class Crowd {
       body.path = Trajectory{0.0, random_.pose(kRoom), random_.direction()};
       body.X_WB = body.path.X_WB;
     }
-    table_.updateBounds(bodies_, shapes_, settings_.step_s);
+    table_.updateBounds(bodies_, shapes_, settings_.step_s, crew_);
     table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
   }
 
@@ -68,7 +68,7 @@ class Crowd {
     for (const ShapePair& pair : table_.pairs()) pairs.push_back(pair.shapes);
     return pairs;
   }
-  bool pathsLeaveBounds() const { return table_.pathsLeaveBounds(bodies_, shapes_, settings_.step_s); }
+  bool pathsLeaveBounds() { return table_.pathsLeaveBounds(bodies_, shapes_, settings_.step_s, crew_); }
   const PairTable& table() const { return table_; }
 
  private:
@@ -82,6 +82,7 @@ class Crowd {
   WorldSettings settings_;
   StepCounters counters_;
   PairTable table_;
+  Crew crew_;
 };
 
 TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {

@@ -1,0 +1,177 @@
+#include "engine/simulation/contact_paths.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "engine/response/focused_solver.h"
+#include "engine/simulation/carried_path.h"
+
+namespace carom {
+namespace {
+
+constexpr int kPathSweeps = 60;
+constexpr int kFirstPathSweeps = 8;     // of a crowd; if they visited its rows more often than ...
+constexpr long kPathsInMotion = 5;      // ... this in the mean, ...
+constexpr int kPathFocusedSweeps = 24;  // ... it gets so many focused ones
+constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
+constexpr double kPathShare =
+    0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+void lowerTo(double value, double& smallest) {
+  std::atomic_ref<double> shared(smallest);
+  double seen = shared.load(std::memory_order_relaxed);
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+}
+
+class ContactPaths {
+ public:
+  ContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts)
+      : world_(world), counters_(counters), contacts_(contacts), step_s_(world.settings.step_s) {}
+
+  void set() {
+    beginAtMeans();
+    const double residual_mps = kPathShare * boundPaths() / step_s_;
+    solve(residual_mps);
+    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solve(residual_mps);
+    takeMomentum();
+    carry();
+  }
+
+ private:
+  // Calls work(pair, rows) for stretches of pairs side by side; `rows` are indices.
+  template <typename Work>
+  void forPairs(const Work& work) {
+    const std::vector<LastingContacts::PairRows>& all = contacts_.pair_rows;
+    world_.crew.runStretches(all.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(world_.pairs[at(all[k].pair)], all[k]);
+    });
+  }
+
+  void beginAtMeans() {
+    contacts_.paths = contacts_.bodies;
+    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+      if (!contacts_.touched[i]) continue;
+      Velocity& mean = contacts_.paths[i].velocity;
+      mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
+      mean.angular = 0.5 * (world_.bodies[i].velocity.angular + mean.angular);
+    }
+  }
+
+  // Makes the rows bounds on paths, without impulses yet. Returns the smallest rest gap, m.
+  double boundPaths() {
+    contacts_.momentum.resize(contacts_.rows.size());
+    double smallest = std::numeric_limits<double>::infinity();
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i) {
+        ContactRow& row = contacts_.rows[i];
+        contacts_.momentum[i] = {row.impulse, row.lowest_speed};
+        row.lowest_speed = gapSpeeds(contacts_.sources[i].gap_m, pair, step_s_, row.impulse.x() > 0.0).path;
+        row.impulse.setZero();
+      }
+      lowerTo(pair.window.rest, smallest);
+    });
+    return smallest;
+  }
+
+  void takeMomentum() {
+    forPairs([&](const ShapePair&, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i) {
+        contacts_.rows[i].impulse = contacts_.momentum[i].impulse;
+        contacts_.rows[i].lowest_speed = contacts_.momentum[i].lowest_speed;
+      }
+    });
+  }
+
+  bool raiseForTurning() {
+    std::atomic<bool> raised = false;
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      StepCounters counters;
+      if (carom::raiseForTurning({world_.bodies, world_.shapes, 0.0, step_s_}, pair, contacts_.paths,
+                                 std::span(contacts_.rows).subspan(rows.begin, rows.end - rows.begin),
+                                 counters))
+        raised = true;
+      if (counters.distance_queries > 0)
+        std::atomic_ref<int>(counters_.distance_queries) += counters.distance_queries;
+    });
+    return raised;
+  }
+
+  // Without friction.
+  void solve(double coarse_residual_mps) {
+    for (std::size_t i = 0; i + 1 < contacts_.island_begin.size(); ++i) {
+      const std::size_t count = contacts_.island_begin[i + 1] - contacts_.island_begin[i];
+      const std::span<ContactRow> rows = std::span(contacts_.rows).subspan(contacts_.island_begin[i], count);
+      if (count >= kFocusedRows) {
+        solveCrowd(rows, coarse_residual_mps);
+        continue;
+      }
+      const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
+      solveContacts(rows, contacts_.paths,
+                    {.sweeps = std::max(kPathSweeps, careful_sweeps),
+                     .residual_mps = kPathResidual,
+                     .friction = false,
+                     .careful_sweeps = careful_sweeps,
+                     .coarse_residual_mps = coarse_residual_mps});
+    }
+  }
+
+  // Sweeps that pass over what is not stirred are cheapest where few paths come into a gap; where most do,
+  // paths are swept like impulses.
+  void solveCrowd(std::span<ContactRow> rows, double residual_mps) {
+    SolverSettings settings{
+        .sweeps = kFirstPathSweeps, .residual_mps = residual_mps, .friction = false, .crew = &world_.crew};
+    const SolverReport report = solveContacts(rows, contacts_.paths, settings);
+    if (report.residual_mps <= residual_mps) return;
+    if (report.visits > kPathsInMotion * static_cast<long>(rows.size())) {
+      settings.sweeps = kPathFocusedSweeps;
+      solveContactsFocused(rows, contacts_.paths, settings);
+    } else {
+      settings.sweeps = kPathSweeps - kFirstPathSweeps;
+      settings.resumes = true;
+      solveContacts(rows, contacts_.paths, settings);
+    }
+  }
+
+  void carry() {
+    std::vector<Body>& bodies = world_.bodies;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (!contacts_.touched[i]) continue;
+      bodies[i].travel = Travel::kCarried;
+      driveEvenly(bodies[i], {bodies[i].velocity, contacts_.bodies[i].velocity, step_s_});
+    }
+    const std::vector<char> bends = findBends();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (contacts_.touched[i]) carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, bends[i] != 0);
+  }
+
+  // Whose paths may bend, one a body.
+  std::vector<char> findBends() const {
+    std::vector<char> bends = contacts_.touched;
+    std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < world_.bodies.size(); ++i)
+      if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
+    for (std::size_t i = 0; i < contacts_.rows.size(); ++i)
+      straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m,
+                     world_.pairs[at(contacts_.sources[i].pair)].window, step_s_, accelerations, bends);
+    return bends;
+  }
+
+  LastingWorld world_;
+  StepCounters& counters_;
+  LastingContacts& contacts_;
+  double step_s_;
+};
+
+}  // namespace
+
+void setContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {
+  ContactPaths(world, counters, contacts).set();
+}
+
+}  // namespace carom
