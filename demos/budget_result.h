@@ -21,7 +21,7 @@ struct BudgetSubject {
   int frames = 0;
   std::string camera;
   std::string preset;
-  int threads = 1;  ///< That step.
+  int threads = 1;       ///< That step.
   std::string machine;   ///< CPU and cores.
   std::string renderer;  ///< What draws.
   std::string build;

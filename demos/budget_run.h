@@ -18,7 +18,7 @@ struct ReplayPlan {
   const CameraPath& camera;
   int frames = 0;
   int replays = 0;
-  int threads = 1;  ///< That step.
+  int threads = 1;            ///< That step.
   bool keeps_slices = false;  ///< Of the quickest replay.
 };
 

@@ -35,7 +35,7 @@ InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<Impul
 ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
     : rows_(rows), bodies_(bodies), crew_(crew), involved_(rows, bodies), sweeps_(rows, bodies, crew) {
   turning_ =
-      std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resistance.acts(); });
+      std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resists_turning; });
 }
 
 // Calls work(block, begin, end) for blocks of the things from 0 to `count`, side by side. The blocks are the

@@ -104,7 +104,7 @@ RowChange solvePoint(ContactRow& row, std::span<ImpulseBody> bodies, bool fricti
 }
 
 RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction) {
-  if (friction && row.resistance.acts()) [[unlikely]]
+  if (friction && row.resists_turning) [[unlikely]]
     return solveTurningPoint(row, bodies);
   return solvePoint(row, bodies, friction);
 }
@@ -136,7 +136,8 @@ void prepareRow(ContactRow& row, std::span<const ImpulseBody> bodies) {
   row.largest_slip_response = largestTangentialResponse(response);
   const bool slides = rowVelocity(row, bodies).tail<2>().norm() > tolerance::kSlipSpeed;
   setCoefficient(row, slides ? row.friction.dynamic_coefficient : row.friction.static_coefficient);
-  if (row.resistance.acts()) prepareResistance(row, bodies);
+  row.resists_turning = row.resistance.acts();
+  if (row.resists_turning) prepareResistance(row, bodies);
 }
 
 void setCoefficient(ContactRow& row, double coefficient) {
@@ -146,8 +147,8 @@ void setCoefficient(ContactRow& row, double coefficient) {
 
 void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
                double unnoticed_stir, SolverReport& report) {
-  report.residual_mps = 0.0;
-  ++report.sweeps;
+  double residual_mps = 0.0;
+  long visits = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
     double& stir_a = stirOf(bodies, row.a);
@@ -158,9 +159,12 @@ void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool f
     if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
     if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
     row.seen_stir = change.settled ? stir_a + stir_b : before;
-    report.residual_mps = std::max(report.residual_mps, change.speed_mps);
-    ++report.visits;
+    residual_mps = std::max(residual_mps, change.speed_mps);
+    ++visits;
   }
+  report.residual_mps = residual_mps;
+  report.visits += visits;
+  ++report.sweeps;
 }
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,

@@ -34,8 +34,9 @@ struct ContactRow {
   double seen_stir = -1.0;      ///< The solver's: how much its bodies had been stirred at its last visit.
 
   // Filled by `prepareRow`.
-  bool parts_idly = false;  ///< No impulse within the cone holds it where it separates without.
-  int part = 1;             ///< Of the bodies, that has both: see dissection.h.
+  bool parts_idly = false;       ///< No impulse within the cone holds it where it separates without.
+  bool resists_turning = false;  ///< Whether `resistance` acts.
+  int part = 1;                  ///< Of the bodies, that has both: see dissection.h.
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
   Mat3 inverse_response = Mat3::Zero();

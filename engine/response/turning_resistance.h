@@ -16,7 +16,7 @@ void applyTorqueToRow(const ContactRow& row, const Vec3& torque, std::span<Impul
 /// Gives the bodies all that the row has: its impulse and, where it resists turning, its torque.
 inline void applyLoad(const ContactRow& row, std::span<ImpulseBody> bodies) {
   applyToRow(row, row.impulse, bodies);
-  if (row.resistance.acts()) applyTorqueToRow(row, row.torque, bodies);
+  if (row.resists_turning) applyTorqueToRow(row, row.torque, bodies);
 }
 /// Of `prepareRow`: what the resistance needs to know of the bodies. Cuts levers so long (longer than the
 /// bodies) that the torque of a normal impulse could undo half of what that does to the separating speed:

@@ -1,6 +1,7 @@
 #include "engine/simulation/carried_path.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace carom {
 namespace {
@@ -34,8 +35,9 @@ void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& 
   const double share = 0.125 * rest_of_step_s * rest_of_step_s;
   const double room = std::min(gap_m, window.rest) - window.floor;
   const double dip = std::max(kDipShare * room, kNoDip * window.rest);
-  if (-share * row.n.dot(accelerations[at(row.a)]) > dip) bends[at(row.a)] = 0;
-  if (share * row.n.dot(accelerations[at(row.b)]) > dip) bends[at(row.b)] = 0;
+  const auto straighten = [&](int i) { std::atomic_ref(bends[at(i)]).store(0, std::memory_order_relaxed); };
+  if (-share * row.n.dot(accelerations[at(row.a)]) > dip) straighten(row.a);
+  if (share * row.n.dot(accelerations[at(row.b)]) > dip) straighten(row.b);
 }
 
 }  // namespace carom

@@ -24,8 +24,9 @@ void driveEvenly(Body& body, const CarriedStretch& stretch);
 /// The path at a mean velocity, bent as the momentum is or straight.
 void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends);
 
-/// Clears `bends` for the bodies of a row (indices of `bends` and `accelerations`) whose bent paths would
-/// dip, on their way, by a noticeable share of what lies between the row's gap and the window's floor.
+/// May be called for several rows at the same time. Clears `bends` for the bodies of a row (indices of
+/// `bends` and `accelerations`) whose bent paths would dip, on their way, by a noticeable share of what lies
+/// between the row's gap and the window's floor.
 void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,
                     std::span<const Vec3> accelerations, std::span<char> bends);
 

@@ -65,7 +65,6 @@ class Assembly {
 
   // The bodies as the solver takes them.
   void seeBodies() {
-    contacts_.touched.assign(world_.bodies.size(), 0);
     contacts_.bodies.resize(world_.bodies.size());
     world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {

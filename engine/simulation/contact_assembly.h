@@ -42,12 +42,15 @@ struct LastingContacts {
   std::vector<RowSource> sources;         ///< As long.
   std::vector<PairRows> pair_rows;        ///< The rows of each pair that has any, in their order.
   std::vector<ImpulseBody> bodies;        ///< One per body of the world, velocities after the solve.
-  std::vector<char> touched;              ///< Bodies that some row pressed.
+  std::vector<char> touched;              ///< Moving bodies that some row pressed.
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
   std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
   std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
   std::vector<RowStretch> stretches;      ///< Scratch.
 };
+
+/// So many rows are looked at by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewRows = 1000;
 
 /// Of what a step's lasting contacts are made.
 struct LastingWorld {

@@ -53,14 +53,23 @@ class ContactPaths {
     });
   }
 
+  // The same for bodies: work(index).
+  template <typename Work>
+  void forBodies(const Work& work) {
+    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(i);
+    });
+  }
+
   void beginAtMeans() {
-    contacts_.paths = contacts_.bodies;
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
-      if (!contacts_.touched[i]) continue;
+    contacts_.paths.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) {
+      contacts_.paths[i] = contacts_.bodies[i];
+      if (!contacts_.touched[i]) return;
       Velocity& mean = contacts_.paths[i].velocity;
       mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
       mean.angular = 0.5 * (world_.bodies[i].velocity.angular + mean.angular);
-    }
+    });
   }
 
   // Makes the rows bounds on paths, without impulses yet. Returns the smallest rest gap, m.
@@ -140,25 +149,28 @@ class ContactPaths {
 
   void carry() {
     std::vector<Body>& bodies = world_.bodies;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (!contacts_.touched[i]) continue;
+    forBodies([&](std::size_t i) {
+      if (!contacts_.touched[i]) return;
       bodies[i].travel = Travel::kCarried;
       driveEvenly(bodies[i], {bodies[i].velocity, contacts_.bodies[i].velocity, step_s_});
-    }
+    });
     const std::vector<char> bends = findBends();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
+    forBodies([&](std::size_t i) {
       if (contacts_.touched[i]) carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, bends[i] != 0);
+    });
   }
 
   // Whose paths may bend, one a body.
-  std::vector<char> findBends() const {
+  std::vector<char> findBends() {
     std::vector<char> bends = contacts_.touched;
     std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
     for (std::size_t i = 0; i < world_.bodies.size(); ++i)
       if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
-    for (std::size_t i = 0; i < contacts_.rows.size(); ++i)
-      straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m,
-                     world_.pairs[at(contacts_.sources[i].pair)].window, step_s_, accelerations, bends);
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i)
+        straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,
+                       bends);
+    });
     return bends;
   }
 

@@ -1,6 +1,7 @@
 #include "engine/simulation/lasting_contact.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
@@ -16,31 +17,50 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+// How a body moved before the step's impulses, once for all its rows.
+struct BodyMotion {
+  double mass_kg = 0.0;    // 0: it does not move
+  double speed_mps = 0.0;  // of its middle, and of its surface about that
+  bool lies_still = true;
+};
+
+std::vector<BodyMotion> motionsOf(const std::vector<Body>& bodies, Crew& crew) {
+  std::vector<BodyMotion> motions(bodies.size());
+  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Body& body = bodies[i];
+      if (!body.moves()) continue;
+      motions[i] = {1.0 / body.inertia.inverse_mass,
+                    body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m,
+                    body.liesStill()};
+    }
+  });
+  return motions;
+}
+
 // Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
 // of them. A body counts as often as it has rows.
-bool stands(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
+bool stands(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
   double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
   double mass = 0.0;
   int all = 0, moving = 0;
   for (const ContactRow& row : rows) {
     for (const int i : {row.a, row.b}) {
-      const Body& body = bodies[at(i)];
-      if (!body.moves()) continue;
-      const double m = 1.0 / body.inertia.inverse_mass;
-      const double v = body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m;
+      const BodyMotion& body = motions[at(i)];
+      if (body.mass_kg == 0.0) continue;
       ++all;
-      if (!(v < tolerance::kRestSpeed)) ++moving;
-      mass += m;
-      twice_energy += m * v * v;
+      if (!(body.speed_mps < tolerance::kRestSpeed)) ++moving;
+      mass += body.mass_kg;
+      twice_energy += body.mass_kg * body.speed_mps * body.speed_mps;
     }
   }
   if (rows.size() >= kFocusedRows && moving <= kFewMoving * all) return true;
   return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
 }
 
-bool isStirred(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
+bool isStirred(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
   return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
-    return !bodies[at(row.a)].liesStill() || !bodies[at(row.b)].liesStill();
+    return !motions[at(row.a)].lies_still || !motions[at(row.b)].lies_still;
   });
 }
 
@@ -86,12 +106,13 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
 // taken as equations, would contradict each other.
-void solveStandingIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                         std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
+void solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
+                         std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
+                         double gravity_speed, Crew& crew) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, bodies)) {
+  if (!isStirred(rows, motions)) {
     solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
     return;
   }
@@ -118,11 +139,12 @@ void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies
 
 // With friction.
 void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
+  const std::vector<BodyMotion> motions = motionsOf(bodies, crew);
   for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
     const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
-    if (stands(rows, bodies))
-      solveStandingIsland(rows, bodies, contacts.bodies, gravity_speed, crew);
+    if (stands(rows, motions))
+      solveStandingIsland(rows, motions, bodies, contacts.bodies, gravity_speed, crew);
     else
       solveMovingIsland(rows, contacts.bodies, gravity_speed, crew);
   }
@@ -137,6 +159,21 @@ void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
     contacts.bodies[i].velocity.linear += gained.linear;
     contacts.bodies[i].velocity.angular += gained.angular;
   }
+}
+
+// The moving bodies that some row presses.
+void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Crew& crew) {
+  contacts.touched.assign(bodies.size(), 0);
+  crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const ContactRow& row = contacts.rows[k];
+      if (row.impulse.isZero(0.0)) continue;
+      for (const int i : {row.a, row.b})
+        std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
+    }
+  });
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].moves()) contacts.touched[i] = 0;
 }
 
 // For the next step's plans: what contacts have given; nothing to bodies in flight, which must not be planned
@@ -209,6 +246,7 @@ void wakeIsland(std::vector<Body>& bodies, int island) {
 }
 
 bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
+  if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.resting; })) return false;
   bool woken = false;
   for (const ContactRow& row : contacts.rows) {
     if (!(row.impulse.x() > 0.0)) continue;
@@ -228,12 +266,7 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
   giveEnvironment(contacts, bodies, planner);
   for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
   solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
-  for (const ContactRow& row : contacts.rows) {
-    if (row.impulse.isZero(0.0)) continue;
-    contacts.touched[at(row.a)] = contacts.touched[at(row.b)] = 1;
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].moves()) contacts.touched[i] = 0;
+  findTouched(contacts, bodies, world.crew);
   foreseeContacts(contacts, bodies, planner);
   setContactPaths(world, counters, contacts);
   remember(contacts, world);

@@ -24,8 +24,7 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-constexpr std::size_t kFewRows = 1000;  // are looked at by one thread
-constexpr double kSameLength = 1e-9;    // relative: steps of one length but for rounding
+constexpr double kSameLength = 1e-9;  // relative: steps of one length but for rounding
 
 void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
