@@ -35,10 +35,11 @@ inline constexpr int kSolverFocusedSweeps = 24;          // ... of crowds that s
 inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough for what moves, ...
 inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
 inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
+inline constexpr double kSolverCrowdResidual = 2.0e-4;     // ... and this of crowds swept alone
 inline constexpr int kSolverMostVisits = 50000;        // of what moves, where the coarse one is not reached
 inline constexpr int kSolverStandingSweeps = 20;       // of what stands, before it is solved at once, and ...
 inline constexpr int kSolverCrowdStandingSweeps = 28;  // ... of a crowd that does
-// Crowds (focused_solver.h) are swept alone for a pause, to the stirred residual, when solving them at once
+// Crowds (focused_solver.h) are swept alone for a pause, to their own residual, when solving them at once
 // did not converge, or was too dear, in so many steps more often than not.
 inline constexpr long kSolverDearProducts = 16;  // of blocks, a row: more takes longer than the sweeps
 inline constexpr int kSolverPatience = 8;

@@ -8,7 +8,8 @@
 namespace carom {
 namespace {
 
-constexpr int kSteps = 4;  // each leaves a fifth to a fiftieth of the residual
+constexpr int kSteps = 4;       // each leaves a fifth to a fiftieth of the residual
+constexpr int kCrowdSteps = 2;  // what these leave of a crowd, the next solve begins with
 // Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
 // step that leaves more than this share is the last.
 constexpr double kNearlyEnough = 5.0;
@@ -58,7 +59,8 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   total.products = held.products();
   if (total.products > settings.most_products) return total;
   Saved best(rows, bodies, total.residual_mps);
-  for (int step = 0; step < kSteps; ++step) {
+  const int most_steps = rows.size() < kFocusedRows ? kSteps : kCrowdSteps;
+  for (int step = 0; step < most_steps; ++step) {
     if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFocused(rows, bodies, after);
     total.sweeps += report.sweeps;

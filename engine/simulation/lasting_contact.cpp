@@ -96,7 +96,7 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
     settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
-    settings.residual_mps = tolerance::kSolverStirredResidual * gravity_speed;
+    settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
     solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
     return;
