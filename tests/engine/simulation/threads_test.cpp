@@ -14,13 +14,13 @@ constexpr double kSize = 0.5, kGap = 0.0005;
 
 // Boxes in layers, each on four of the layer below, and some that fall on top: enough in one island that
 // it is dissected, and that other work of a step is shared out as well.
-World bondedCrowd(int threads, const Vec3& gravity = Vec3(0, 0, -9.81)) {
-  World world({.step_s = 1.0 / 60, .gravity = gravity, .threads = threads});
+World bondedCrowd(int threads) {
+  World world({.step_s = 1.0 / 60, .threads = threads});
   const int box = world.addSolid(Solid::box(Vec3::Constant(kSize)));
   const int floor = world.addSolid(Solid::box({40, 40, 1}));
   const Material material{0.5, 0.5, 0.0, 1000.0};
   world.addBody({floor, {Quat::Identity(), Vec3(0, 0, -0.5)}, Vec3::Zero(), Vec3::Zero(), material, true});
-  constexpr int kSide = 15, kLayers = 4;
+  constexpr int kSide = 18, kLayers = 4;
   for (int layer = 0; layer < kLayers; ++layer)
     for (int i = 0; i < kSide - layer; ++i)
       for (int j = 0; j < kSide - layer; ++j) {
