@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kWorthSharing = 500;
 
 int tierOf(const ContactRow& row) {
-  return std::bit_width(static_cast<unsigned>(row.part));
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(row.part)));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ void expectSame(const SolverReport& a, const SolverReport& b) {
 
 TEST(DissectedRows, OfDifferentPartsOfOneSizeShareNoBodyThatMoves) {
   const Masonry m = dissectedWall(20, 40, 3);
-  const auto size_of = [](int part) { return std::bit_width(static_cast<unsigned>(part)); };
+  const auto size_of = [](int part) { return static_cast<int>(std::bit_width(static_cast<unsigned>(part))); };
   std::set<int> sizes;
   for (const ContactRow& row : m.rows) sizes.insert(size_of(row.part));
   EXPECT_EQ(sizes.size(), 4u);
