@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Of the bound on an answer's error: how exactly a surface is made that is to prove it.
+constexpr double kNoiseShare = 0x1p-7;
+
 // How far a point stands out of a core; at most 0 inside a polyhedron.
 double outside(const ConvexPolyhedron& core, const Vec3& p) {
   if (core.vertexCount() == 1) return (p - core.vertex(0)).norm();
@@ -124,12 +127,18 @@ Certificate certify(const ClosestFeatures& answer, const ConvexPart& a, const Po
   const double core_gap = answer.distance_m + a.radius_m + b.radius_m;
   if (core_gap >= 0.0) return certificate;
   // Of a depth below the bound the witnesses, that close together, are proof enough.
-  const bool small = -core_gap <= certifiedError(a, X_WA, b, X_WB);
+  const double bound = certifiedError(a, X_WA, b, X_WB);
+  const bool small = -core_gap <= bound;
   if (small || !memory || memory->penetration.triangleCount() == 0) {
     certificate.complete = small;
     return certificate;
   }
-  const double proven = provenDepth(memory->penetration, a.core, b.core, R_AB, t_AB);
+  double proven = provenDepth(memory->penetration, a.core, b.core, R_AB, t_AB);
+  if (-core_gap - proven > bound) {  // the surface is an earlier query's
+    InnerPolytope surface;
+    surface.minimumTranslation({a.core, X_WA, b.core, X_WB}, kNoiseShare * bound);
+    proven = std::max(proven, provenDepth(surface, a.core, b.core, R_AB, t_AB));
+  }
   certificate.error_m = std::max(certificate.error_m, -core_gap - proven);
   return certificate;
 }

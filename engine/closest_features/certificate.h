@@ -7,7 +7,9 @@
 // the depth along the normal frees it, so the depth is at most that; and the tracked polytope
 // (inner_polytope.h) is a closed surface of points of A - B whose planes all pass at least that far outside
 // the origin: all its triangles are seen from their inner sides, so it winds around, and the ball below the
-// planes lies within A - B. Tested in tests/engine/closest_features/certificate_test.cpp.
+// planes lies within A - B. Queries that prove their depth otherwise (warm_facet.h) leave the polytope as it
+// was; a new one is then made for the proof, which is the one thing here that is not linear. Tested in
+// tests/engine/closest_features/certificate_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 

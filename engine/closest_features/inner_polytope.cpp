@@ -43,32 +43,18 @@ struct LevelEdges {
   std::array<double, 2> slopes{kInfinity, kInfinity};
 };
 
-// Of the faces at a vertex, the one that faces n most; -1 on a point or segment.
-int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& n) {
-  int best = -1;
-  double most = -kInfinity;
-  for (const Spoke& spoke : polyhedron.spokes(v)) {
-    const Edge& edge = polyhedron.edge(spoke.edge);
-    const int face = edge.tail == v ? edge.left : edge.right;
-    if (face < 0) continue;
-    if (const double facing = polyhedron.plane(face).normal.dot(n); facing > most) {
-      most = facing;
-      best = face;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
-MinimumTranslation InnerPolytope::minimumTranslation(const PolyhedronPair& pair, double noise_m) {
+MinimumTranslation InnerPolytope::minimumTranslation(const PolyhedronPair& pair, double noise_m,
+                                                     const MinimumTranslation* known) {
   noise_m_ = noise_m;
   expansions_ = 0;
   ++query_;
   const FeaturePair last = best_.features;
   best_.gap_m = -kInfinity;
+  if (known != nullptr) keep(*known);
   if (stillHolds(pair)) {
-    recall(pair, last);
+    if (known == nullptr) recall(pair, last);
   } else if (!build(pair)) {
     return largestGap(pair);
   }

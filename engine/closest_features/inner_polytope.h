@@ -25,8 +25,10 @@ namespace carom {
 class InnerPolytope {
  public:
   /// The minimum translation of `pair`; what was built for the pair's last query is used if it still holds.
-  /// At least one of the two must have faces. `gap_m` > 0: a separating axis was found.
-  MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m);
+  /// At least one of the two must have faces. `known`: the gap along some axis, from which on to search; else
+  /// the last answer's. `gap_m` > 0: a separating axis was found.
+  MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m,
+                                        const MinimumTranslation* known = nullptr);
 
   /// Triangles of the surface that proves the last answer.
   int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }

@@ -84,6 +84,21 @@ void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
 
 }  // namespace
 
+int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
+  int best = -1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Spoke& spoke : polyhedron.spokes(v)) {
+    const Edge& edge = polyhedron.edge(spoke.edge);
+    const int face = edge.tail == v ? edge.left : edge.right;
+    if (face < 0) continue;
+    if (const double facing = polyhedron.plane(face).normal.dot(direction); facing > most) {
+      most = facing;
+      best = face;
+    }
+  }
+  return best;
+}
+
 MinimumTranslation gapOverFaceOfA(const PolyhedronPair& pair, int face, int start) {
   const Plane& plane = pair.a.plane(face);
   const int v = pair.b.support(-pair.directionToB(plane.normal), start);

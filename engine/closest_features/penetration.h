@@ -21,6 +21,9 @@ struct MinimumTranslation {
   Vec3 p_b = Vec3::Zero();  ///< On B's surface; p_b - p_a = gap * normal.
 };
 
+/// Of the faces at a vertex, the one that faces `direction` most; -1 on a point or segment.
+int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction);
+
 /// The gap along a face's normal, to the other body's support vertex, climbed to from `start`.
 MinimumTranslation gapOverFaceOfA(const PolyhedronPair& pair, int face, int start);
 MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int start);

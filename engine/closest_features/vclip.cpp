@@ -12,6 +12,7 @@
 #include "engine/closest_features/feature_walk.h"
 #include "engine/closest_features/level_axes.h"
 #include "engine/closest_features/penetration.h"
+#include "engine/closest_features/warm_facet.h"
 #include "engine/closest_features/warm_pair.h"
 #include "engine/foundation/contract.h"
 
@@ -117,7 +118,12 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
                         InnerPolytope& polytope, Visits& visits) {
   CoreAnswer answer;
   if (polytope.triangleCount() > 0) {
-    answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m));
+    const std::optional<WarmFacet> warm = nearestFacet(pair, tracked, scale.noise_m);
+    if (warm && warm->proven) {
+      answer = answerFrom(warm->gap);
+      if (clearlyAlone(pair, answer, scale.shift_m)) return answer;
+    }
+    answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m, warm ? &warm->gap : nullptr));
     if (answer.gap_m < -scale.noise_m) {
       if (!clearlyAlone(pair, answer, scale.shift_m)) makeDepthCanonical(pair, scale, polytope, true, answer);
       return answer;

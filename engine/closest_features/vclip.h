@@ -27,7 +27,7 @@ struct ClosestFeatures {
 };
 
 /// What a caller keeps of a pair from one query to the next: where the walk ended and, of a pair that
-/// intersects, the polytope that proved its depth. As made, the next query starts cold.
+/// intersects, the polytope that last proved its depth. As made, the next query starts cold.
 struct PairMemory {
   FeaturePair features;
   InnerPolytope penetration;

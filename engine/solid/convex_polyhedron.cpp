@@ -38,6 +38,14 @@ Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) 
   return {normal, normal.dot(center)};
 }
 
+// How far all faces are from a point; not positive outside.
+double roomAbout(const ConvexPolyhedron& polyhedron, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < polyhedron.faceCount(); ++f)
+    least = std::min(least, -polyhedron.plane(f).signedDistance(p));
+  return least;
+}
+
 struct HalfEdge {
   int low, high, face, slot;
   bool forward;  // runs low to high in its face
@@ -192,6 +200,17 @@ void ConvexPolyhedron::measure() {
   width_m_ = planes_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes_)
     width_m_ = std::min(width_m_, -plane.signedDistance(vertex(support(-plane.normal))));
+  inner_ball_ = largerInnerBall();
+}
+
+InnerBall ConvexPolyhedron::largerInnerBall() const {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : vertices_) mean += v;
+  mean /= static_cast<double>(vertices_.size());
+  if (planes_.empty()) return {mean, 0.0};
+  const InnerBall in_box{center_, roomAbout(*this, center_)};
+  const InnerBall at_mean{mean, std::max(0.0, roomAbout(*this, mean))};
+  return in_box.radius_m >= at_mean.radius_m ? in_box : at_mean;
 }
 
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
@@ -225,6 +244,7 @@ ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   result.center_ += shift;
   result.reach_m_ = result.center_.lpNorm<Eigen::Infinity>() + radius_m_;
   if (!result.planes_.empty()) result.buildSides();
+  result.inner_ball_ = result.largerInnerBall();
   return result;
 }
 

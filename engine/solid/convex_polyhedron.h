@@ -42,6 +42,13 @@ struct Spoke {
   int head = -1;  ///< The vertex at its other end.
 };
 
+/// A ball within a polyhedron, in its frame: the simplest bound from below of how far it reaches in any
+/// direction.
+struct InnerBall {
+  Vec3 center = Vec3::Zero();
+  double radius_m = 0.0;
+};
+
 class ConvexPolyhedron {
  public:
   /// One point: the core of a ball.
@@ -99,6 +106,9 @@ class ConvexPolyhedron {
   double radiusAbout(const Vec3& p) const;
   /// The smallest width over the directions of the face normals, metres; 0 for a point or segment.
   double width() const { return width_m_; }
+  /// About the middle of the bounding box or about the mean of the vertices, where there is more room; of
+  /// radius 0 in a point or segment.
+  const InnerBall& innerBall() const { return inner_ball_; }
 
   /// The same polyhedron moved: vertices become p + shift.
   ConvexPolyhedron translated(const Vec3& shift) const;
@@ -114,6 +124,7 @@ class ConvexPolyhedron {
   void buildSides();
   void validate() const;
   void measure();
+  InnerBall largerInnerBall() const;
 
   std::vector<Vec3> vertices_;
   std::vector<Edge> edges_;
@@ -128,6 +139,7 @@ class ConvexPolyhedron {
   double reach_m_ = 0.0;
   double inverse_shortest_edge_ = 0.0;
   double width_m_ = 0.0;
+  InnerBall inner_ball_;
 };
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/foundation/contract.h"
+#include "engine/solid/convex_hull.h"
 #include "tests/oracle/test_shapes.h"
 
 namespace carom {
@@ -224,6 +225,36 @@ TEST(ConvexPolyhedron, RefusesADentAndABentFace) {
 TEST(ConvexPolyhedron, RefusesCoincidentSegmentEndsAndNonFinitePoints) {
   EXPECT_THROW(ConvexPolyhedron::segment({1, 1, 1}, {1, 1, 1}), InputError);
   EXPECT_THROW(ConvexPolyhedron::point({0, 0, std::numeric_limits<double>::infinity()}), InputError);
+}
+
+TEST(ConvexPolyhedron, ItsInnerBallIsWithinAllFacesAndTouchesOne) {
+  for (const ConvexPolyhedron& p : population())
+    for (const ConvexPolyhedron& shape : {p, p.translated(Vec3(3, -2, 1))}) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int f = 0; f < shape.faceCount(); ++f)
+        nearest = std::min(nearest, -shape.plane(f).signedDistance(shape.innerBall().center));
+      EXPECT_EQ(shape.innerBall().radius_m, nearest);
+      EXPECT_GT(nearest, 0.0);
+    }
+}
+
+TEST(ConvexPolyhedron, TheInnerBallOfACubeIsTheInscribedOne) {
+  const InnerBall ball = boxPolyhedron({1, 1, 1}).innerBall();
+  EXPECT_NEAR(ball.radius_m, 0.5, 1e-15);
+  EXPECT_LT(ball.center.norm(), 1e-15);
+}
+
+// The corner of a cube, cut off: the middle of its bounding box is outside.
+TEST(ConvexPolyhedron, TheInnerBallOfACornerThatIsCutOffIsAboutTheMeanOfItsVertices) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const InnerBall ball = convexHull(corners).polyhedron.innerBall();
+  EXPECT_LT((ball.center - Vec3::Constant(0.25)).norm(), 1e-15);
+  EXPECT_NEAR(ball.radius_m, 0.25 / std::sqrt(3.0), 1e-15);
+}
+
+TEST(ConvexPolyhedron, APointOrSegmentHasNoRoomForABall) {
+  EXPECT_EQ(ConvexPolyhedron::point({1, 2, 3}).innerBall().radius_m, 0.0);
+  EXPECT_EQ(ConvexPolyhedron::segment({1, 2, 3}, {3, 2, 1}).innerBall().radius_m, 0.0);
 }
 
 }  // namespace

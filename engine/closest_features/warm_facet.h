@@ -1,0 +1,31 @@
+#pragma once
+// The usual case of a depth, by itself: the facet of the Minkowski difference M = A - B that was nearest to
+// the origin last time still is, or one that it leads on to, and a few numbers prove it. What they do not
+// prove is left to the tracked polytope (inner_polytope.h).
+//
+// Down: where the foot of the origin on a facet's plane lies beyond one of its sides, the facet across that
+// side is nearer: along the arc between the two normals, t from the first, M's support is D cos t + i sin t,
+// with D the facet's height and i < 0 how far inside the side the foot is. A facet that holds its foot is a
+// local minimum of the support. It is the least of all if the support is D or more in every direction:
+// - Far from the normal a ball says so: M contains the difference of balls within the bodies, which has the
+//   sum of their radii, about the difference of their centres, and the support radius + n . centre. It leaves
+//   a cone of directions, all within some angle t0 of the normal.
+// - Up to there the facet says so itself, in each direction of its plane in which it reaches D tan(t0 / 2)
+//   from the foot: D cos t + x sin t is D or more up to tan(t / 2) = x / D.
+// - Where the foot is too near to one side for that, the facet across it helps. Of both are taken the largest
+//   discs that touch the side beside the foot (two_discs.h).
+// Tested in tests/engine/closest_features/warm_facet_test.cpp.
+
+#include "engine/closest_features/penetration.h"
+
+namespace carom {
+
+struct WarmFacet {
+  MinimumTranslation gap;  ///< Along the facet's normal, exact.
+  bool proven = false;     ///< No other facet is nearer.
+};
+
+/// From the facet of `features` down; none where they make no facet.
+std::optional<WarmFacet> nearestFacet(const PolyhedronPair& pair, FeaturePair features, double noise_m);
+
+}  // namespace carom
