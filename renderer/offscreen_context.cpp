@@ -43,8 +43,10 @@ void placeShaderCache(PixelPolicy policy) {
 void setMesaEnvironment(PixelPolicy policy, int threads) {
   checkDriver();
   if (policy == PixelPolicy::kPortable) {
+    // Of eight floats without AVX llvmpipe takes the root and divides, where it encodes sRGB. Of four it asks
+    // the processor for an approximate reciprocal root, which Intel's and AMD's answer differently.
     setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 1);
-    setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
   }
   placeShaderCache(policy);
   if (threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);

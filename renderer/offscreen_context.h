@@ -33,7 +33,7 @@ class WrongDriver : public NoRenderer {
 
 /// How Mesa generates its code. It reads this once a process, so the first context of a process decides.
 enum class PixelPolicy {
-  kFast,      ///< The widest vectors that work here. Other CPUs may differ by 1/255 in a few pixels.
+  kFast,      ///< The widest vectors that work here. Other CPUs may differ by 1/255, by more at edges.
   kPortable,  ///< The same pixels on every x86-64 CPU with SSE4.1, about a third slower: golden frames.
 };
 
