@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "demos/interrupt.h"
+#include "demos/machine_load.h"
 
 namespace carom::demos {
 namespace {
@@ -44,7 +45,7 @@ std::vector<Comparison> comparedPairs(const std::vector<ImagePair>& pairs, const
                                       const std::function<void(int)>& done) {
   Work work{pairs, gate, done, std::vector<Comparison>(pairs.size()), {}, {}, 0, {}};
   {
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const auto cores = static_cast<std::size_t>(processors());
     std::vector<std::jthread> threads;
     for (std::size_t i = 1; i < std::min(cores, pairs.size()); ++i)
       threads.emplace_back([&work] { work.run(); });

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <string>
-#include <thread>
 
 #include "demos/byte_message.h"
 #include "demos/exit_code.h"
+#include "demos/machine_load.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
@@ -131,8 +131,7 @@ Answer answerOf(MessageReader& from) {
 
 int usualWorkers(int frames) {
   constexpr int kFewFrames = 24, kMost = 8;
-  const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  return frames < kFewFrames ? 1 : std::clamp(processors, 1, kMost);
+  return frames < kFewFrames ? 1 : std::min(processors(), kMost);
 }
 
 FrameWorkers::FrameWorkers(int count, const Start& start) {

@@ -15,10 +15,6 @@ double ticksPerSecond() {
   return static_cast<double>(std::max(sysconf(_SC_CLK_TCK), 1L));
 }
 
-int cores() {
-  return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
-}
-
 /// CPU time of all threads of this process.
 double ownSeconds() {
   timespec time{};
@@ -63,7 +59,11 @@ MachineLoad::MachineLoad() : before_(cpuTimeNow()), own_before_s_(ownSeconds()) 
 std::optional<double> MachineLoad::outsideShare() const {
   const std::optional<CpuTime> now = cpuTimeNow();
   if (!before_ || !now) return std::nullopt;
-  return demos::outsideShare(*before_, *now, ownSeconds() - own_before_s_, cores() / ticksPerSecond());
+  return demos::outsideShare(*before_, *now, ownSeconds() - own_before_s_, processors() / ticksPerSecond());
+}
+
+int processors() {
+  return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
 
 std::string machineName() {
@@ -75,7 +75,7 @@ std::string machineName() {
     if (colon != std::string::npos) model = line.substr(colon + 2);
     break;
   }
-  return model + ", " + std::to_string(cores()) + (cores() == 1 ? " core" : " cores");
+  return model + ", " + std::to_string(processors()) + (processors() == 1 ? " core" : " cores");
 }
 
 }  // namespace carom::demos

@@ -30,6 +30,9 @@ class MachineLoad {
   double own_before_s_;
 };
 
+/// At least one.
+int processors();
+
 /// "AMD EPYC 7763, 2 cores"
 std::string machineName();
 

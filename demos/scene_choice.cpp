@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <string_view>
-#include <thread>
 
 #include "demos/asset_path.h"
+#include "demos/machine_load.h"
 #include "demos/nearest_name.h"
 #include "demos/scene_file.h"
 
@@ -13,8 +13,7 @@ namespace carom::demos {
 
 int threadsOf(const SceneChoice& choice) {
   constexpr int kMost = 8;
-  const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  return choice.threads > 0 ? choice.threads : std::clamp(processors, 1, kMost);
+  return choice.threads > 0 ? choice.threads : std::min(processors(), kMost);
 }
 
 Scene chosenScene(const SceneChoice& choice) {

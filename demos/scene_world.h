@@ -21,8 +21,9 @@ struct SceneWorld {
   std::vector<SurfaceLook> looks;
 };
 
-/// `threads` step it (WorldSettings). Throws InputError when `mesh` is given and no hull of the scene is replaceable, when a shape encloses no
-/// volume, and when bodies overlap at the start (both named, with the depth).
+/// `threads` step it (WorldSettings). Throws InputError when `mesh` is given and no hull of the scene is
+/// replaceable, when a shape encloses no volume, and when bodies overlap at the start (both named, with the
+/// depth).
 SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh,
                           int threads = 1);
 

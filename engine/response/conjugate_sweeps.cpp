@@ -34,8 +34,7 @@ InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<Impul
 
 ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
     : rows_(rows), bodies_(bodies), crew_(crew), involved_(rows, bodies), sweeps_(rows, bodies, crew) {
-  turning_ =
-      std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resists_turning; });
+  turning_ = std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resists_turning; });
 }
 
 // Calls work(block, begin, end) for blocks of the things from 0 to `count`, side by side. The blocks are the
@@ -66,8 +65,9 @@ void ConjugateSweeps::begin(bool friction) {
     for (std::size_t i = begin; i < end; ++i) before_.impulses[i] = rows_[i].impulse;
   });
   for (std::size_t i = 0; i < turning_rows; ++i) before_.torques[i] = rows_[i].torque;
-  for (std::size_t k = 0; k < involved_.indices.size(); ++k)
-    before_.velocities[k] = bodies_[involved_.indices[k]].velocity;
+  inBlocks(involved_.indices.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) before_.velocities[k] = bodies_[involved_.indices[k]].velocity;
+  });
 }
 
 // The squared length of the step that sweeps took, in the measure of energy.
@@ -118,7 +118,6 @@ void ConjugateSweeps::continueAlong(double share) {
 }
 
 SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
-  constexpr double kVisitAll = -std::numeric_limits<double>::infinity();
   SolverReport report;
   begin(settings.friction);
   double last_squared = 0.0;

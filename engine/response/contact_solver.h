@@ -11,6 +11,7 @@
 #include <span>
 
 #include "engine/foundation/crew.h"
+#include "engine/response/dissection.h"
 #include "engine/response/point_collision.h"
 
 namespace carom {
@@ -36,7 +37,7 @@ struct ContactRow {
   // Filled by `prepareRow`.
   bool parts_idly = false;       ///< No impulse within the cone holds it where it separates without.
   bool resists_turning = false;  ///< Whether `resistance` acts.
-  int part = 1;                  ///< Of the bodies, that has both: see dissection.h.
+  int part = kWhole;             ///< Of the bodies, that has both: see dissection.h.
   Vec3 t1 = Vec3::UnitX();
   Vec3 t2 = Vec3::UnitY();
   Mat3 inverse_response = Mat3::Zero();
@@ -127,6 +128,8 @@ struct SolverReport {
   long visits = 0;            ///< Rows looked at, over all sweeps.
   long products = 0;          ///< Of 6 x 6 blocks: what a step of all held rows takes (standing_solver.h).
 };
+
+inline constexpr double kVisitAll = -std::numeric_limits<double>::infinity();  ///< As `unnoticed_stir`.
 
 /// One sweep, from the first row to the last or back, over those whose bodies have been stirred by more since
 /// their last visit. Adds to the report; its residual is of this sweep.

@@ -5,6 +5,7 @@
 // depend on the bodies alone, not on how many threads sweep them. Tested in
 // tests/engine/response/dissection_test.cpp.
 
+#include <bit>
 #include <span>
 
 #include "engine/response/impulse.h"
@@ -27,6 +28,11 @@ struct DissectionPlan {
 /// Writes the part of each of `members` (indices of the plan's bodies, put into another order here) to
 /// `part_of`, which is as long as the bodies.
 void dissect(const DissectionPlan& plan, std::span<int> members, std::span<int> part_of);
+
+/// How often the whole was halved for it. Of parts of one depth, none has a body of another.
+inline int depthOf(int part) {
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(part))) - 1;
+}
 
 /// The smallest part that has both bodies, of those that are in any.
 inline int commonPart(int part_a, int part_b) {

@@ -1,7 +1,8 @@
 #include "engine/response/shared_sweeps.h"
 
 #include <algorithm>
-#include <bit>
+
+#include "engine/response/dissection.h"
 
 namespace carom {
 namespace {
@@ -9,17 +10,13 @@ namespace {
 // Rows of a tier, of which a visit takes some 30 ns: below, waiting for others takes longer than they save.
 constexpr std::size_t kWorthSharing = 500;
 
-int tierOf(const ContactRow& row) {
-  return static_cast<int>(std::bit_width(static_cast<unsigned>(row.part)));
-}
-
 }  // namespace
 
 SharedSweeps::SharedSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
     : rows_(rows), bodies_(bodies), crew_(crew) {
   if (crew == nullptr || crew->threads() == 1 || rows.size() < kWorthSharing) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool same_tier = i > 0 && tierOf(rows[i]) == tierOf(rows[i - 1]);
+    const bool same_tier = i > 0 && depthOf(rows[i].part) == depthOf(rows[i - 1].part);
     if (!same_tier) tiers_.emplace_back();
     Tier& tier = tiers_.back();
     if (same_tier && rows[i].part == rows[i - 1].part)

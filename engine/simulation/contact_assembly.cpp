@@ -58,7 +58,7 @@ class Assembly {
   // In the order of the rows: those of an island together, those of a crowd by descending part of it.
   struct LastingPair {
     int island = -1;  // at first a body of it
-    int from_last_part = 0;
+    int from_last_part = -kWhole;
     int pair = -1;
     auto operator<=>(const LastingPair&) const = default;
   };
@@ -95,7 +95,7 @@ class Assembly {
       const ShapePair& pair = world_.pairs[i];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
-      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, 0, static_cast<int>(i)});
+      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, static_cast<int>(i)});
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
   }
@@ -181,7 +181,7 @@ class Assembly {
     stretch.pairs.push_back({lasting.pair, pair.body_a, pair.body_b, rows.size()});
     for (SourcedRow& sourced : rows) {
       ContactRow& row = sourced.row;
-      row.part = lasting.from_last_part == 0 ? kWhole : -lasting.from_last_part;
+      row.part = -lasting.from_last_part;
       row.lowest_speed += gapSpeeds(sourced.gap_m, pair, step_s, row.impulse.x() > 0.0).momentum;
       stretch.rows.push_back(row);
       stretch.sources.push_back(sourced);

@@ -40,6 +40,8 @@ class Program {
   explicit Program(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {}, Outlet outlet = {})
       : outlet_(outlet) {
+    for (const std::filesystem::path& stream : {out(), err()})
+      std::ofstream{stream};  // even if it never runs
     child_ = fork();
     if (child_ < 0) throw std::runtime_error("cannot fork");
     if (child_ == 0) exec(arguments, environment);
@@ -83,8 +85,8 @@ class Program {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const int held = open(out().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-    const int err_file = open(err().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    const int held = open(out().c_str(), O_WRONLY | O_CLOEXEC);
+    const int err_file = open(err().c_str(), O_WRONLY | O_CLOEXEC);
     const int out_file = outlet_.descriptor >= 0 ? outlet_.descriptor : held;
     const bool ready = chdir(folder_.path().c_str()) == 0 && dup2(out_file, 1) == 1 && dup2(err_file, 2) == 2;
     if (outlet_.descriptor == Outlet::kClosed) close(1);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <set>
 
@@ -40,7 +39,7 @@ std::vector<int> partsOf(const std::vector<ImpulseBody>& bodies, const std::vect
 TEST(Dissection, MakesPartsOfOneSize) {
   for (const int count : {0, 1, 7, 64, 1001}) {
     const std::vector<int> parts = partsOf(scattered(count, Vec3(4, 3, 2)), kLevel, 3);
-    for (const int part : parts) EXPECT_EQ(static_cast<int>(std::bit_width(static_cast<unsigned>(part))), 4);
+    for (const int part : parts) EXPECT_EQ(depthOf(part), 3);
     for (int part = 8; part < 16; ++part)
       EXPECT_NEAR(static_cast<double>(std::count(parts.begin(), parts.end(), part)), count / 8.0, 1.0);
   }
