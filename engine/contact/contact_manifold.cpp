@@ -16,13 +16,25 @@ void append(ContactManifold& manifold, const ManifoldPoint& point) {
   manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
 }
 
+KeptCorners formerCorners(const ContactPolygon& polygon, FormerPoints former) {
+  KeptCorners kept;
+  if (polygon.corners.size() <= std::size_t{KeptCorners::kMost}) return kept;  // all of them are
+  for (std::size_t i = 0; i < polygon.corners.size() && kept.count < KeptCorners::kMost; ++i)
+    if (std::find(former.begin(), former.end(), contactId(polygon.corners[i].features)) != former.end())
+      kept.index[static_cast<std::size_t>(kept.count++)] = static_cast<int>(i);
+  return kept;
+}
+
 }  // namespace
 
 ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                                const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window) {
+                                const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
+                                FormerPoints former) {
   static thread_local ContactPolygon polygon;
   contactPolygon(closest, a, X_WA, b, X_WB, window, polygon);
-  const KeptCorners kept = reducePolygon(polygon, sameCorner_m(X_WA, X_WB, window));
+  const KeptCorners kept =
+      reducePolygon(polygon, sameCorner_m(X_WA, X_WB, window),
+                    {formerCorners(polygon, former), tolerance::kRestBand * window.rest});
   ContactManifold manifold;
   double least = window.manifold;
   for (int i = 0; i < kept.count; ++i) {

@@ -36,8 +36,13 @@ struct ContactManifold {
   const ManifoldPoint* end() const { return points.data() + count; }
 };
 
-/// All points of contact of two parts whose closest features are known; at least one.
+/// The points that a pair had before its bodies moved on, by their ids.
+using FormerPoints = std::span<const std::uint64_t>;
+
+/// All points of contact of two parts whose closest features are known; at least one. Of a polygon with more
+/// than four corners, the `former` four stay while they hold it nearly as well as any (`reducePolygon`).
 ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                                const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window);
+                                const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
+                                FormerPoints former = {});
 
 }  // namespace carom

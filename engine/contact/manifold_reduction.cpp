@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -245,6 +246,25 @@ void flatten(const ContactPolygon& polygon, double same_gap_m, std::vector<FlatC
   }
 }
 
+// Twice the area of four corners in order round.
+double areaOf(const Four& four) {
+  return std::abs(cross(four[2]->p - four[0]->p, four[3]->p - four[1]->p));
+}
+double areaOf(std::span<const FlatCorner> corners, const KeptCorners& kept) {
+  const auto corner = [&](std::size_t i) { return &corners[static_cast<std::size_t>(kept.index[i])]; };
+  return areaOf({corner(0), corner(1), corner(2), corner(3)});
+}
+
+// Of four.
+bool holdsADeepest(const ContactPolygon& polygon, const FormerCorners& former) {
+  if (former.kept.count < KeptCorners::kMost) return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PolygonCorner& c : polygon.corners) least = std::min(least, c.gap_m);
+  return std::any_of(former.kept.index.begin(), former.kept.index.end(), [&](int i) {
+    return polygon.corners[static_cast<std::size_t>(i)].gap_m <= least + former.same_gap_m;
+  });
+}
+
 // Into its place among those kept, once.
 void keep(KeptCorners& kept, int index) {
   int place = kept.count;
@@ -258,7 +278,7 @@ void keep(KeptCorners& kept, int index) {
 
 }  // namespace
 
-KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m) {
+KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m, const FormerCorners& former) {
   KeptCorners kept;
   const int n = static_cast<int>(polygon.corners.size());
   if (n <= KeptCorners::kMost) {
@@ -276,9 +296,11 @@ KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m) {
   // Corners in a line have no area to choose by; the deepest and the ends are all that counts.
   Four four{&deepest, &p, &q, nullptr};
   if (toUnitFrame(corners, p, q)) {
+    const double former_area = holdsADeepest(polygon, former) ? areaOf(corners, former.kept) : 0.0;
     if (n > kExactCorners) thin(corners, p, q);
     const Four largest = largestFour(corners);
     if (largest[0] != nullptr) four = largest;
+    if (largest[0] != nullptr && former_area >= kKeptArea * areaOf(largest)) return former.kept;
   }
   for (const FlatCorner* c : four)
     if (c != nullptr) keep(kept, c->index);

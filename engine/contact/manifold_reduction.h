@@ -19,11 +19,21 @@ struct KeptCorners {
   std::array<int, kMost> index{};
 };
 
+/// The corners that were kept of the polygon that this one was before its bodies moved on, those that are
+/// still there; one whose gap is within `same_gap_m` of the least counts as a deepest.
+struct FormerCorners {
+  KeptCorners kept;
+  double same_gap_m = 0.0;
+};
+inline constexpr double kKeptArea = 0.95;  ///< Of the largest that is to be had.
+
 /// All corners of a polygon with up to four; of a larger one a deepest corner (a gap within `same_gap_m` of
 /// the least) and three more, spanning at least 95 % of the largest area that four corners with a deepest one
 /// among them span. Where the gaps are all alike this is the largest area of any four. Equal choices fall to
 /// the names of the corners, so that swapping or moving the bodies keeps the choice. Needs a convex polygon;
-/// quadratic in its corners only where many of them are deepest.
-KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m);
+/// quadratic in its corners only where many of them are deepest. Four former corners stay as long as a
+/// deepest is among them and they span `kKeptArea` of the largest area: between choices nearly as good, what
+/// stands would be handed to and fro, and its loads with it.
+KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m, const FormerCorners& former = {});
 
 }  // namespace carom

@@ -156,12 +156,14 @@ class Assembly {
     ShapePair& pair = world_.pairs[at(lasting.pair)];
     const Body& a = world_.bodies[at(pair.body_a)];
     const Body& b = world_.bodies[at(pair.body_b)];
+    const RememberedPoints remembered(pair);
     const RowRequest request{.pair = lasting.pair,
                              .row_a = pair.body_a,
                              .row_b = pair.body_b,
                              .closest = &pair.closest,
                              .X_WA = a.X_WB,
                              .X_WB = b.X_WB,
+                             .former = remembered.view(),
                              .height_m = lastingHeight(pair, step_s)};
     std::vector<SourcedRow>& rows = stretch.of_pair;
     rows.clear();

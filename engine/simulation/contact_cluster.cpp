@@ -151,12 +151,14 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   const int b = join(pair.body_b);
   if (!givesWay(a) && !givesWay(b)) return;
   const std::size_t first = sources_.size();
+  const RememberedPoints remembered(pair);
   appendRows({.pair = index,
               .row_a = a,
               .row_b = b,
               .closest = &closest,
               .X_WA = bodies_[at(pair.body_a)].path.at(time_s_),
               .X_WB = bodies_[at(pair.body_b)].path.at(time_s_),
+              .former = remembered.view(),
               .struck = index == event_pair_},
              pair, bodies_, shapes_, stageBodies(), sources_);
   const double highest =

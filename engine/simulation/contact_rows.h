@@ -31,6 +31,7 @@ struct RowRequest {
   const ClosestFeatures* closest = nullptr;
   Pose X_WA;
   Pose X_WB;
+  FormerPoints former;    ///< The pair's points up to now.
   double height_m = 0.0;  ///< Points up to this gap count, and up to the window's height at least.
   bool struck = false;    ///< The closest point gets a row wherever it is: it has been stopped there.
 };

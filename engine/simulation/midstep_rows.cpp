@@ -64,6 +64,9 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
   ++counters.distance_queries;
   if (!(closest.distance_m > 0.0)) return;
   later.closest = &closest;
+  RememberedPoints now;
+  for (const SourcedRow& row : rows) now.add(row.id);
+  later.former = now.view();
   std::vector<SourcedRow> there;
   appendRows(later, pair, bodies, shapes, solver_bodies, there);
   for (SourcedRow& row : rows) {

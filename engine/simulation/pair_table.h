@@ -38,6 +38,20 @@ struct ShapePair {
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 };
 
+/// The ids of the points that a pair remembers.
+struct RememberedPoints {
+  explicit RememberedPoints(const ShapePair& pair) {
+    for (const RememberedImpulse& remembered : pair.remembered) add(remembered.id);
+  }
+  RememberedPoints() = default;
+  void add(std::uint64_t id) { ids[static_cast<std::size_t>(count++)] = id; }
+  FormerPoints view() const& { return {ids.data(), static_cast<std::size_t>(count)}; }
+  FormerPoints view() const&& = delete;  // it would outlive what it shows
+
+  int count = 0;
+  std::array<std::uint64_t, ContactManifold::kMaxPoints> ids{};
+};
+
 /// So many pairs are worked on by one thread: to wait for another takes as long.
 inline constexpr std::size_t kFewPairs = 500;
 

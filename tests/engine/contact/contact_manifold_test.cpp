@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -289,6 +290,46 @@ TEST(ContactManifold, AlwaysHoldsTheClosestDistance) {
     ASSERT_LE(least, closest.distance_m + 1e-6) << "seed " << seed << " case " << i;
     ASSERT_GE(least, closest.distance_m - 1e-12) << "no point is nearer than the bodies are";
   }
+}
+
+// A box that lies across another, turned by an eighth, has eight corners of contact. Which four are chosen
+// depends on how it leans, but those that were chosen before stay, and the closest point is there besides.
+TEST(ContactManifold, OfManyCorners_KeepsTheFormerFourAndTheClosestPoint) {
+  const Solid box = Solid::box({1, 1, 1});
+  const ConvexPart& part = box.parts()[0];
+  const Pose X_WA{Quat::Identity(), Vec3(0, 0, -0.5)};
+  const auto leaning = [](const Vec3& axis) {
+    return Pose{turned(axis, 1e-5) * turned(Vec3::UnitZ(), std::numbers::pi / 4), Vec3(0, 0, 0.501)};
+  };
+  const auto idsOf = [](const ContactManifold& m) {
+    std::set<std::uint64_t> ids;
+    for (const ManifoldPoint& p : m.view()) ids.insert(p.id);
+    return ids;
+  };
+  const ContactManifold before = manifoldOf(box, X_WA, box, leaning(Vec3::UnitX()));
+  const Vec3 elsewhere = Vec3(0.38, 0.92, 0).normalized();
+  const Pose X_WB = leaning(elsewhere);
+  FeaturePair cold;
+  const ClosestFeatures closest = closestFeatures(part, X_WA, part, X_WB, cold);
+  const CollisionWindow window = collisionWindow(part, part);
+  std::vector<std::uint64_t> former;
+  for (const ManifoldPoint& p : before.view()) former.push_back(p.id);
+  ASSERT_EQ(former.size(), 4u);
+  const ContactManifold fresh = contactManifold(closest, part, X_WA, part, X_WB, window);
+  const ContactManifold now = contactManifold(closest, part, X_WA, part, X_WB, window, former);
+  ASSERT_NE(idsOf(fresh), idsOf(before)) << "nothing would change";
+  double least = 1.0;
+  for (const ManifoldPoint& p : now.view()) least = std::min(least, p.gap_m);
+  EXPECT_NEAR(least, closest.distance_m, 1e-9);
+  const std::set<std::uint64_t> ids = idsOf(now);
+  for (const std::uint64_t id : former) EXPECT_TRUE(ids.contains(id)) << id;
+  EXPECT_EQ(now.count, 5);
+  // What leans beyond the band in which gaps are alike is another contact.
+  const Pose X_WTilted{turned(elsewhere, 1e-3) * turned(Vec3::UnitZ(), std::numbers::pi / 4),
+                       Vec3(0, 0, 0.5015)};
+  const ClosestFeatures tilted = closestFeatures(part, X_WA, part, X_WTilted, cold);
+  EXPECT_EQ(idsOf(contactManifold(tilted, part, X_WA, part, X_WTilted, window, former)),
+            idsOf(contactManifold(tilted, part, X_WA, part, X_WTilted, window)));
 }
 
 TEST(ContactManifold, IdsStayWhenTheBodiesMoveALittle) {

@@ -128,6 +128,42 @@ TEST(ManifoldReduction, OfRegularPolygons_KeepsTheSquareInThem) {
   }
 }
 
+// An octagon whose odd corners are drawn in: of its two squares theirs has so much less area.
+class FormerCornersOf : public testing::Test {
+ protected:
+  static ContactPolygon octagon(double area_share) {
+    std::vector<Vec2> corners = regular(8);
+    for (std::size_t i = 1; i < corners.size(); i += 2) corners[i] *= std::sqrt(area_share);
+    return polygonOf(corners, Pose{}, Vec2::Zero());
+  }
+  static constexpr std::array<int, 4> kEven{0, 2, 4, 6}, kOdd{1, 3, 5, 7};
+};
+
+TEST_F(FormerCornersOf, ASquareStayWhileTheirAreaIsNearlyTheLargest) {
+  EXPECT_EQ(reducePolygon(octagon(0.96), kSameGap).index, kEven);
+  EXPECT_EQ(reducePolygon(octagon(0.96), kSameGap, {{4, kOdd}, kSameGap}).index, kOdd);
+  EXPECT_EQ(reducePolygon(octagon(0.94), kSameGap, {{4, kOdd}, kSameGap}).index, kEven);
+  EXPECT_EQ(reducePolygon(octagon(0.96), kSameGap, {{4, {0, 1, 4, 5}}, kSameGap}).index, kEven)
+      << "a rectangle of 0.71 of the area";
+}
+
+TEST_F(FormerCornersOf, ASquareStayWhileADeepestIsAmongThem) {
+  ContactPolygon polygon = octagon(0.96);
+  polygon.corners[2].gap_m -= 2e-6;
+  EXPECT_EQ(reducePolygon(polygon, kSameGap, {{4, kOdd}, 3e-6}).index, kOdd);
+  EXPECT_EQ(reducePolygon(polygon, kSameGap, {{4, kOdd}, 1e-6}).index, kEven);
+}
+
+TEST_F(FormerCornersOf, ASquareThatHasLostOneAreChosenAnew) {
+  EXPECT_EQ(reducePolygon(octagon(0.96), kSameGap, {{3, {1, 3, 5, 0}}, kSameGap}).index, kEven);
+}
+
+TEST_F(FormerCornersOf, ALongPolygonStayThoughThinningWouldDropThem) {
+  const ContactPolygon polygon = polygonOf(regular(400), Pose{}, Vec2::Zero());
+  const std::array<int, 4> former{33, 133, 233, 333};
+  EXPECT_EQ(reducePolygon(polygon, kSameGap, {{4, former}, kSameGap}).index, former);
+}
+
 TEST(ManifoldReduction, OfUpToFourCorners_KeepsThemAll) {
   for (int n = 0; n <= 4; ++n) {
     ContactPolygon polygon = polygonOf(regular(4), Pose{}, Vec2(1e-4, 0));
