@@ -122,11 +122,12 @@ SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
   begin(settings.friction);
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
-    for (const bool forward : {true, false}) sweeps_.sweep(settings.friction, forward, kVisitAll, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
-    const bool careful = report.sweeps < settings.careful_sweeps;
+    const bool careful = report.sweeps + 2 < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
-    if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
+    for (const bool forward : {true, false})
+      sweeps_.sweep({settings.friction, forward, kVisitAll, enough}, report);
+    if (hasConverged(report, settings, enough, rows_.size()) || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep();
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth
     continueAlong(shrinks ? squared / last_squared : 0.0);

@@ -109,6 +109,13 @@ RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction
   return solvePoint(row, bodies, friction);
 }
 
+// Cut off where the rows of a world could overflow a sum of them.
+long excessOf(double change) {
+  constexpr double kMost = 1e6;
+  const double cut = std::min(change, kMost);
+  return static_cast<long>(cut * cut);
+}
+
 double& stirOf(std::span<ImpulseBody> bodies, int i) {
   return bodies[at(i)].stir;
 }
@@ -145,24 +152,27 @@ void setCoefficient(ContactRow& row, double coefficient) {
   row.parts_idly = coefficient * row.normal_response.tail<2>().norm() < row.normal_response.x();
 }
 
-void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction, bool forward,
-               double unnoticed_stir, SolverReport& report) {
+void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Sweep& sweep,
+               SolverReport& report) {
   double residual_mps = 0.0;
+  long excess = 0;
   long visits = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    ContactRow& row = rows[forward ? k : rows.size() - 1 - k];
+    ContactRow& row = rows[sweep.forward ? k : rows.size() - 1 - k];
     double& stir_a = stirOf(bodies, row.a);
     double& stir_b = stirOf(bodies, row.b);
-    if (row.seen_stir >= 0.0 && stir_a + stir_b - row.seen_stir <= unnoticed_stir) continue;
+    if (row.seen_stir >= 0.0 && stir_a + stir_b - row.seen_stir <= sweep.unnoticed_stir) continue;
     const double before = stir_a + stir_b;
-    const RowChange change = solveRow(row, bodies, friction);
+    const RowChange change = solveRow(row, bodies, sweep.friction);
     if (bodies[at(row.a)].inverse_mass > 0.0) stir_a += change.speed_mps;
     if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
     row.seen_stir = change.settled ? stir_a + stir_b : before;
     residual_mps = std::max(residual_mps, change.speed_mps);
+    if (change.speed_mps > sweep.enough_mps) excess += excessOf(change.speed_mps / sweep.enough_mps);
     ++visits;
   }
   report.residual_mps = residual_mps;
+  report.excess = excess;
   report.visits += visits;
   ++report.sweeps;
 }
@@ -180,8 +190,8 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    sweeps.sweep(settings.friction, forward, kStirShare * enough, report);
-    if (report.residual_mps <= enough) break;
+    sweeps.sweep({settings.friction, forward, kStirShare * enough, enough}, report);
+    if (hasConverged(report, settings, enough, rows.size())) break;
   }
   return report;
 }

@@ -112,6 +112,7 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
   const auto sweepAll = [&](const SolverSettings& all) {
     const SolverReport report = sweeps.solve(all);
     total.residual_mps = report.residual_mps;
+    total.excess = report.excess;
     count(report.visits);
   };
   while (true) {  // each round is two sweeps or more of the number that ends it
@@ -119,10 +120,12 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
     SolverSettings round{.sweeps = kWideSweeps,
                          .residual_mps = careful ? settings.residual_mps : settings.coarse_residual_mps,
                          .friction = settings.friction,
+                         .in_the_mean = settings.in_the_mean,
                          .crew = settings.crew};
     clearStirs(sweeps.involved(), bodies);
     sweepAll(round);
-    if (total.residual_mps <= round.residual_mps || total.sweeps + kWideSweeps > settings.sweeps)
+    if (hasConverged(total, round, round.residual_mps, rows.size()) ||
+        total.sweeps + kWideSweeps > settings.sweeps)
       return total;
     const Stirs stirs(sweeps.involved(), bodies);
     const std::vector<std::size_t> chosen = stirs.rowsOfMostStirred();
@@ -134,6 +137,7 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
       return total;
     }
     round.sweeps = kLocalSweeps;
+    round.in_the_mean = false;  // these are the rows that have not converged
     count(sweepInwards(rows, chosen, bodies, round));
   }
 }

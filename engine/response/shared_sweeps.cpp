@@ -27,19 +27,20 @@ SharedSweeps::SharedSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bo
   }
 }
 
-void SharedSweeps::sweep(bool friction, bool forward, double unnoticed_stir, SolverReport& report) {
+void SharedSweeps::sweep(const Sweep& sweep, SolverReport& report) {
   if (tiers_.empty()) {
-    sweepRows(rows_, bodies_, friction, forward, unnoticed_stir, report);
+    sweepRows(rows_, bodies_, sweep, report);
     return;
   }
   double residual_mps = 0.0;
+  long excess = 0;
   ++report.sweeps;
   for (std::size_t k = 0; k < tiers_.size(); ++k) {
-    const Tier& tier = tiers_[forward ? k : tiers_.size() - 1 - k];
+    const Tier& tier = tiers_[sweep.forward ? k : tiers_.size() - 1 - k];
     reports_.assign(tier.runs.size(), {});
     const auto sweepRun = [&](int i) {
       const auto run = static_cast<std::size_t>(i);
-      sweepRows(rowsOf(tier.runs[run]), bodies_, friction, forward, unnoticed_stir, reports_[run]);
+      sweepRows(rowsOf(tier.runs[run]), bodies_, sweep, reports_[run]);
     };
     const int runs = static_cast<int>(tier.runs.size());
     if (tier.rows >= kWorthSharing)
@@ -48,10 +49,12 @@ void SharedSweeps::sweep(bool friction, bool forward, double unnoticed_stir, Sol
       for (int i = 0; i < runs; ++i) sweepRun(i);
     for (const SolverReport& part : reports_) {
       residual_mps = std::max(residual_mps, part.residual_mps);
+      excess += part.excess;
       report.visits += part.visits;
     }
   }
   report.residual_mps = residual_mps;
+  report.excess = excess;
 }
 
 }  // namespace carom

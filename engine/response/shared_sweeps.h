@@ -17,7 +17,7 @@ class SharedSweeps {
   SharedSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew);
 
   /// As sweepRows over all of them.
-  void sweep(bool friction, bool forward, double unnoticed_stir, SolverReport& report);
+  void sweep(const Sweep& sweep, SolverReport& report);
 
  private:
   struct Run {  // the rows of one part

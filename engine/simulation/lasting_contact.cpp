@@ -97,6 +97,7 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
   if (patience.isLost()) {
     settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
     settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
+    settings.in_the_mean = true;
     solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
     return;
@@ -119,6 +120,7 @@ void solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion>
   solveContactsFocused(rows, solver_bodies,
                        {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
                         .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
+                        .in_the_mean = rows.size() >= kFocusedRows,
                         .crew = &crew});
 }
 

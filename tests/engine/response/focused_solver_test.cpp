@@ -47,6 +47,22 @@ TEST(SolveContactsFocused, WhereOneOfManyColumnsIsStruck_TakesAFractionOfTheVisi
   expectWithinCones(focused);
 }
 
+// One row that never converges does not keep a crowd sweeping that has in the mean.
+TEST(SolveContactsFocused, InTheMean_StopsWhereAFewRowsAreLeft) {
+  Masonry all = standing(columns(60, 10));
+  all.bodies[5].velocity.linear += Vec3(0.02, 0.01, -0.03);
+  Masonry mean = all;
+  SolverSettings settings{.sweeps = 1000, .residual_mps = 1e-3 * kGained};
+  const SolverReport until_all = solveContactsFocused(all.rows, all.bodies, settings);
+  settings.in_the_mean = true;
+  const SolverReport in_mean = solveContactsFocused(mean.rows, mean.bodies, settings);
+  EXPECT_GT(in_mean.residual_mps, settings.residual_mps);
+  EXPECT_LE(in_mean.excess, static_cast<long>(mean.rows.size()));
+  EXPECT_GT(in_mean.excess, 0);
+  EXPECT_LT(2 * in_mean.visits, until_all.visits);
+  expectWithinCones(mean);
+}
+
 TEST(SolveContactsFocused, TheVelocitiesAreThoseThatTheImpulsesGive) {
   Masonry m = wall(16, 16);
   ASSERT_GE(m.rows.size(), kFocusedRows);

@@ -41,6 +41,7 @@ void expectSame(const SolverReport& a, const SolverReport& b) {
   EXPECT_EQ(a.sweeps, b.sweeps);
   EXPECT_EQ(a.visits, b.visits);
   EXPECT_EQ(a.residual_mps, b.residual_mps);
+  EXPECT_EQ(a.excess, b.excess);
 }
 
 TEST(DissectedRows, OfDifferentPartsOfOneDepthShareNoBodyThatMoves) {
@@ -67,8 +68,9 @@ TEST_P(SharedSweepsOf, AreTheSweepsOfOneThreadBitForBit) {
   for (const bool friction : {true, false})
     for (int k = 0; k < 10; ++k) {
       SolverReport a, b;
-      sweepRows(alone.rows, alone.bodies, friction, k % 2 == 0, kVisitAll, a);
-      sweeps.sweep(friction, k % 2 == 0, kVisitAll, b);
+      const Sweep sweep{.friction = friction, .forward = k % 2 == 0, .enough_mps = 1e-3 * kGained};
+      sweepRows(alone.rows, alone.bodies, sweep, a);
+      sweeps.sweep(sweep, b);
       expectSame(a, b);
       expectSameBits(alone, shared);
     }
