@@ -16,9 +16,10 @@ void append(ContactManifold& manifold, const ManifoldPoint& point) {
   manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
 }
 
+// Those of a polygon that has more than it can keep.
 KeptCorners formerCorners(const ContactPolygon& polygon, FormerPoints former) {
   KeptCorners kept;
-  if (polygon.corners.size() <= std::size_t{KeptCorners::kMost}) return kept;  // all of them are
+  if (polygon.corners.size() <= std::size_t{KeptCorners::kMost}) return kept;
   for (std::size_t i = 0; i < polygon.corners.size() && kept.count < KeptCorners::kMost; ++i)
     if (std::find(former.begin(), former.end(), contactId(polygon.corners[i].features)) != former.end())
       kept.index[static_cast<std::size_t>(kept.count++)] = static_cast<int>(i);

@@ -255,7 +255,7 @@ double areaOf(std::span<const FlatCorner> corners, const KeptCorners& kept) {
   return areaOf({corner(0), corner(1), corner(2), corner(3)});
 }
 
-// Of four.
+// Whether all four are still there, and one of them is as deep as any corner.
 bool holdsADeepest(const ContactPolygon& polygon, const FormerCorners& former) {
   if (former.kept.count < KeptCorners::kMost) return false;
   double least = std::numeric_limits<double>::infinity();
