@@ -122,11 +122,11 @@ SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
   begin(settings.friction);
   double last_squared = 0.0;
   while (report.sweeps < settings.sweeps) {
-    // The last sweep always ends within the cones: no step along the direction follows it.
     const bool careful = report.sweeps + 2 < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     for (const bool forward : {true, false})
       sweeps_.sweep({settings.friction, forward, kVisitAll, enough}, report);
+    // The last sweep always ends within the cones: no step along the direction follows it.
     if (hasConverged(report, settings, enough, rows_.size()) || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep();
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth

@@ -3,6 +3,8 @@
 // closest features at the current time, and the impulses of its contact points. Internal to the simulation
 // floor. Tested through tests/engine/simulation/.
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "engine/broad_phase/bounds_tree.h"
