@@ -42,7 +42,7 @@ struct PileRun {
   int bodies = 0;  ///< 0: 1000 hulls, 5000 boxes.
   double seconds = 20.0;
   double rate_hz = 60.0;
-  int oracle_every = 30;  ///< Steps.
+  int oracle_every = 1;  ///< Steps.
   std::uint64_t seed = 1;
   int threads = 1;       ///< That step.
   int peer_steps = 120;  ///< Of the settled heap, for each library; 0: no comparison.

@@ -1,6 +1,6 @@
-// stress pile: drops the crowds, asks the overlap oracle every few steps, and keeps the time of every phase.
-// The settled heap is then stepped again from rest without resting mode, by ours and by each peer that is
-// there.
+// stress pile: drops the crowds, asks the overlap oracle in every step, or every few, and keeps the time of
+// every phase. The settled heap is then stepped again from rest without resting mode, by ours and by each
+// peer that is there.
 
 #include <algorithm>
 #include <chrono>
@@ -42,6 +42,7 @@ double windowFloor(const World& world, const oracle::SmallestGap& gap) {
 
 PileCounts drop(BinPile& pile, const PileRun& run) {
   PileCounts counts;
+  oracle::RememberedAxes axes;
   demos::PhaseStopwatch watch(clockSeconds, false);
   const int steps = static_cast<int>(std::lround(run.seconds * run.rate_hz));
   for (int i = 1; i <= steps; ++i) {
@@ -59,7 +60,7 @@ PileCounts drop(BinPile& pile, const PileRun& run) {
     else if (counts.first_all_rest_s < 0.0)
       counts.first_all_rest_s = audit.time_s;
     if (i % run.oracle_every != 0 && i != steps) continue;
-    const oracle::SmallestGap gap = oracle::smallestGap(pile.world());
+    const oracle::SmallestGap gap = oracle::smallestGap(pile.world(), &axes);
     ++counts.oracle_frames;
     if (!(gap.gap_m > 0.0)) {
       ++counts.overlapping_frames;

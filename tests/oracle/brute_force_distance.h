@@ -81,12 +81,15 @@ inline Real surfaceDistance(const PlacedConvex& a, const PlacedConvex& b) {
 }
 
 /// The signed gap of two parts, rounding radii subtracted: their distance, or minus their exact penetration
-/// depth.
-inline Real signedGap(const PlacedConvex& a, const PlacedConvex& b) {
-  Real gap = 0;
-  if (!a.flat() || !b.flat()) gap = largestAxisGap(a, b).gap_m;
-  if (gap > 0 || (a.flat() && b.flat())) gap = surfaceDistance(a, b);
+/// depth. `axes`: their largest gap along an axis; anything if both are flat.
+inline Real signedGap(const PlacedConvex& a, const PlacedConvex& b, const AxisGap& axes) {
+  const bool flat = a.flat() && b.flat();
+  const Real gap = flat || axes.gap_m > 0 ? surfaceDistance(a, b) : axes.gap_m;
   return gap - a.radius_m - b.radius_m;
+}
+
+inline Real signedGap(const PlacedConvex& a, const PlacedConvex& b) {
+  return signedGap(a, b, a.flat() && b.flat() ? AxisGap{} : largestAxisGap(a, b));
 }
 
 }  // namespace carom::oracle

@@ -128,5 +128,36 @@ TEST(OverlapOracle, IsTheLeastOfAllPairsByThemselves) {
   EXPECT_LT(overlapping, 35);
 }
 
+// Nor does what is passed over for the axes of earlier frames: bodies that tumble through each other.
+TEST(OverlapOracle, AskedFrameAfterFrame_IsTheSame) {
+  Random random(6);
+  const std::vector<Solid> solids{Solid::box({1, 0.4, 0.7}), Solid::ball(0.4), Solid::capsule(0.2, 0.9),
+                                  Solid::polyhedron(randomHull(random, 9))};
+  std::vector<PlacedSolid> bodies;
+  std::vector<Vec3> axes, steps;
+  for (int i = 0; i < 12; ++i) {
+    bodies.push_back({&solids[static_cast<std::size_t>(i % 4)], random.pose(5.0), i % 5 == 0});
+    axes.push_back(random.direction());
+    steps.push_back(0.02 * random.direction());
+  }
+  RememberedAxes remembered;
+  int apart = 0;
+  constexpr int kFrames = 300;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      Pose& X_WB = bodies[i].X_WB;
+      X_WB.rotation = (turned(axes[i], 0.03) * X_WB.rotation).normalized();
+      X_WB.position += (frame < kFrames / 2 ? 1.0 : -1.0) * steps[i];
+    }
+    const SmallestGap fresh = smallestGap(bodies), kept = smallestGap(bodies, &remembered);
+    EXPECT_EQ(kept.gap_m, fresh.gap_m) << frame;
+    EXPECT_EQ(kept.body_a, fresh.body_a) << frame;
+    EXPECT_EQ(kept.body_b, fresh.body_b) << frame;
+    apart += fresh.gap_m > 0.0;
+  }
+  EXPECT_GT(apart, kFrames / 10);
+  EXPECT_LT(apart, kFrames * 9 / 10);
+}
+
 }  // namespace
 }  // namespace carom::oracle

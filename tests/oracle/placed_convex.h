@@ -14,6 +14,7 @@ namespace carom::oracle {
 
 using Real = long double;
 using Vec3R = Eigen::Matrix<Real, 3, 1>;
+using Mat3R = Eigen::Matrix<Real, 3, 3>;
 
 struct PlacedConvex {
   std::vector<Vec3R> vertices;
