@@ -16,6 +16,8 @@ constexpr double kPlanarity = 1e-9;
 
 // An edge climbs along a direction if its slope is above the rounding of the product of two unit vectors.
 constexpr double kLevelSlope = 1e-15;
+// Faces whose normals are this close may all be level.
+constexpr double kFlat = 1.0 - 1e-12;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -195,22 +197,35 @@ void ConvexPolyhedron::measure() {
   reach_m_ = center_.lpNorm<Eigen::Infinity>() + radius_m_;
   inverse_shortest_edge_ = 0.0;
   for (const Edge& e : edges_) inverse_shortest_edge_ = std::max(inverse_shortest_edge_, 1.0 / e.length_m);
+  has_flat_vertices_ = false;
+  for (int v = 0; v < vertexCount() && !planes_.empty(); ++v) has_flat_vertices_ |= isFlat(v);
   support_table_ =
       SupportTable(vertexCount(), [this](const Vec3& d, int start) { return support(d, start); });
   width_m_ = planes_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes_)
     width_m_ = std::min(width_m_, -plane.signedDistance(vertex(support(-plane.normal))));
-  inner_ball_ = largerInnerBall();
+  inner_ball_ = largestInnerBall();
 }
 
-InnerBall ConvexPolyhedron::largerInnerBall() const {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& v : vertices_) mean += v;
-  mean /= static_cast<double>(vertices_.size());
-  if (planes_.empty()) return {mean, 0.0};
-  const InnerBall in_box{center_, roomAbout(*this, center_)};
-  const InnerBall at_mean{mean, std::max(0.0, roomAbout(*this, mean))};
-  return in_box.radius_m >= at_mean.radius_m ? in_box : at_mean;
+// From the roomiest of two middles away from whatever face is nearest, in ever smaller steps.
+InnerBall ConvexPolyhedron::largestInnerBall() const {
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& v : vertices_) center += v;
+  center /= static_cast<double>(vertices_.size());
+  if (planes_.empty()) return {center, 0.0};
+  if (roomAbout(*this, center_) >= roomAbout(*this, center)) center = center_;
+  InnerBall best{center, std::max(0.0, roomAbout(*this, center))};
+  constexpr int kSteps = 100;
+  double step_m = 0.2 * best.radius_m;
+  for (int i = 0; i < kSteps; ++i, step_m *= 0.95) {
+    const Plane& nearest =
+        *std::max_element(planes_.begin(), planes_.end(), [&center](const Plane& p, const Plane& q) {
+          return p.signedDistance(center) < q.signedDistance(center);
+        });
+    if (-nearest.signedDistance(center) > best.radius_m) best = {center, -nearest.signedDistance(center)};
+    center -= step_m * nearest.normal;
+  }
+  return best;
 }
 
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
@@ -228,7 +243,25 @@ int ConvexPolyhedron::support(const Vec3& direction, int start) const {
         next = spoke.head;
       }
   }
-  return here;
+  return has_flat_vertices_ && facesAway(here, direction) ? farthestVertex(direction) : here;
+}
+
+// In the middle of coplanar faces all edges are level, on the far side too.
+bool ConvexPolyhedron::facesAway(int v, const Vec3& direction) const {
+  return std::ranges::none_of(
+      spokes(v), [&](const Spoke& spoke) { return plane(faceBeside(spoke, v)).normal.dot(direction) > 0.0; });
+}
+
+int ConvexPolyhedron::farthestVertex(const Vec3& direction) const {
+  const auto farthest =
+      std::ranges::max_element(vertices_, {}, [&](const Vec3& v) { return v.dot(direction); });
+  return static_cast<int>(farthest - vertices_.begin());
+}
+
+bool ConvexPolyhedron::isFlat(int v) const {
+  const Vec3& first = plane(faceBeside(spokes(v)[0], v)).normal;
+  return std::ranges::all_of(
+      spokes(v), [&](const Spoke& spoke) { return plane(faceBeside(spoke, v)).normal.dot(first) > kFlat; });
 }
 
 double ConvexPolyhedron::radiusAbout(const Vec3& p) const {
@@ -244,7 +277,9 @@ ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   result.center_ += shift;
   result.reach_m_ = result.center_.lpNorm<Eigen::Infinity>() + radius_m_;
   if (!result.planes_.empty()) result.buildSides();
-  result.inner_ball_ = result.largerInnerBall();
+  result.inner_ball_.center += shift;
+  if (!result.planes_.empty())
+    result.inner_ball_.radius_m = std::max(0.0, roomAbout(result, result.inner_ball_.center));
   return result;
 }
 

@@ -106,8 +106,7 @@ class ConvexPolyhedron {
   double radiusAbout(const Vec3& p) const;
   /// The smallest width over the directions of the face normals, metres; 0 for a point or segment.
   double width() const { return width_m_; }
-  /// About the middle of the bounding box or about the mean of the vertices, where there is more room; of
-  /// radius 0 in a point or segment.
+  /// The largest, to a thousandth of its radius mostly; of radius 0 in a point or segment.
   const InnerBall& innerBall() const { return inner_ball_; }
 
   /// The same polyhedron moved: vertices become p + shift.
@@ -124,7 +123,15 @@ class ConvexPolyhedron {
   void buildSides();
   void validate() const;
   void measure();
-  InnerBall largerInnerBall() const;
+  InnerBall largestInnerBall() const;
+  /// The face to the left of a spoke, seen from its vertex outwards.
+  int faceBeside(const Spoke& spoke, int v) const {
+    const Edge& e = edge(spoke.edge);
+    return e.tail == v ? e.left : e.right;
+  }
+  bool isFlat(int v) const;
+  bool facesAway(int v, const Vec3& direction) const;
+  int farthestVertex(const Vec3& direction) const;
 
   std::vector<Vec3> vertices_;
   std::vector<Edge> edges_;
@@ -138,6 +145,7 @@ class ConvexPolyhedron {
   double radius_m_ = 0.0;
   double reach_m_ = 0.0;
   double inverse_shortest_edge_ = 0.0;
+  bool has_flat_vertices_ = false;  // some vertex is in the middle of coplanar faces
   double width_m_ = 0.0;
   InnerBall inner_ball_;
 };

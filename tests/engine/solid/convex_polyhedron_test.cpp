@@ -227,6 +227,21 @@ TEST(ConvexPolyhedron, RefusesCoincidentSegmentEndsAndNonFinitePoints) {
   EXPECT_THROW(ConvexPolyhedron::point({0, 0, std::numeric_limits<double>::infinity()}), InputError);
 }
 
+// From a vertex in the middle of a face cut into coplanar pieces all edges are level, seen from the far side
+// too.
+TEST(ConvexPolyhedron, ItsSupportIsFoundFromTheMiddleOfTheFarFace) {
+  const ConvexPolyhedron grid = oracle::coplanarGrid(3, {1, 2, 3});
+  for (int f = 0; f < grid.faceCount(); ++f)
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3 n = sign * grid.plane(f).normal;
+      double highest = -1e300;
+      for (const Vec3& v : grid.vertices()) highest = std::max(highest, n.dot(v));
+      for (int start = 0; start < grid.vertexCount(); ++start)
+        ASSERT_NEAR(n.dot(grid.vertex(grid.support(n, start))), highest, 1e-14) << f << " from " << start;
+      ASSERT_NEAR(n.dot(grid.vertex(grid.support(n))), highest, 1e-14) << f;
+    }
+}
+
 TEST(ConvexPolyhedron, ItsInnerBallIsWithinAllFacesAndTouchesOne) {
   for (const ConvexPolyhedron& p : population())
     for (const ConvexPolyhedron& shape : {p, p.translated(Vec3(3, -2, 1))}) {
@@ -244,12 +259,14 @@ TEST(ConvexPolyhedron, TheInnerBallOfACubeIsTheInscribedOne) {
   EXPECT_LT(ball.center.norm(), 1e-15);
 }
 
-// The corner of a cube, cut off: the middle of its bounding box is outside.
-TEST(ConvexPolyhedron, TheInnerBallOfACornerThatIsCutOffIsAboutTheMeanOfItsVertices) {
+// The corner of a cube, cut off: the middle of its bounding box is outside, the mean of its vertices has room
+// for 0.144, and the ball that touches all four faces has a radius of 1 / (3 + root 3).
+TEST(ConvexPolyhedron, TheInnerBallOfACornerThatIsCutOffTouchesAllItsFaces) {
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const InnerBall ball = convexHull(corners).polyhedron.innerBall();
-  EXPECT_LT((ball.center - Vec3::Constant(0.25)).norm(), 1e-15);
-  EXPECT_NEAR(ball.radius_m, 0.25 / std::sqrt(3.0), 1e-15);
+  const double inscribed = 1.0 / (3.0 + std::sqrt(3.0));
+  EXPECT_LT((ball.center - Vec3::Constant(inscribed)).norm(), 2e-3);
+  EXPECT_NEAR(ball.radius_m, inscribed, 1e-3 * inscribed);
 }
 
 TEST(ConvexPolyhedron, APointOrSegmentHasNoRoomForABall) {
