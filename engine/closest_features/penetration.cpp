@@ -7,6 +7,8 @@ namespace {
 
 // Edges closer to parallel than this give no axis of their own: the faces beside them give it better.
 constexpr double kParallelSine = 1e-10;
+// Below this sine the rounding of a cross product, relative to it, would show in a gap.
+constexpr double kSmallSine = 0.1;
 
 void keepLarger(MinimumTranslation& best, const MinimumTranslation& other) {
   if (other.gap_m > best.gap_m) best = other;
@@ -66,17 +68,13 @@ void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
     for (int i1 = 0; i1 < pair.a.edgeCount(); ++i1) {
       const Edge& e1 = pair.a.edge(i1);
       if (!makesMinkowskiFace(pair.a, e1, e2)) continue;
-      const Vec3 cross = e1.direction.cross(e2.direction);
-      const double sine = cross.norm();
-      if (sine < kParallelSine) continue;
-      Vec3 n = cross / sine;
-      if (n.dot(outwardHint(pair, e1, e2)) < 0.0) n = -n;
+      const auto across = commonPerpendicular(e1.direction, e2.direction);
+      if (!across) continue;
+      const Vec3 n = across->towards(outwardHint(pair, e1, e2));
       const Vec3& p1 = pair.a.vertex(e1.tail);
       const double gap = n.dot(e2.tail - p1);
       if (gap <= best.gap_m) continue;
-      // The feet of the common perpendicular of the two lines.
-      const double s1 = (e2.tail - p1).cross(e2.direction).dot(cross) / (sine * sine);
-      const Vec3 foot = p1 + s1 * e1.direction;
+      const Vec3 foot = p1 + across->footAlong(e2.tail - p1, e2.direction) * e1.direction;
       best = {gap, n, {edgeFeature(i1), edgeFeature(i2)}, foot, foot + gap * n};
     }
   }
@@ -116,20 +114,29 @@ MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int star
   return {gap, n, {vertexFeature(v), faceFeature(face)}, p, p + gap * n};
 }
 
+std::optional<CommonPerpendicular> commonPerpendicular(const Vec3& d1, const Vec3& d2) {
+  const Vec3 cross = d1.cross(d2);
+  const double sine = cross.norm();
+  if (sine < kParallelSine) return std::nullopt;
+  const double inverse = 1.0 / sine;
+  Vec3 n = inverse * cross;
+  if (sine < kSmallSine) n = (n - n.dot(d1) * d1).normalized();
+  return CommonPerpendicular{n, inverse};
+}
+
 std::optional<MinimumTranslation> gapAcrossEdges(const PolyhedronPair& pair, int edge_a, int edge_b,
                                                  const Vec3& outward) {
   const Edge& e1 = pair.a.edge(edge_a);
   const Edge& e2 = pair.b.edge(edge_b);
   const Vec3 d2 = pair.directionToA(e2.direction);
-  const Vec3 cross = e1.direction.cross(d2);
-  const double sine = cross.norm();
-  if (sine < kParallelSine) return std::nullopt;
-  const Vec3 n = (cross.dot(outward) < 0.0 ? -1.0 / sine : 1.0 / sine) * cross;
+  const auto across = commonPerpendicular(e1.direction, d2);
+  if (!across) return std::nullopt;
+  const Vec3 n = across->towards(outward);
   const int va = pair.a.support(n, e1.tail);
   const int vb = pair.b.support(-pair.directionToB(n), e2.tail);
   const Vec3& tail1 = pair.a.vertex(e1.tail);
   const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - tail1;
-  const Vec3 foot = tail1 + between.cross(d2).dot(cross) / (sine * sine) * e1.direction;
+  const Vec3 foot = tail1 + across->footAlong(between, d2) * e1.direction;
   const bool supporting = (va == e1.tail || va == e1.head) && (vb == e2.tail || vb == e2.head);
   const double gap = supporting ? n.dot(between) : n.dot(pair.toA(pair.b.vertex(vb)) - pair.a.vertex(va));
   return MinimumTranslation{gap, n, {edgeFeature(edge_a), edgeFeature(edge_b)}, foot, foot + gap * n};

@@ -28,6 +28,25 @@ int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction
 MinimumTranslation gapOverFaceOfA(const PolyhedronPair& pair, int face, int start);
 MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int start);
 
+/// Across two unit directions.
+struct CommonPerpendicular {
+  Vec3 direction;       ///< Unit; one of two.
+  double inverse_sine;  ///< Of the angle between the two directions.
+
+  Vec3 towards(const Vec3& outward) const {
+    return direction.dot(outward) < 0.0 ? Vec3(-direction) : direction;
+  }
+  /// Of two lines along d1 and d2, how far along d1 the foot is from a point of the first, with `between`
+  /// from there to a point of the second, metres.
+  double footAlong(const Vec3& between, const Vec3& d2) const {
+    return between.cross(d2).dot(direction) * inverse_sine;
+  }
+};
+
+/// To rounding across d1, and as nearly across d2 however small the angle between them; none when they are
+/// parallel.
+std::optional<CommonPerpendicular> commonPerpendicular(const Vec3& d1, const Vec3& d2);
+
 /// The gap along the common perpendicular of two edges that leans along `outward`, between the support
 /// vertices climbed to from the edges; none when they are parallel.
 std::optional<MinimumTranslation> gapAcrossEdges(const PolyhedronPair& pair, int edge_a, int edge_b,

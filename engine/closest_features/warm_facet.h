@@ -7,13 +7,13 @@
 // side is nearer: along the arc between the two normals, t from the first, M's support is D cos t + i sin t,
 // with D the facet's height and i < 0 how far inside the side the foot is. A facet that holds its foot is a
 // local minimum of the support. It is the least of all if the support is D or more in every direction:
-// - Far from the normal a ball says so: M contains the difference of balls within the bodies, which has the
+// - In most directions a ball says so: M contains the difference of balls within the bodies, which has the
 //   sum of their radii, about the difference of their centres, and the support radius + n . centre. It leaves
-//   a cone of directions, all within some angle t0 of the normal.
-// - Up to there the facet says so itself, in each direction of its plane in which it reaches D tan(t0 / 2)
-//   from the foot: D cos t + x sin t is D or more up to tan(t / 2) = x / D.
-// - Where the foot is too near to one side for that, the facet across it helps. Of both are taken the largest
-//   discs that touch the side beside the foot (two_discs.h).
+//   a cap of directions.
+// - There the facet's corners say so, from its normal to where the caps that they prove end: across each
+// side,
+//   inside by i, at tan(t / 2) = i / D. Where one ends within what the balls leave, other points help
+//   (cap_cover.h), or there is a direction from which M's support falls, and it goes on down there.
 // Tested in tests/engine/closest_features/warm_facet_test.cpp.
 
 #include "engine/closest_features/penetration.h"

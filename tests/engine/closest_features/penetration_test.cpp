@@ -84,5 +84,37 @@ TEST(MinimumTranslation, OfASegmentInABox_LeavesByTheNearestFace) {
   EXPECT_LT((m.normal - Vec3::UnitZ()).norm(), 1e-15);
 }
 
+// Edges that are almost parallel: their cross product is mostly rounding, which must not show in the gap
+// along it. Against the heights of all vertices along the axis itself, in long double.
+TEST(MinimumTranslation, AcrossAlmostParallelEdges_IsTheGapAlongItsOwnNormal) {
+  Random random(310);
+  const ConvexPolyhedron a = oracle::randomHull(random, 10), b = oracle::randomHull(random, 10);
+  int supporting = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int edge_a = random.integer(0, a.edgeCount() - 1), edge_b = random.integer(0, b.edgeCount() - 1);
+    const Edge& e1 = a.edge(edge_a);
+    const Edge& e2 = b.edge(edge_b);
+    const Vec3 outward = a.plane(e1.left).normal + a.plane(e1.right).normal;
+    const Vec3 outward_b = b.plane(e2.left).normal + b.plane(e2.right).normal;
+    // B's edge along A's and outwards against outwards, then turned a little.
+    Mat3 frame_a, frame_b;
+    frame_a << e1.direction, outward.normalized(), e1.direction.cross(outward.normalized());
+    frame_b << e2.direction, -outward_b.normalized(), -e2.direction.cross(outward_b.normalized());
+    const double angle = random.logUniform(1e-9, 0.05);
+    const Quat R = (oracle::turned(outward.normalized(), angle) * Quat(Mat3(frame_a * frame_b.transpose())))
+                       .normalized();
+    const PolyhedronPair pair(a, Pose{}, b, {R, 0.9 * outward + 0.1 * random.direction()});
+    const auto across = gapAcrossEdges(pair, edge_a, edge_b, outward);
+    if (!across) continue;
+    ++supporting;
+    const oracle::PlacedConvex pa = oracle::place({a, 0.0}, Pose{}),
+                               pb = oracle::place({b, 0.0}, {R, pair.t_AB});
+    const oracle::Vec3R n = across->normal.cast<oracle::Real>().normalized();
+    ASSERT_NEAR(across->gap_m, static_cast<double>(oracle::gapAlong(pa, pb, n)), 4e-15)
+        << i << " at " << angle;
+  }
+  EXPECT_GT(supporting, 15000);
+}
+
 }  // namespace
 }  // namespace carom

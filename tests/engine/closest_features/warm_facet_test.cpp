@@ -1,6 +1,6 @@
 // A facet that is said to be nearest is, against the full search over the separating axes, whatever facet the
-// descent begins at; and motion of round bodies that overlap little is answered by it nearly always. Seeds
-// 7600, 7601 and 7604.
+// descent begins at; and motion of round bodies is answered by it nearly always, however deep they overlap.
+// Seeds 7600, 7601, 7604 and 7605.
 
 #include "engine/closest_features/warm_facet.h"
 
@@ -118,6 +118,38 @@ TEST(WarmFacet, ProvenFromAnySeed_IsTheFullSearch) {
   EXPECT_GT(sum.proven, sum.descents / 20);
 }
 
+// Faces in pieces, parallel to one another: edges that are flat, vertices in the middle of faces, ties.
+TEST(WarmFacet, ProvenInLatticePoses_IsTheFullSearch) {
+  Random random(7605);
+  const std::vector<ConvexPolyhedron> all = {boxPolyhedron({1, 1, 1}), oracle::triangulatedBox({1, 0.8, 0.6}),
+                                             oracle::coplanarGrid(3, {0.6, 0.6, 0.6}), oracle::octahedron()};
+  int descents = 0, proven = 0;
+  for (const ConvexPolyhedron& a : all)
+    for (const ConvexPolyhedron& b : all)
+      for (int i = 0; i < 2 * kPoses; ++i) {
+        Quat R = Quat::Identity();
+        for (int turn = random.integer(0, 3); turn > 0; --turn)
+          R = R * oracle::turned(Vec3::Unit(random.integer(0, 2)), 0.5 * std::numbers::pi);
+        const Vec3 offset(random.integer(-8, 8), random.integer(-8, 8), random.integer(-8, 8));
+        const PolyhedronPair pair(a, Pose{}, b, {R, 0.05 * offset});
+        const MinimumTranslation best = largestGap(pair);
+        const double noise = noiseOf(pair);
+        if (best.gap_m > -4.0 * noise) continue;
+        for (const FeaturePair& seed : seeds(pair, random)) {
+          const auto warm = nearestFacet(pair, seed, noise);
+          if (!warm) continue;
+          ++descents;
+          proven += warm->proven;
+          ASSERT_LE(warm->gap.gap_m, best.gap_m + 2.0 * noise) << i;
+          if (warm->proven) {
+            ASSERT_NEAR(warm->gap.gap_m, best.gap_m, 2.0 * noise) << i;
+          }
+        }
+      }
+  EXPECT_GT(descents, 1000 * kPoses);
+  EXPECT_GT(proven, descents / 50);
+}
+
 // Points on a sphere, each near its place on a spiral of equal areas.
 ConvexPolyhedron roundHull(int n, Random& random) {
   std::vector<Vec3> points;
@@ -131,28 +163,29 @@ ConvexPolyhedron roundHull(int n, Random& random) {
 
 TEST(WarmFacet, OfRoundBodiesThatTurnInEachOther_IsProvenNearlyAlways) {
   Random random(7601);
-  for (const int n : {20, 62, 252}) {
-    const ConvexPart part{roundHull(n, random), 0.0};
-    Pose X_WA, X_WB{random.rotation(), Vec3(n == 20 ? 0.85 : 0.93, 0.05, 0.0)};
-    PairMemory memory;
-    closestFeatures(part, X_WA, part, X_WB, memory);
-    int proven = 0;
-    constexpr int kSteps = 400;
-    for (int i = 0; i < kSteps; ++i) {
-      X_WA.rotation = (oracle::turned(Vec3(1, 2, 3).normalized(), 0.017) * X_WA.rotation).normalized();
-      X_WB.rotation = (oracle::turned(Vec3(-2, 1, 1).normalized(), 0.017) * X_WB.rotation).normalized();
-      const PolyhedronPair pair(part.core, X_WA, part.core, X_WB);
-      const auto warm = nearestFacet(pair, memory.features, noiseOf(pair));
-      proven += warm && warm->proven;
-      const ClosestFeatures c = closestFeatures(part, X_WA, part, X_WB, memory);
-      ASSERT_EQ(c.status, Separation::kPenetrating) << n << ", step " << i;
-      // What has been proven without the polytope is certified, and nothing deeper is.
-      const Certificate right = certify(c, part, X_WA, part, X_WB, &memory);
-      ASSERT_TRUE(right.complete) << n << ", step " << i;
-      ASSERT_LE(right.error_m, certifiedError(part, X_WA, part, X_WB)) << n << ", step " << i;
+  for (const int n : {20, 62, 252})
+    for (const double apart : {n == 20 ? 0.85 : 0.93, 0.7, 0.5}) {
+      const ConvexPart part{roundHull(n, random), 0.0};
+      Pose X_WA, X_WB{random.rotation(), Vec3(apart, 0.05, 0.0)};
+      PairMemory memory;
+      closestFeatures(part, X_WA, part, X_WB, memory);
+      int proven = 0;
+      constexpr int kSteps = 400;
+      for (int i = 0; i < kSteps; ++i) {
+        X_WA.rotation = (oracle::turned(Vec3(1, 2, 3).normalized(), 0.017) * X_WA.rotation).normalized();
+        X_WB.rotation = (oracle::turned(Vec3(-2, 1, 1).normalized(), 0.017) * X_WB.rotation).normalized();
+        const PolyhedronPair pair(part.core, X_WA, part.core, X_WB);
+        const auto warm = nearestFacet(pair, memory.features, noiseOf(pair));
+        proven += warm && warm->proven;
+        const ClosestFeatures c = closestFeatures(part, X_WA, part, X_WB, memory);
+        ASSERT_EQ(c.status, Separation::kPenetrating) << n << ", step " << i;
+        // What has been proven without the polytope is certified, and nothing deeper is.
+        const Certificate right = certify(c, part, X_WA, part, X_WB, &memory);
+        ASSERT_TRUE(right.complete) << n << ", step " << i;
+        ASSERT_LE(right.error_m, certifiedError(part, X_WA, part, X_WB)) << n << ", step " << i;
+      }
+      EXPECT_GT(proven, kSteps * 9 / 10) << n << " at " << apart;
     }
-    EXPECT_GT(proven, kSteps * 9 / 10) << n;
-  }
 }
 
 // A small body just below a corner of a large one: all facets around it are local minima, almost equally
@@ -200,17 +233,21 @@ TEST(WarmFacet, OfFeaturesThatMakeNoFacet_IsNone) {
 
 // Two unit cubes side by side, 0.1 into each other: of six faces of A, one is the way out, and the others
 // that hold their foot are local minima, up to 1.9 deep.
-TEST(WarmFacet, OfAFaceInAFace_IsProvenFromThatFaceOnly) {
+TEST(WarmFacet, OfAFaceInAFace_IsProvenFromThatFaceAndNoOtherIs) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
   const PolyhedronPair pair(box, Pose{}, box,
                             {oracle::turned(Vec3(3, 1, 2).normalized(), 1e-3), Vec3(0.9, 0.1, 0.2)});
+  int led_there = 0;
   for (int f = 0; f < 6; ++f) {
     const auto warm = nearestFacet(pair, {faceFeature(f), vertexFeature(0)}, noiseOf(pair));
     ASSERT_TRUE(warm) << f;
-    const bool faces_b = box.plane(f).normal.x() > 0.5;
-    EXPECT_EQ(warm->proven, faces_b) << f;
-    EXPECT_EQ(warm->gap.gap_m > -0.11, faces_b) << f;
+    EXPECT_EQ(warm->proven, warm->gap.gap_m > -0.11) << f;
+    if (box.plane(f).normal.x() > 0.5) {
+      EXPECT_TRUE(warm->proven) << f;
+    }
+    led_there += warm->proven;
   }
+  EXPECT_GE(led_there, 3);
 }
 
 }  // namespace
