@@ -2,8 +2,8 @@
 // The contact solver for structures that stand (paper §2.4, §2.5): sweeps, and where they have not converged,
 // steps that solve all held rows at once, with sweeps after each that bring the impulses back into their
 // cones. A wall of 610 bricks comes to 1e-5 of a step's gravity within eight such steps from a cold start
-// and, warm started, needs one now and then. In heaps of thousands of bodies the factor fills up: the products
-// that a step may take can be bounded. Tested in tests/engine/response/standing_solver_test.cpp.
+// and, warm started, needs one now and then. In heaps of thousands of bodies the factor fills up: the
+// products that a step may take can be bounded. Tested in tests/engine/response/standing_solver_test.cpp.
 
 #include "engine/response/contact_solver.h"
 

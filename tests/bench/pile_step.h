@@ -1,7 +1,7 @@
 #pragma once
 // A settled heap in plain numbers, and how long each library takes to step it: all bodies begin at rest where
-// ours left them, nothing is allowed to sleep. Nobody knows at first what presses how hard, and a heap goes on
-// falling about for up to six seconds, so everybody has eight to settle again before time is taken. Each
+// ours left them, nothing is allowed to sleep. Nobody knows at first what presses how hard, and a heap goes
+// on falling about for up to six seconds, so everybody has eight to settle again before time is taken. Each
 // library is one file, as with the queries (library.h).
 
 #include <array>

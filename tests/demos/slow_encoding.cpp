@@ -1,5 +1,6 @@
 // Loaded into the program by LD_PRELOAD: packing the rows of a PNG takes longer, by the share that
-// CAROM_SLOWDOWN names (0.2: a fifth), as a slower libpng or ISA-L would. For tests/demos/budget_slowdown_test.cpp.
+// CAROM_SLOWDOWN names (0.2: a fifth), as a slower libpng or ISA-L would. For
+// tests/demos/budget_slowdown_test.cpp.
 #include <chrono>
 #include <cstdlib>
 
