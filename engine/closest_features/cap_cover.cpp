@@ -39,16 +39,19 @@ CapCover::CapCover(const PolyhedronPair& pair, const Vec3& normal, double depth_
 
 void CapCover::addCorner(int a, int b, const Vec3& crossing) {
   Cap& cap = caps_[count_];
-  place(cap, a, b);
+  cap.a = a;
+  cap.b = b;
+  cap.is_placed = false;
   setCrossing(cap, crossing);
   if (count_ > 0) connect(count_ - 1, count_);
   ++count_;
 }
 
 CapCover::Outcome CapCover::cover() {
+  if (!wanted_.holds(normal_)) return Outcome::kUndecided;
   connect(count_ - 1, 0);
   around_ = static_cast<int>(count_);
-  turn_ = caps_[0].w.cross(caps_[1].w).dot(caps_[0].crossing) < 0.0 ? -1.0 : 1.0;
+  turn_ = normal_.dot(caps_[0].crossing.cross(caps_[1].crossing)) > 0.0 ? -1.0 : 1.0;
   std::size_t i = 0;
   for (int outside = 0; outside < around_; ++outside) {
     if (!caps_[i].crosses_outside) {
@@ -59,7 +62,7 @@ CapCover::Outcome CapCover::cover() {
       i = caps_[i].next;
     }
   }
-  return windsAround(i) ? Outcome::kCovered : Outcome::kUndecided;
+  return Outcome::kCovered;
 }
 
 // Puts a point that is higher in the crossing's direction between a cap and the next, and in place of those
@@ -69,7 +72,9 @@ CapCover::Outcome CapCover::coverCrossing(std::size_t i) {
   const std::size_t added = count_++;
   Cap& cap = caps_[added];
   if (!findHigher(cap, caps_[i])) return Outcome::kLower;
-  if (holds(cap, -normal_)) return Outcome::kUndecided;
+  const double along = normal_.dot(cap.w);  // the normal and what is opposite to it
+  const bool leaves_out_both = along <= depth_m_ && -along < depth_m_ - noise_m_;
+  if (!leaves_out_both) return Outcome::kUndecided;
   std::size_t left = i, right = caps_[i].next;
   for (++around_; around_ > 3 && holds(cap, caps_[caps_[left].before].crossing); --around_)
     left = caps_[left].before;
@@ -92,18 +97,17 @@ bool CapCover::findHigher(Cap& cap, const Cap& from) {
       lower_ = {n, a, b};
       return found;
     }
-    a = higher_a;
-    b = higher_b;
-    place(cap, a, b);
+    cap.a = a = higher_a;
+    cap.b = b = higher_b;
+    place(cap);
     found = n.dot(cap.w) > depth_m_ + noise_m_;
     if (found && count_ < kFew) return true;
   }
 }
 
-void CapCover::place(Cap& cap, int a, int b) const {
-  cap.a = a;
-  cap.b = b;
-  cap.w = pair_.a.vertex(a) - pair_.toA(pair_.b.vertex(b));
+void CapCover::place(Cap& cap) const {
+  cap.w = pair_.a.vertex(cap.a) - pair_.toA(pair_.b.vertex(cap.b));
+  cap.is_placed = true;
 }
 
 void CapCover::setCrossing(Cap& cap, const Vec3& n) const {
@@ -121,7 +125,9 @@ void CapCover::connect(std::size_t cap, std::size_t next) {
 // the sphere is, give them.
 bool CapCover::cross(std::size_t i) {
   Cap& cap = caps_[i];
-  const Cap& next = caps_[cap.next];
+  Cap& next = caps_[cap.next];
+  if (!cap.is_placed) place(cap);
+  if (!next.is_placed) place(next);
   const Vec3 side = next.w - cap.w;
   const Vec3 along = cap.w.cross(side);
   const double inverse = 1.0 / along.squaredNorm();
@@ -131,24 +137,6 @@ bool CapCover::cross(std::size_t i) {
   const Vec3 n = scale * side.cross(along) + turn_ * std::sqrt(rest) * along;
   setCrossing(cap, n);
   return std::abs(n.squaredNorm() - 1.0) <= kUnit && holds(cap, n) && holds(next, n);
-}
-
-// Whether the path from crossing to crossing winds around the facet's normal, seen from there: no cap holds
-// it, so none takes the path half around.
-bool CapCover::windsAround(std::size_t any) const {
-  if (!wanted_.holds(normal_)) return false;
-  const Vec3 left = normal_.cross(caps_[any].crossing);
-  int turns = 0;
-  std::size_t i = any;
-  do {
-    const Vec3& from = caps_[i].crossing;
-    i = caps_[i].next;
-    const Vec3& to = caps_[i].crossing;
-    const bool from_left = left.dot(from) >= 0.0;
-    const bool to_left = left.dot(to) >= 0.0;
-    if (to_left != from_left && (normal_.dot(from.cross(to)) > 0.0) == to_left) turns += to_left ? 1 : -1;
-  } while (i != any);
-  return turns != 0;
 }
 
 }  // namespace carom

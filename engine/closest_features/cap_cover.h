@@ -14,9 +14,10 @@
 // cap changes the path by triangles between crossings, each within one of the caps. (They are less than half
 // the sphere, so they hold what is between two of their points.) No order and no orientation matters for
 // that, only that each crossing is in both caps, which is checked, and that some direction is in none of
-// them: the one opposite to the normal. Once no crossing is left in the wanted cap, the path can be led
-// through each cap around the outside of it; and it is covered if the path winds around it, or around the
-// normal in it. Tested in tests/engine/closest_features/cap_cover_test.cpp.
+// them: the one opposite to the normal. At first the path winds around the normal once; and that stays so, as
+// no cap holds the normal inside, so no triangle winds around it. Once no crossing is left in the wanted cap,
+// the path can be led through each cap around the outside of it; it winds around all of it then, as it does
+// around the normal, which is there. Tested in tests/engine/closest_features/cap_cover_test.cpp.
 
 #include <array>
 
@@ -66,6 +67,7 @@ class CapCover {
     Vec3 w;
     Vec3 crossing;         // of its rim and the next one's
     bool crosses_outside;  // of the wanted cap
+    bool is_placed;        // w is known
     std::size_t before, next;
   };
 
@@ -75,10 +77,9 @@ class CapCover {
   void setCrossing(Cap& cap, const Vec3& n) const;
   void connect(std::size_t cap, std::size_t next);
   bool cross(std::size_t i);
-  void place(Cap& cap, int a, int b) const;
+  void place(Cap& cap) const;
   bool findHigher(Cap& cap, const Cap& from);
   Outcome coverCrossing(std::size_t i);
-  bool windsAround(std::size_t any) const;
 
   const PolyhedronPair& pair_;
   Vec3 normal_;

@@ -68,14 +68,11 @@ void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
     for (int i1 = 0; i1 < pair.a.edgeCount(); ++i1) {
       const Edge& e1 = pair.a.edge(i1);
       if (!makesMinkowskiFace(pair.a, e1, e2)) continue;
+      const Vec3 outward = outwardHint(pair, e1, e2);
       const auto across = commonPerpendicular(e1.direction, e2.direction);
-      if (!across) continue;
-      const Vec3 n = across->towards(outwardHint(pair, e1, e2));
-      const Vec3& p1 = pair.a.vertex(e1.tail);
-      const double gap = n.dot(e2.tail - p1);
-      if (gap <= best.gap_m) continue;
-      const Vec3 foot = p1 + across->footAlong(e2.tail - p1, e2.direction) * e1.direction;
-      best = {gap, n, {edgeFeature(i1), edgeFeature(i2)}, foot, foot + gap * n};
+      if (!across || across->towards(outward).dot(e2.tail - pair.a.vertex(e1.tail)) <= best.gap_m) continue;
+      // Of edges that are almost parallel the signs above may be rounding, and other vertices reach farther.
+      if (const auto gap = gapAcrossEdges(pair, i1, i2, outward)) keepLarger(best, *gap);
     }
   }
 }

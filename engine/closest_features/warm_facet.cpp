@@ -20,9 +20,9 @@ constexpr int kMostFacets = 16;  // on the way down: what has moved farther is b
 // An edge of M: an edge of one body, and the vertex of the other that the edge's points are taken from or
 // less by. On the Gauss map it is an arc between facets.
 struct Arc {
-  int edge = -1;
-  int vertex = -1;
-  bool edge_of_a = false;
+  int edge;
+  int vertex;
+  bool edge_of_a;
 };
 
 // A side of a facet.
@@ -190,7 +190,7 @@ class Descent {
     const Vec3 w = pair_.a.vertex(lower.a) - pair_.toA(pair_.b.vertex(lower.b));
     const Vec3 away = lower.direction.dot(w) * lower.direction - w;
     double first = std::numeric_limits<double>::infinity();
-    Arc arc;
+    Arc arc{-1, -1, false};
     const auto findFirst = [&](const ConvexPolyhedron& body, int v, const Vec3& from, const Vec3& to,
                                int other, bool of_a) {
       for (const Spoke& spoke : body.spokes(v)) {
