@@ -87,7 +87,7 @@ class CapCover {
   double noise_m_;
   DirectionCap wanted_;
   double outside_m_;   // a crossing that is lower along the wanted cap's point is outside, clearly
-  double turn_ = 1.0;  // the corners go round counter-clockwise, or clockwise: -1
+  double turn_ = 1.0;  // to which side of the plane of two neighbours their rims cross outside
   std::array<Cap, kMostCaps> caps_;
   std::size_t count_ = 0;
   int around_ = 0;  // of them
