@@ -42,7 +42,7 @@ void CapCover::addCorner(int a, int b, const Vec3& crossing) {
   cap.a = a;
   cap.b = b;
   cap.is_placed = false;
-  setCrossing(cap, crossing);
+  setCrossing(count_, crossing);
   if (count_ > 0) connect(count_ - 1, count_);
   ++count_;
 }
@@ -52,15 +52,10 @@ CapCover::Outcome CapCover::cover() {
   connect(count_ - 1, 0);
   around_ = static_cast<int>(count_);
   turn_ = normal_.dot(caps_[0].crossing.cross(caps_[1].crossing)) > 0.0 ? -1.0 : 1.0;
-  std::size_t i = 0;
-  for (int outside = 0; outside < around_; ++outside) {
-    if (!caps_[i].crosses_outside) {
-      if (const Outcome outcome = coverCrossing(i); outcome != Outcome::kCovered) return outcome;
-      i = caps_[count_ - 1].before;
-      outside = -1;
-    } else {
-      i = caps_[i].next;
-    }
+  while (open_count_ > 0) {
+    const std::size_t i = open_[--open_count_];
+    if (!caps_[i].is_open) continue;
+    if (const Outcome outcome = coverCrossing(i); outcome != Outcome::kCovered) return outcome;
   }
   return Outcome::kCovered;
 }
@@ -72,13 +67,19 @@ CapCover::Outcome CapCover::coverCrossing(std::size_t i) {
   const std::size_t added = count_++;
   Cap& cap = caps_[added];
   if (!findHigher(cap, caps_[i])) return Outcome::kLower;
-  const double along = normal_.dot(cap.w);  // the normal and what is opposite to it
-  const bool leaves_out_both = along <= depth_m_ && -along < depth_m_ - noise_m_;
+  const double along = normal_.dot(cap.w);
+  const bool leaves_out_both =
+      along <= depth_m_ && -along < depth_m_ - noise_m_;  // the normal and its opposite
   if (!leaves_out_both) return Outcome::kUndecided;
   std::size_t left = i, right = caps_[i].next;
-  for (++around_; around_ > 3 && holds(cap, caps_[caps_[left].before].crossing); --around_)
+  for (++around_; around_ > 3 && holds(cap, caps_[caps_[left].before].crossing); --around_) {
+    caps_[left].is_open = false;
     left = caps_[left].before;
-  for (; around_ > 3 && holds(cap, caps_[right].crossing); --around_) right = caps_[right].next;
+  }
+  for (; around_ > 3 && holds(cap, caps_[right].crossing); --around_) {
+    caps_[right].is_open = false;
+    right = caps_[right].next;
+  }
   connect(left, added);
   connect(added, right);
   return cross(left) && cross(added) ? Outcome::kCovered : Outcome::kUndecided;
@@ -110,9 +111,10 @@ void CapCover::place(Cap& cap) const {
   cap.is_placed = true;
 }
 
-void CapCover::setCrossing(Cap& cap, const Vec3& n) const {
-  cap.crossing = n;
-  cap.crosses_outside = n.dot(wanted_.point) < outside_m_;
+void CapCover::setCrossing(std::size_t i, const Vec3& n) {
+  caps_[i].crossing = n;
+  caps_[i].is_open = !(n.dot(wanted_.point) < outside_m_);
+  if (caps_[i].is_open) open_[open_count_++] = i;
 }
 
 void CapCover::connect(std::size_t cap, std::size_t next) {
@@ -135,7 +137,7 @@ bool CapCover::cross(std::size_t i) {
   const double rest = inverse - scale * scale * side.squaredNorm();
   if (!(rest > 0.0)) return false;
   const Vec3 n = scale * side.cross(along) + turn_ * std::sqrt(rest) * along;
-  setCrossing(cap, n);
+  setCrossing(i, n);
   return std::abs(n.squaredNorm() - 1.0) <= kUnit && holds(cap, n) && holds(next, n);
 }
 

@@ -65,16 +65,16 @@ class CapCover {
   struct Cap {
     int a, b;  // the vertices whose difference is w
     Vec3 w;
-    Vec3 crossing;         // of its rim and the next one's
-    bool crosses_outside;  // of the wanted cap
-    bool is_placed;        // w is known
+    Vec3 crossing;   // of its rim and the next one's
+    bool is_open;    // the crossing is in the wanted cap
+    bool is_placed;  // w is known
     std::size_t before, next;
   };
 
   static constexpr std::size_t kMostCaps = kMostCorners + 16;
 
   bool holds(const Cap& cap, const Vec3& n) const { return n.dot(cap.w) >= depth_m_ - noise_m_; }
-  void setCrossing(Cap& cap, const Vec3& n) const;
+  void setCrossing(std::size_t i, const Vec3& n);
   void connect(std::size_t cap, std::size_t next);
   bool cross(std::size_t i);
   void place(Cap& cap) const;
@@ -90,6 +90,8 @@ class CapCover {
   double turn_ = 1.0;  // to which side of the plane of two neighbours their rims cross outside
   std::array<Cap, kMostCaps> caps_;
   std::size_t count_ = 0;
+  std::array<std::size_t, 2 * kMostCaps> open_;  // caps whose crossings were, when they were set
+  std::size_t open_count_ = 0;
   int around_ = 0;  // of them
   Lower lower_;
 };

@@ -121,11 +121,12 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     const std::optional<WarmFacet> warm = nearestFacet(pair, tracked, scale.noise_m);
     if (warm && warm->proven) {
       answer = answerFrom(warm->gap);
-      if (clearlyAlone(pair, answer, scale.shift_m)) return answer;
+      if (warm->inside_m > scale.shift_m && clearlyAlone(pair, answer, scale.shift_m)) return answer;
     }
     answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m, warm ? &warm->gap : nullptr));
     if (answer.gap_m < -scale.noise_m) {
-      if (!clearlyAlone(pair, answer, scale.shift_m)) makeDepthCanonical(pair, scale, polytope, true, answer);
+      if (!clearlyInside(pair, answer, scale.shift_m) || !clearlyAlone(pair, answer, scale.shift_m))
+        makeDepthCanonical(pair, scale, polytope, true, answer);
       return answer;
     }
     polytope.forget();

@@ -63,7 +63,7 @@ class Descent {
         } else {
           CapCover::Lower lower;
           const CapCover::Outcome outcome = prove(*facet, sides, lower);
-          if (outcome == CapCover::Outcome::kCovered) return WarmFacet{*facet, true};
+          if (outcome == CapCover::Outcome::kCovered) return WarmFacet{*facet, true, nearest.inside_m};
           if (outcome == CapCover::Outcome::kLower) next = facetBelow(lower);
         }
       }
@@ -71,7 +71,7 @@ class Descent {
       if (!next || !(next->gap_m > facet->gap_m + noise_m_)) break;
       facet = next;
     }
-    return WarmFacet{*best, false};
+    return WarmFacet{*best, false, 0.0};
   }
 
  private:
@@ -110,9 +110,10 @@ class Descent {
   // (both of a flat edge are level on the far side too).
   static bool supports(const ConvexPolyhedron& body, const Edge& edge, const Vec3& direction) {
     if (edge.left < 0) return true;
-    const double steepest = std::max(edge.into_left.dot(direction), edge.into_right.dot(direction));
-    const Vec3 outwards = body.plane(edge.left).normal + body.plane(edge.right).normal;
-    return steepest <= kLevelSlope && outwards.dot(direction) > 0.0;
+    const double left = edge.into_left.dot(direction), right = edge.into_right.dot(direction);
+    if (std::max(left, right) > kLevelSlope) return false;
+    const bool flat = std::min(left, right) >= -kLevelSlope;
+    return !flat || direction.dot(body.plane(edge.left).normal + body.plane(edge.right).normal) > 0.0;
   }
 
   // Some facet at M's corner in a direction, between vertices climbed to from these.

@@ -23,6 +23,7 @@ namespace carom {
 struct WarmFacet {
   MinimumTranslation gap;  ///< Along the facet's normal, exact.
   bool proven = false;     ///< No other facet is nearer.
+  double inside_m = 0.0;   ///< Of one that is proven: how far the foot of the origin is inside it.
 };
 
 /// From the facet of `features` down; none where they make no facet.

@@ -277,27 +277,33 @@ FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b)
           vertexFeature(b.polyhedron.support(-b.directionBack(between)))};
 }
 
-bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
+bool clearlyInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
   const auto [a, b] = answer.features;
-  const double noise_slope = noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge());
   const auto within = [noise_m](const ConvexPolyhedron& polyhedron, int face, const Vec3& p) {
     double inside = std::numeric_limits<double>::infinity();
     for (const Plane& side : polyhedron.faceSides(face)) inside = std::min(inside, side.signedDistance(p));
     return inside > noise_m;
   };
-  const Vec3 minus_n_B = -pair.directionToB(answer.normal);
-  if (a.kind == FeatureKind::kFace)
-    return within(pair.a, a.index, answer.p_b) && steepestSpoke(pair.b, b.index, minus_n_B) < -noise_slope;
-  if (b.kind == FeatureKind::kFace)
-    return within(pair.b, b.index, pair.toB(answer.p_a)) &&
-           steepestSpoke(pair.a, a.index, answer.normal) < -noise_slope;
+  if (a.kind == FeatureKind::kFace) return within(pair.a, a.index, answer.p_b);
+  if (b.kind == FeatureKind::kFace) return within(pair.b, b.index, pair.toB(answer.p_a));
   if (a.kind != FeatureKind::kEdge || b.kind != FeatureKind::kEdge) return false;
   const Edge& e1 = pair.a.edge(a.index);
   const Edge& e2 = pair.b.edge(b.index);
-  if (e1.left < 0 || e2.left < 0) return false;
   const double s1 = e1.direction.dot(answer.p_a - pair.a.vertex(e1.tail));
   const double s2 = e2.direction.dot(pair.toB(answer.p_b) - pair.b.vertex(e2.tail));
-  return std::min(std::min(s1, e1.length_m - s1), std::min(s2, e2.length_m - s2)) > noise_m &&
+  return std::min(std::min(s1, e1.length_m - s1), std::min(s2, e2.length_m - s2)) > noise_m;
+}
+
+bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
+  const auto [a, b] = answer.features;
+  const double noise_slope = noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge());
+  const Vec3 minus_n_B = -pair.directionToB(answer.normal);
+  if (a.kind == FeatureKind::kFace) return steepestSpoke(pair.b, b.index, minus_n_B) < -noise_slope;
+  if (b.kind == FeatureKind::kFace) return steepestSpoke(pair.a, a.index, answer.normal) < -noise_slope;
+  if (a.kind != FeatureKind::kEdge || b.kind != FeatureKind::kEdge) return false;
+  const Edge& e1 = pair.a.edge(a.index);
+  const Edge& e2 = pair.b.edge(b.index);
+  return e1.left >= 0 && e2.left >= 0 &&
          std::max(steeperSide(e1, answer.normal), steeperSide(e2, minus_n_B)) < -noise_slope;
 }
 

@@ -51,8 +51,9 @@ PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedro
 /// The vertices that face each other along the line of centres: where to start when nothing is remembered.
 FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b);
 
-/// The same question about the facet of a minimum translation: whether `features`, F-V or E-E with their
-/// witnesses in `answer`, clearly are the only ones that touch along its normal.
+/// The same questions about the facet of a minimum translation, F-V or E-E: whether the witnesses in `answer`
+/// are inside its features, and whether these are the only ones that touch along its normal. False of others.
+bool clearlyInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
 bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
 
 }  // namespace carom

@@ -196,7 +196,8 @@ TEST(ClearlyAlone, IsNeverSaidOfFeaturesThatOthersAreLevelWith) {
     const MinimumTranslation m = largestGap(pair);
     if (m.gap_m > -1e-9) continue;
     ++penetrating;
-    if (!clearlyAlone(pair, {m.gap_m, m.normal, m.p_a, m.p_b, m.features}, noise)) continue;
+    const CoreAnswer answer{m.gap_m, m.normal, m.p_a, m.p_b, m.features};
+    if (!clearlyInside(pair, answer, noise) || !clearlyAlone(pair, answer, noise)) continue;
     ++alone;
     ASSERT_FALSE(level) << i;
     const auto touching = [&](const ConvexPolyhedron& p, const Vec3& n) {
