@@ -28,8 +28,7 @@ void writeAudit(CsvFile& csv, int step, const Audit& audit) {
       << ',' << p.x() << ',' << p.y() << ',' << p.z() << ',' << l.x() << ',' << l.y() << ',' << l.z() << ','
       << audit.smallest_gap_m << ',' << audit.resting_bodies << ',' << c.candidate_pairs << ','
       << c.distance_queries << ',' << c.contact_points << ',' << c.events << ',' << c.impacts << ','
-      << c.newton_steps << ',' << c.stopped_bodies << ',' << c.iteration_limits << ',' << c.substeps << ','
-      << c.row_visits;
+      << c.newton_steps << ',' << c.stopped_bodies << ',' << c.iteration_limits << ',' << c.substeps;
   csv.row(row);
 }
 
@@ -93,8 +92,7 @@ ExitCode simulate(const SimulateOptions& options) {
   CsvFile audits(
       options.audit,
       "step,time_s,kinetic_J,potential_J,px,py,pz,lx,ly,lz,smallest_gap_m,resting_bodies,candidate_pairs,"
-      "distance_queries,contact_points,events,impacts,newton_steps,stopped_bodies,iteration_limits,substeps,"
-      "row_visits");
+      "distance_queries,contact_points,events,impacts,newton_steps,stopped_bodies,iteration_limits,substeps");
   std::optional<RecordingWriter> recording;
   if (!options.output.empty()) recording.emplace(options.output, recordingHeader(options, scene, made));
   RunFacts facts;

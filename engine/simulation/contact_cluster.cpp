@@ -246,12 +246,8 @@ int ContactCluster::mostSweeps() const {
   return isCrowd() ? kCrowdSweeps : kMostSweeps;
 }
 
-long ContactCluster::carefulVisits() const {
-  return isHurried() ? 0 : kCarefulVisits;
-}
-
 long ContactCluster::fewRowsVisits() const {
-  return rows_.size() <= kFewRows && !isHurried() ? kFewRowsVisits : 0;
+  return rows_.size() <= kFewRows ? kFewRowsVisits : 0;
 }
 
 void ContactCluster::solveSpreading(double careful_mps) {
@@ -260,13 +256,12 @@ void ContactCluster::solveSpreading(double careful_mps) {
   long visits = 0;
   bool resumes = false;
   bool reached = false;  // all whom the impulses reach have joined
-  const long careful_visits = carefulVisits();
-  for (int sweeps = 0; visits < careful_visits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
-    const double enough = visits < careful_visits    ? std::min(careful_mps, safe)
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
+    const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
                           : visits < fewRowsVisits() ? kFewRowsShare * safe
                                                      : safe;
     const int fine_sweeps =
-        std::max(kFineSweeps, static_cast<int>(careful_visits) / std::max(1, static_cast<int>(rows_.size())));
+        std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
     const bool fine = reached && !isCrowd();
     const SolverSettings settings{.sweeps = fine ? fine_sweeps : kSweepsARound,
                                   .residual_mps = enough,
@@ -278,7 +273,6 @@ void ContactCluster::solveSpreading(double careful_mps) {
     sweeps += report.sweeps;
     visits += report.visits;
     visits_ += report.visits;
-    counters_.row_visits += report.visits;
     const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
     if (!grew && report.residual_mps <= enough) return;
     reached = !grew;
@@ -496,8 +490,7 @@ void ContactCluster::boundPaths(bool all) {
     prepareRow(rows_.back(), paths_);
   }
   solveSpreading(kPathShare * safeResidual());
-  const int rounds = isHurried() ? kFewTurningRounds : kTurningRounds;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < kTurningRounds; ++round) {
     if (!raiseForTurning()) break;
     solveSpreading(kPathShare * safeResidual());
   }

@@ -94,11 +94,8 @@ class ContactCluster {
   double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
   double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.
   bool isCrowd() const;
-  int mostSweeps() const;  ///< Of one solve.
-  /// So much has been solved in this step that no solve is careful any more.
-  bool isHurried() const { return visits_ > tolerance::kSolverWorldVisits; }
-  long carefulVisits() const;  ///< Of rows, in one solve.
-  long fewRowsVisits() const;  ///< Likewise, where they are few.
+  int mostSweeps() const;      ///< Of one solve.
+  long fewRowsVisits() const;  ///< Of rows, for a solve of few.
   void fixPath(std::size_t i);
   void startAgain();
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kPathSweeps = 60;
 constexpr int kFirstPathSweeps = 8;     // of a crowd; if they visited its rows more often than ...
 constexpr long kPathsInMotion = 5;      // ... this in the mean, ...
-constexpr int kPathFocusedSweeps = 12;  // ... it gets so many focused ones
+constexpr int kPathFocusedSweeps = 24;  // ... it gets so many focused ones
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -38,8 +38,7 @@ class ContactPaths {
     beginAtMeans();
     const double residual_mps = kPathShare * boundPaths() / step_s_;
     solve(residual_mps);
-    const int rounds = contacts_.rows.size() < kFocusedRows ? kTurningRounds : kFewTurningRounds;
-    for (int round = 0; round < rounds && raiseForTurning(); ++round) solve(residual_mps);
+    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solve(residual_mps);
     takeMomentum();
     carry();
   }
@@ -121,16 +120,13 @@ class ContactPaths {
         solveCrowd(rows, coarse_residual_mps);
         continue;
       }
-      const int careful_sweeps =
-          std::min(tolerance::kSolverRowVisits / static_cast<int>(count),
-                   tolerance::kSolverWorldVisits / static_cast<int>(contacts_.rows.size()));
-      counters_.row_visits += solveContacts(rows, contacts_.paths,
-                                            {.sweeps = std::max(kPathSweeps, careful_sweeps),
-                                             .residual_mps = kPathResidual,
-                                             .friction = false,
-                                             .careful_sweeps = careful_sweeps,
-                                             .coarse_residual_mps = coarse_residual_mps})
-                                  .visits;
+      const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
+      solveContacts(rows, contacts_.paths,
+                    {.sweeps = std::max(kPathSweeps, careful_sweeps),
+                     .residual_mps = kPathResidual,
+                     .friction = false,
+                     .careful_sweeps = careful_sweeps,
+                     .coarse_residual_mps = coarse_residual_mps});
     }
   }
 
@@ -140,15 +136,14 @@ class ContactPaths {
     SolverSettings settings{
         .sweeps = kFirstPathSweeps, .residual_mps = residual_mps, .friction = false, .crew = &world_.crew};
     const SolverReport report = solveContacts(rows, contacts_.paths, settings);
-    counters_.row_visits += report.visits;
     if (report.residual_mps <= residual_mps) return;
     if (report.visits > kPathsInMotion * static_cast<long>(rows.size())) {
       settings.sweeps = kPathFocusedSweeps;
-      counters_.row_visits += solveContactsFocused(rows, contacts_.paths, settings).visits;
+      solveContactsFocused(rows, contacts_.paths, settings);
     } else {
       settings.sweeps = kPathSweeps - kFirstPathSweeps;
       settings.resumes = true;
-      counters_.row_visits += solveContacts(rows, contacts_.paths, settings).visits;
+      solveContacts(rows, contacts_.paths, settings);
     }
   }
 

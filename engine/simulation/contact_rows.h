@@ -71,7 +71,6 @@ struct PathBounds {
 /// `paths` (indexed by the rows); whether it would not.
 bool raiseForTurning(const PathBounds& bounds, const ShapePair& pair, std::span<const ImpulseBody> paths,
                      std::span<ContactRow> rows, StepCounters& counters);
-inline constexpr int kTurningRounds = 2;     ///< Of raising and solving again; ...
-inline constexpr int kFewTurningRounds = 1;  ///< ... where that is dear.
+inline constexpr int kTurningRounds = 2;  ///< Of raising and solving again.
 
 }  // namespace carom

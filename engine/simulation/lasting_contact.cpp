@@ -69,7 +69,7 @@ int shareOfSweeps(std::span<const ContactRow> rows) {
   return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
 }
 
-// The least sweeps of an island in which something moves.
+// The least sweeps of an island that stands but for what moves in it.
 int fewestSweeps(std::span<const ContactRow> rows) {
   return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
 }
@@ -85,9 +85,9 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
   return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
 }
 
-// What lies still, all of it. Like those below, returns what the solver reports.
-SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                              std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
+// What lies still, all of it.
+void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                      std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
   SolverSettings settings{
       .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
@@ -98,62 +98,58 @@ SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bod
     settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
     settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
     settings.in_the_mean = true;
+    solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
-    return solveContactsFocused(rows, solver_bodies, settings);
+    return;
   }
-  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
-  patience.learn(report, settings.residual_mps);
-  return report;
+  patience.learn(solveStandingContacts(rows, solver_bodies, settings), settings.residual_mps);
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
 // taken as equations, would contradict each other.
-SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
-                                 std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
-                                 double gravity_speed, Crew& crew) {
+void solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
+                         std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
+                         double gravity_speed, Crew& crew) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
-  return solveContactsFocused(
-      rows, solver_bodies,
-      {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
-       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
-       .in_the_mean = rows.size() >= kFocusedRows,
-       .crew = &crew});
+  if (!isStirred(rows, motions)) {
+    solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
+    return;
+  }
+  solveContactsFocused(rows, solver_bodies,
+                       {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
+                        .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
+                        .in_the_mean = rows.size() >= kFocusedRows,
+                        .crew = &crew});
 }
 
 // Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
-// a coarse step, farther: as far as that of its world goes, which has `world_rows`.
-SolverReport solveMovingIsland(std::span<ContactRow> rows, std::size_t world_rows,
-                               std::span<ImpulseBody> bodies, double gravity_speed, Crew& crew) {
+// a coarse step, farther.
+void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed,
+                       Crew& crew) {
   const double residual = residualOf(rows, tolerance::kSolverCoarseResidual);
-  const int world_sweeps = tolerance::kSolverWorldVisits / static_cast<int>(world_rows);
-  const int careful_sweeps = std::max(std::min(shareOfSweeps(rows), world_sweeps), fewestSweeps(rows));
-  const int most_sweeps =
-      std::min(tolerance::kSolverMostVisits / static_cast<int>(rows.size()), world_sweeps);
-  return solveContactsFocused(rows, bodies,
-                              {.sweeps = std::max(careful_sweeps, most_sweeps),
-                               .residual_mps = residual * gravity_speed,
-                               .careful_sweeps = careful_sweeps,
-                               .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
-                               .crew = &crew});
+  const int careful_sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps);
+  const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(rows.size());
+  solveContactsFocused(rows, bodies,
+                       {.sweeps = std::max(careful_sweeps, most_sweeps),
+                        .residual_mps = residual * gravity_speed,
+                        .careful_sweeps = careful_sweeps,
+                        .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                        .crew = &crew});
 }
 
-// With friction. Returns the row visits.
-long solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
-  long visits = 0;
+// With friction.
+void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
   const std::vector<BodyMotion> motions = motionsOf(bodies, crew);
   for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
     const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
-    const SolverReport report =
-        stands(rows, motions)
-            ? solveStandingIsland(rows, motions, bodies, contacts.bodies, gravity_speed, crew)
-            : solveMovingIsland(rows, contacts.rows.size(), contacts.bodies, gravity_speed, crew);
-    visits += report.visits;
+    if (stands(rows, motions))
+      solveStandingIsland(rows, motions, bodies, contacts.bodies, gravity_speed, crew);
+    else
+      solveMovingIsland(rows, contacts.bodies, gravity_speed, crew);
   }
-  return visits;
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
@@ -271,8 +267,7 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
   assembleContacts(world, counters, contacts);
   giveEnvironment(contacts, bodies, planner);
   for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
-  counters.row_visits +=
-      solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
+  solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
   findTouched(contacts, bodies, world.crew);
   foreseeContacts(contacts, bodies, planner);
   setContactPaths(world, counters, contacts);

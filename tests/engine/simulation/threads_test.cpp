@@ -46,7 +46,6 @@ void expectSameCounters(const StepCounters& a, const StepCounters& b) {
   EXPECT_EQ(a.newton_steps, b.newton_steps);
   EXPECT_EQ(a.stopped_bodies, b.stopped_bodies);
   EXPECT_EQ(a.iteration_limits, b.iteration_limits);
-  EXPECT_EQ(a.row_visits, b.row_visits);
 }
 
 TEST(Threads, ChangeNoBitOfACrowd) {
