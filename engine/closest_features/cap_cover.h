@@ -90,9 +90,10 @@ class CapCover {
   double turn_ = 1.0;  // to which side of the plane of two neighbours their rims cross outside
   std::array<Cap, kMostCaps> caps_;
   std::size_t count_ = 0;
-  std::array<std::size_t, 2 * kMostCaps> open_;  // caps whose crossings were, when they were set
+  int around_ = 0;  // caps that others have not taken the place of
+  // A stack of caps whose crossings were open when they were set: one of each corner, two of each cap added.
+  std::array<std::size_t, 2 * kMostCaps> open_;
   std::size_t open_count_ = 0;
-  int around_ = 0;  // of them
   Lower lower_;
 };
 

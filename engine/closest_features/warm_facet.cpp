@@ -185,8 +185,8 @@ class Descent {
     return facetAlong(facet.normal, side, to_left, side.edge_of_a ? facet.features.b : facet.features.a);
   }
 
-  // A facet where M's support is less than at a corner: away from the corner to the next arc, along that
-  // down.
+  // A facet where M's support is less than at a corner: away from the corner to the next arc, and down along
+  // that.
   std::optional<MinimumTranslation> facetBelow(const CapCover::Lower& lower) const {
     const Vec3 w = pair_.a.vertex(lower.a) - pair_.toA(pair_.b.vertex(lower.b));
     const Vec3 away = lower.direction.dot(w) * lower.direction - w;

@@ -11,8 +11,7 @@
 //   sum of their radii, about the difference of their centres, and the support radius + n . centre. It leaves
 //   a cap of directions.
 // - There the facet's corners say so, from its normal to where the caps that they prove end: across each
-// side,
-//   inside by i, at tan(t / 2) = i / D. Where one ends within what the balls leave, other points help
+//   side, inside by i, at tan(t / 2) = i / D. Where one ends within what the balls leave, other points help
 //   (cap_cover.h), or there is a direction from which M's support falls, and it goes on down there.
 // Tested in tests/engine/closest_features/warm_facet_test.cpp.
 
