@@ -5,6 +5,7 @@
 
 #include "engine/modes/islands.h"
 #include "engine/response/dissection.h"
+#include "engine/simulation/internal_edges.h"
 #include "engine/simulation/midstep_rows.h"
 #include "engine/simulation/warm_start.h"
 
@@ -80,24 +81,43 @@ class Assembly {
 
   // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
   void findLastingPairs() {
-    std::vector<char> lasts(world_.pairs.size(), 0);
-    world_.crew.runStretches(world_.pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    std::vector<char> lasts(world_.table.pairs().size(), 0);
+    world_.crew.runStretches(world_.table.pairs().size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = world_.pairs[i];
+        ShapePair& pair = world_.table.pairs()[i];
         if (!givesWay(pair, world_.bodies)) continue;
-        lasts[i] = isLasting(pair, world_.settings.step_s);
+        lasts[i] = isLasting(pair, world_.settings.step_s) && !isInternal(static_cast<int>(i));
         if (!lasts[i]) pair.remembered.clear();
       }
     });
     Islands islands(static_cast<int>(world_.bodies.size()));
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
-      const ShapePair& pair = world_.pairs[i];
+      const ShapePair& pair = world_.table.pairs()[i];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
       lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, static_cast<int>(i)});
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
+  }
+
+  PlacedPair placed(int index) const {
+    const ShapePair& pair = world_.table.pairs()[at(index)];
+    return {pair, pair.closest, world_.bodies[at(pair.body_a)].X_WB, world_.bodies[at(pair.body_b)].X_WB};
+  }
+
+  // Whether a pair's contact is one with an internal edge.
+  bool isInternal(int index) const {
+    const PlacedPair contact = placed(index);
+    if (!isAtEdges(contact, world_.shapes)) return false;
+    for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+      if (!moves(body)) continue;
+      for (const int other : world_.table.pairsOf(body))
+        if (other != index && isLasting(world_.table.pairs()[at(other)], world_.settings.step_s) &&
+            passesEdge(contact, placed(other), world_.settings.step_s, world_.bodies, world_.shapes))
+          return true;
+    }
+    return false;
   }
 
   bool moves(int body) const { return world_.bodies[at(body)].moves(); }
@@ -110,7 +130,7 @@ class Assembly {
     if (*std::max_element(pairs_of.begin(), pairs_of.end()) < 2 * kPairsOfAPart) return;
     std::vector<int> island_of(world_.bodies.size(), -1);
     for (const LastingPair& lasting : lasting_) {
-      const ShapePair& pair = world_.pairs[at(lasting.pair)];
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
       for (const int body : {pair.body_a, pair.body_b})
         if (moves(body)) island_of[at(body)] = lasting.island;
     }
@@ -128,7 +148,7 @@ class Assembly {
     }
     for (LastingPair& lasting : lasting_) {
       if (pairs_of[at(lasting.island)] < 2 * kPairsOfAPart) continue;
-      const ShapePair& pair = world_.pairs[at(lasting.pair)];
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
       lasting.from_last_part = -commonPart(part_of[at(pair.body_a)], part_of[at(pair.body_b)]);
     }
   }
@@ -153,7 +173,7 @@ class Assembly {
 
   void makeRowsOf(const LastingPair& lasting, RowStretch& stretch) {
     const double step_s = world_.settings.step_s;
-    ShapePair& pair = world_.pairs[at(lasting.pair)];
+    ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
     const Body& a = world_.bodies[at(pair.body_a)];
     const Body& b = world_.bodies[at(pair.body_b)];
     const RememberedPoints remembered(pair);

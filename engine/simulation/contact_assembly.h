@@ -56,7 +56,7 @@ inline constexpr std::size_t kFewRows = 1000;
 struct LastingWorld {
   std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
-  std::vector<ShapePair>& pairs;
+  PairTable& table;
   const WorldSettings& settings;
   Crew& crew;
 };

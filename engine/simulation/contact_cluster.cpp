@@ -8,6 +8,7 @@
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
+#include "engine/simulation/internal_edges.h"
 
 namespace carom {
 namespace {
@@ -172,12 +173,31 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
 }
 
+// Whether the contact of a pair that has been looked at is one with an internal edge.
+bool ContactCluster::isInternal(int index) {
+  const auto placed = [&](int i) {
+    const ShapePair& pair = table_.pairs()[at(i)];
+    return PlacedPair{pair, look(i), bodies_[at(pair.body_a)].path.at(time_s_),
+                      bodies_[at(pair.body_b)].path.at(time_s_)};
+  };
+  const PlacedPair contact = placed(index);
+  if (!isAtEdges(contact, shapes_)) return false;
+  for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+    if (bodies_[at(body)].is_static) continue;
+    for (const int other : table_.pairsOf(body))
+      if (other != index && look(other).distance_m <= table_.pairs()[at(other)].window.manifold &&
+          passesEdge(contact, placed(other), restOfStep(), bodies_, shapes_))
+        return true;
+  }
+  return false;
+}
+
 void ContactCluster::expand(int body) {
   for (int p : table_.pairsOf(body)) {
     if (pair_joined_[at(p)] == number_) continue;
     pair_joined_[at(p)] = number_;
     const ClosestFeatures& closest = look(p);
-    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold) addPair(p, closest);
+    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold && !isInternal(p)) addPair(p, closest);
   }
 }
 

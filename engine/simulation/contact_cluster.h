@@ -87,6 +87,7 @@ class ContactCluster {
   int join(int body);
   const ClosestFeatures& look(int pair);
   void addPair(int pair, const ClosestFeatures& closest);
+  bool isInternal(int pair);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
   void joinSimultaneous(double approach_mps);

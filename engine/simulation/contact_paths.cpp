@@ -49,7 +49,7 @@ class ContactPaths {
   void forPairs(const Work& work) {
     const std::vector<LastingContacts::PairRows>& all = contacts_.pair_rows;
     world_.crew.runStretches(all.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) work(world_.pairs[at(all[k].pair)], all[k]);
+      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(all[k].pair)], all[k]);
     });
   }
 

@@ -201,7 +201,7 @@ void remember(const LastingContacts& contacts, const LastingWorld& world) {
   world.crew.runStretches(contacts.pair_rows.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const LastingContacts::PairRows& of_pair = contacts.pair_rows[k];
-      ShapePair& pair = world.pairs[at(of_pair.pair)];
+      ShapePair& pair = world.table.pairs()[at(of_pair.pair)];
       for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
         const ContactRow& row = contacts.rows[i];
         const Vec3 impulse_W = rowImpulse(row, row.impulse);

@@ -117,9 +117,12 @@ struct World::Impl {
 // Parts are referred to by address, so shapes are made once no solid is added any more.
 void World::Impl::makeShapes() {
   shapes.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const ConvexPart& part : solids[at(descriptions[i].solid)].parts())
-      shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero())});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Solid& solid = solids[at(descriptions[i].solid)];
+    const double width = bodies[i].is_static ? std::numeric_limits<double>::infinity() : solid.width();
+    for (const ConvexPart& part : solid.parts())
+      shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero()), width});
+  }
 }
 
 // Every body starts the step as if it were in flight.
@@ -158,7 +161,7 @@ bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
 
 void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  solveLastingContacts({bodies, shapes, table.pairs(), substep, crew}, planner, counters, contacts);
+  solveLastingContacts({bodies, shapes, table, substep, crew}, planner, counters, contacts);
 }
 
 // The body where its path ends.
