@@ -21,7 +21,34 @@ enum class Travel : std::uint8_t {
   kHeld        ///< Stopped at its last safe time for the rest of the step.
 };
 
-struct Body {
+/// How a body moves from an instant of the step on. The path is where it goes; the momentum velocity is what
+/// impulses act on. They differ in lasting contact, where the path also reopens gaps without giving the body
+/// energy. Forces act evenly in time, so that a body struck within the step has what they have given it until
+/// then.
+struct StepMotion {
+  Travel travel = Travel::kStill;
+  Trajectory path;
+  Velocity momentum_velocity;        ///< At path.start_s.
+  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
+  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+
+  /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
+  /// `R_WB`.
+  Velocity velocityAt(const Inertia& inertia, double t_s, const Quat& R_WB) const {
+    Velocity v = momentum_velocity;
+    const double dt = t_s - path.start_s;
+    if (travel == Travel::kStill || dt == 0.0) return v;
+    v.linear += dt * acceleration;
+    if (!torque.isZero(0.0)) v.angular += angularVelocity(inertia, path.X_WB.rotation, dt * torque);
+    if (path.tumbling.inertia != nullptr)  // its path is its own free rotation
+      v.angular = angularVelocity(inertia, R_WB, angularMomentum(inertia, path.X_WB.rotation, v.angular));
+    else if (!v.angular.isZero(0.0))
+      v.angular = R_WB * torqueFreeSpinInBody(inertia, path.X_WB.rotation.conjugate() * v.angular, dt);
+    return v;
+  }
+};
+
+struct Body : StepMotion {
   Inertia inertia;
   Material material;
   double radius_m = 0.0;
@@ -44,14 +71,7 @@ struct Body {
   /// kg m^2/s, world frame, of a body that has flown freely since it was computed: not rounded in every step.
   std::optional<Vec3> kept_angular_momentum;
 
-  // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They
-  // differ in lasting contact, where the path also reopens gaps without giving the body energy. Forces act
-  // evenly in time, so that a body struck within the step has what they have given it until then.
-  Travel travel = Travel::kStill;
-  Trajectory path;
-  Velocity momentum_velocity;        ///< At path.start_s.
-  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
-  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  // Within a step, besides its motion.
   int events = 0;
   bool collided = false;
 
@@ -67,16 +87,7 @@ struct Body {
   Velocity velocityAt(double t_s) const { return velocityAt(t_s, path.at(t_s).rotation); }
   /// The same when it is known that the path has turned the body to `R_WB`.
   Velocity velocityAt(double t_s, const Quat& R_WB) const {
-    Velocity v = momentum_velocity;
-    const double dt = t_s - path.start_s;
-    if (travel == Travel::kStill || dt == 0.0) return v;
-    v.linear += dt * acceleration;
-    if (!torque.isZero(0.0)) v.angular += angularVelocity(inertia, path.X_WB.rotation, dt * torque);
-    if (path.tumbling.inertia != nullptr)  // its path is its own free rotation
-      v.angular = angularVelocity(inertia, R_WB, angularMomentum(inertia, path.X_WB.rotation, v.angular));
-    else if (!v.angular.isZero(0.0))
-      v.angular = R_WB * torqueFreeSpinInBody(inertia, path.X_WB.rotation.conjugate() * v.angular, dt);
-    return v;
+    return StepMotion::velocityAt(inertia, t_s, R_WB);
   }
 
   ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {

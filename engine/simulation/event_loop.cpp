@@ -44,7 +44,7 @@ class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
             const FlightPlanner& planner, const WorldSettings& settings, Crew& crew, StepCounters& counters,
-            PhaseClock* clock, StepView* view)
+            PhaseClock* clock, const StepWatchers& watchers)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
@@ -53,7 +53,7 @@ class EventLoop {
         crew_(crew),
         counters_(counters),
         clock_(clock),
-        view_(view),
+        watchers_(watchers),
         cluster_(bodies, shapes, table, settings, counters) {}
 
   std::vector<Pose> run() {
@@ -196,7 +196,7 @@ class EventLoop {
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
-    if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
+    if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, time_s, *watchers_.view);
     changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
     if (supports) {
@@ -225,6 +225,7 @@ class EventLoop {
   void bring(int index, double time_s) {
     Body& body = bodies_[at(index)];
     if (body.path.start_s == time_s) return;
+    if (watchers_.paths != nullptr) watchers_.paths->add(at(index), body, time_s);
     const Pose X_WB = body.path.at(time_s);
     body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
     body.path.velocity = body.path.velocityAt(time_s);
@@ -356,7 +357,7 @@ class EventLoop {
   Crew& crew_;
   StepCounters& counters_;
   PhaseClock* clock_;
-  StepView* view_;
+  StepWatchers watchers_;
   ContactCluster cluster_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
   std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
@@ -368,8 +369,8 @@ class EventLoop {
 
 std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                             const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, StepView* view) {
-  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, view).run();
+                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers) {
+  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers).run();
 }
 
 }  // namespace carom
