@@ -67,11 +67,14 @@ class Assembly {
   // The bodies as the solver takes them.
   void seeBodies() {
     contacts_.bodies.resize(world_.bodies.size());
+    contacts_.half_turns.resize(world_.bodies.size());
     world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Body& body = world_.bodies[i];
         ImpulseBody& seen = contacts_.bodies[i];
-        seen = body.impulseBody(body.X_WB, body.velocity);
+        HalfTurn& half = contacts_.half_turns[i];
+        half = halfTurn(body, world_.settings.step_s, noticedTurning());
+        seen = body.impulseBody({half.R_WB, body.X_WB.position}, {body.velocity.linear, half.spin});
         if (!body.resting) continue;
         seen.inverse_mass = 0.0;
         seen.inverse_tensor.setZero();
@@ -118,6 +121,10 @@ class Assembly {
           return true;
     }
     return false;
+  }
+
+  double noticedTurning() const {
+    return kNoticedTurning * world_.settings.gravity.norm() * world_.settings.step_s;
   }
 
   bool moves(int body) const { return world_.bodies[at(body)].moves(); }
@@ -195,7 +202,7 @@ class Assembly {
       return speed < -pair.collision_speed_mps ||
              (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
     });
-    const MidStep mid{0.5 * step_s, kNoticedTurning * world_.settings.gravity.norm() * step_s};
+    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
     moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
     warmStart(pair, a.liesStill() && b.liesStill(), rows);
     pair.remembered.clear();

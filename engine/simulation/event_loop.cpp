@@ -253,7 +253,7 @@ class EventLoop {
       if (!is_as_searched) changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
-        if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
+        if (rest > 0.0) drive(body, cluster_.end(i), rest);
         continue;
       }
       if (keeps_path) {
@@ -268,7 +268,7 @@ class EventLoop {
       } else {
         const Velocity& end = cluster_.end(i);
         body.travel = Travel::kCarried;
-        driveEvenly(body, {body.momentum_velocity, end, rest});
+        drive(body, end, rest);
         carryAlong(body,
                    {0.5 * (body.momentum_velocity.linear + end.linear),
                     0.5 * (body.momentum_velocity.angular + end.angular)},
@@ -278,6 +278,15 @@ class EventLoop {
     }
   }
 
+  // To `end`, by the tensor of the path's start.
+  static void drive(Body& body, const Velocity& end, double rest_of_step_s) {
+    const Velocity& begin = body.momentum_velocity;
+    driveEvenly(body, {begin,
+                       {end.linear - begin.linear, end.angular - begin.angular},
+                       body.path.X_WB.rotation,
+                       rest_of_step_s});
+  }
+
   static bool goesStraight(const Body& body) {
     return body.travel == Travel::kCarried && body.path.acceleration.isZero(0.0);
   }
@@ -285,7 +294,7 @@ class EventLoop {
   // Straight on to where its path led, with the momentum and the forces that it has now.
   void keepPath(Body& body, std::size_t member, double rest_of_step_s) {
     body.travel = Travel::kCarried;
-    driveEvenly(body, {body.momentum_velocity, cluster_.end(member), rest_of_step_s});
+    drive(body, cluster_.end(member), rest_of_step_s);
     carryAlong(body, cluster_.path(member), rest_of_step_s, false);
   }
 
