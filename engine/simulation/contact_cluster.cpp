@@ -31,10 +31,8 @@ constexpr double kCrowdRestGaps = 2.0;
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
-constexpr double kPathShare = 0.01;  // of that, for small clusters
-constexpr double kGapShare = 0.4;    // of the rest gap
-// Approaches of one instant that differ by a smaller share are one collision: what is symmetric stays so.
-constexpr double kSameApproach = 1e-6;
+constexpr double kPathShare = 0.01;   // of that, for small clusters
+constexpr double kGapShare = 0.4;     // of the rest gap
 constexpr double kWakingShare = 0.1;  // of the resting mode's speed: forces that do less wake nobody
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
@@ -239,8 +237,7 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
       const ClosestFeatures& closest = look(p);
       const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
                             a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
-      if (closest.distance_m <= pair.window.ceiling &&
-          std::abs(closest.n_W.dot(relative) - approach_mps) <= -kSameApproach * approach_mps)
+      if (closest.distance_m <= pair.window.ceiling && sameApproach(closest.n_W.dot(relative), approach_mps))
         addPair(p, closest);
       else
         pair_joined_[at(p)] = 0;  // it may still join as a support

@@ -10,6 +10,13 @@
 
 namespace carom {
 
+/// Whether two approaches of one instant, m/s and negative, are one collision but for rounding: what is
+/// symmetric stays so.
+inline bool sameApproach(double separating_mps, double first_mps) {
+  constexpr double kSame = 1e-6;
+  return std::abs(separating_mps - first_mps) <= kSame * std::abs(first_mps);
+}
+
 class ContactCluster {
  public:
   struct Member {

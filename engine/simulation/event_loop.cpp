@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,8 @@
 namespace carom {
 namespace {
 
+constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
+
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -20,7 +23,9 @@ std::size_t at(int i) {
 // The time up to which a pair's gap is proven: there it must be looked at again, if its bodies still travel
 // as they did when it was predicted.
 struct Event {
-  double time_s = 0.0;
+  std::int64_t instant = 0;     // its time, as the events are ordered
+  bool looked = false;          // then it is an impact or a stop at that time, and parts ...
+  double separating_mps = 0.0;  // ... so fast
   int pair = -1;
   int version = 0;
 };
@@ -29,14 +34,17 @@ struct Event {
 // because another event gives one of the bodies a new path.
 struct Prediction {
   int version = 0;
-  bool looked = false;  ///< And what was found not taken up yet.
+  bool looked = false;  ///< At least once.
   ImpactSearch search;
   TimeOfImpact found;
 };
 
+// Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
+// is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
   bool operator()(const Event& x, const Event& y) const {
-    return std::tie(x.time_s, x.pair) > std::tie(y.time_s, y.pair);
+    return std::tie(x.instant, x.looked, x.separating_mps, x.pair) >
+           std::tie(y.instant, y.looked, y.separating_mps, y.pair);
   }
 };
 
@@ -68,8 +76,12 @@ class EventLoop {
       events_.pop();
       const Prediction& prediction = predictions_[at(event.pair)];
       if (event.version != prediction.version) continue;
-      if (!prediction.looked) look(event.pair);
-      takeUp(event.pair);
+      if (event.looked) {
+        takeUpAllLike(event);
+        continue;
+      }
+      look(event.pair);
+      await(event.pair);
     }
     return std::move(ends_);
   }
@@ -91,9 +103,7 @@ class EventLoop {
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
-      if (prediction.found.outcome == TimeOfImpact::Outcome::kClear) continue;
-      events_.push({prediction.found.time_s, static_cast<int>(i), prediction.version});
-      prediction.looked = prediction.found.outcome != TimeOfImpact::Outcome::kPending;
+      await(static_cast<int>(i));
     }
   }
 
@@ -125,7 +135,31 @@ class EventLoop {
     if (!mayMeet(index)) return;
     const double begin_s = beginOf(table_.pairs()[at(index)]);
     beginSearch(index, closestAt(index, begin_s));
-    events_.push({begin_s, index, version});
+    events_.push({instantOf(begin_s), false, 0.0, index, version});
+  }
+
+  std::int64_t instantOf(double time_s) const {
+    return static_cast<std::int64_t>(time_s / settings_.step_s * kInstants);
+  }
+
+  // What a look has found, in the order of the events.
+  void await(int index) {
+    const Prediction& prediction = predictions_[at(index)];
+    const TimeOfImpact& found = prediction.found;
+    if (found.outcome == TimeOfImpact::Outcome::kClear) return;
+    const bool pending = found.outcome == TimeOfImpact::Outcome::kPending;
+    const double separating = pending ? 0.0 : separatingSpeedAt(index, found);
+    events_.push({instantOf(found.time_s), !pending, separating, index, prediction.version});
+  }
+
+  double separatingSpeedAt(int index, const TimeOfImpact& found) const {
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const auto velocityOf = [&](const Body& body, const Vec3& p_W) {
+      const Velocity v{body.path.velocityAt(found.time_s), body.path.angularVelocityAt(found.time_s)};
+      return v.at(p_W - body.path.positionAt(found.time_s));
+    };
+    return found.closest.n_W.dot(velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
+                                 velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W));
   }
 
   // Carries the search of a pair on by one look.
@@ -145,16 +179,20 @@ class EventLoop {
     counters_.newton_steps += predictions_[at(index)].found.newton_steps - newton_steps;
   }
 
-  // What a look has found: it goes on later, or is resolved.
-  void takeUp(int index) {
-    Prediction& prediction = predictions_[at(index)];
-    const TimeOfImpact& found = prediction.found;
-    if (found.outcome == TimeOfImpact::Outcome::kClear) return;
-    if (found.outcome == TimeOfImpact::Outcome::kPending) {
-      prediction.looked = false;
-      events_.push({found.time_s, index, prediction.version});
-      return;
+  // The event and those of its instant and speed: what one of them sets in motion comes after all of them.
+  void takeUpAllLike(const Event& first) {
+    alike_.assign(1, first);
+    while (!events_.empty() && events_.top().instant == first.instant && events_.top().looked &&
+           sameApproach(events_.top().separating_mps, first.separating_mps)) {
+      alike_.push_back(events_.top());
+      events_.pop();
     }
+    for (const Event& event : alike_)
+      if (event.version == predictions_[at(event.pair)].version) takeUp(event.pair);
+  }
+
+  void takeUp(int index) {
+    const TimeOfImpact& found = predictions_[at(index)].found;
     ++counters_.events;
     counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     resolve(index, found);
@@ -372,6 +410,7 @@ class EventLoop {
   std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
   std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
+  std::vector<Event> alike_;  ///< Scratch.
 };
 
 }  // namespace
