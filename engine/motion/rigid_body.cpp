@@ -28,8 +28,9 @@ constexpr double kOuterShare = 1.3512071919596578;
 constexpr double kFourthOrder[] = {kOuterShare, 1.0 - 2.0 * kOuterShare, kOuterShare};
 constexpr double kPartTurn = 0.1;     // rad in one such step
 constexpr double kTumbleTurn = 0.01;  // the same where the energy of single impacts hangs on it
-constexpr double kNoTurn =
-    0x1p-26;  // rad in all: it changes an angular velocity by less than that share of it
+constexpr int kNearestSteps = 30;     // of Newton, for the momentum nearest to one: four or five are made
+constexpr double kSameEnergy = 1e-15;
+constexpr double kMostGrowth = -0.5;  // the momentum about the axis of the least moment doubles at most
 constexpr double kMostParts = 256.0;  // beyond some ten radians a step the energy becomes less exact
 
 // Torque-free rotation in equal steps. 1/I = 1/I_middle + (the rest): the first turns the body about the
@@ -100,12 +101,27 @@ Tumbling tumbling(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_
   return {&inertia, momentum, fastest, 1 + static_cast<int>(std::min(parts, kMostParts))};
 }
 
-Vec3 torqueFreeSpinInBody(const Inertia& inertia, const Vec3& spin_B, double dt_s) {
-  if (spin_B.norm() * std::abs(dt_s) < kNoTurn) return spin_B;
-  const Tumbling free = tumbling(inertia, Quat::Identity(), spin_B, dt_s);
-  const Vec3 momentum = rotationAfter(free, Quat::Identity(), dt_s).conjugate() * free.momentum;
-  const Vec3 spin = inertia.inverse_tensor_B * momentum;
-  return spin * std::sqrt(spin_B.dot(free.momentum) / spin.dot(momentum));
+Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J) {
+  // Lagrange: L_i / (1 + s I_min / I_i) along each principal axis. The energy falls with s; its inverse root
+  // is nearly linear in s, so Newton's steps on that converge from everywhere.
+  const Mat3 R_WP = R_WB.toRotationMatrix() * inertia.principal_axes_B;
+  const Vec3& moments = inertia.principal_moments;
+  const Vec3 momentum = R_WP.transpose() * angular_momentum;
+  const Vec3 share = moments[0] * moments.cwiseInverse();
+  double s = 0.0;
+  double energy = 0.0;
+  Vec3 nearest = momentum;
+  for (int i = 0; i <= kNearestSteps; ++i) {
+    const Vec3 shrinking = Vec3::Ones() + s * share;
+    nearest = momentum.cwiseQuotient(shrinking);
+    const Vec3 energies = 0.5 * nearest.cwiseProduct(nearest).cwiseQuotient(moments);
+    energy = energies.sum();
+    if (!(energy > 0.0) || std::abs(energy - energy_J) <= kSameEnergy * energy_J || i == kNearestSteps) break;
+    const double slope = energies.cwiseProduct(share).cwiseQuotient(shrinking).sum();  // -1/2 d energy / ds
+    s = std::max(kMostGrowth, s + (std::sqrt(energy / energy_J) - 1.0) * energy / slope);
+  }
+  const Vec3 spin = R_WP * nearest.cwiseQuotient(moments);
+  return energy > energy_J ? Vec3(spin * std::sqrt(energy_J / energy)) : spin;
 }
 
 Quat rotationAfter(const Tumbling& tumbling, const Quat& R_WB, double dt_s) {

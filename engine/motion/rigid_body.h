@@ -54,10 +54,11 @@ double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angula
 /// momentum is exact and the energy bounded. Beyond two radians a step the spin of the first two is kept.
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
 
-/// What `dt_s` seconds of torque-free rotation make of an angular velocity, both in the body's own frame: its
-/// kinetic energy is the same (Euler's equations, by the same splitting). Where a contact leads a body's
-/// orientation, the body has this angular velocity in it: recomputed from an angular momentum in the world,
-/// that of a needle would gain a hundred times its energy for every few degrees by which the two differ.
-Vec3 torqueFreeSpinInBody(const Inertia& inertia, const Vec3& spin_B, double dt_s);
+/// The angular velocity, world frame, that has this energy of rotation and the angular momentum nearest to
+/// the one given. For a body whose orientation contacts have led elsewhere than its own rotation would have:
+/// with the same angular momentum a needle would have a hundred times its energy for every few degrees of
+/// difference, as its moment about its own axis is so small. Less energy than asked for where the momentum
+/// would have to change beyond what such a difference explains.
+Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J);
 
 }  // namespace carom

@@ -31,19 +31,27 @@ struct StepMotion {
   Velocity momentum_velocity;        ///< At path.start_s.
   Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
   Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  // Of a body that contacts carry, in its own frame when it had the orientation that their impulses were
+  // solved for: its angular velocity before them, rad/s, and what they make of it, rad/s^2.
+  Vec3 solved_spin_B = Vec3::Zero();
+  Vec3 turning_B = Vec3::Zero();
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
-  /// `R_WB`.
+  /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where
+  /// contacts lead the path, the body has the energy that their impulses left it, whatever its orientation.
   Velocity velocityAt(const Inertia& inertia, double t_s, const Quat& R_WB) const {
     Velocity v = momentum_velocity;
     const double dt = t_s - path.start_s;
     if (travel == Travel::kStill || dt == 0.0) return v;
     v.linear += dt * acceleration;
-    if (!torque.isZero(0.0)) v.angular += angularVelocity(inertia, path.X_WB.rotation, dt * torque);
-    if (path.tumbling.inertia != nullptr)  // its path is its own free rotation
-      v.angular = angularVelocity(inertia, R_WB, angularMomentum(inertia, path.X_WB.rotation, v.angular));
-    else if (!v.angular.isZero(0.0))
-      v.angular = R_WB * torqueFreeSpinInBody(inertia, path.X_WB.rotation.conjugate() * v.angular, dt);
+    if (v.angular.isZero(0.0) && torque.isZero(0.0)) return v;
+    const Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular) + dt * torque;
+    if (travel == Travel::kBallistic) {
+      v.angular = angularVelocity(inertia, R_WB, momentum);
+      return v;
+    }
+    const Vec3 spin_B = solved_spin_B + dt * turning_B;
+    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * spin_B.dot(inertia.tensor_B * spin_B));
     return v;
   }
 };

@@ -20,6 +20,8 @@ void driveEvenly(Body& body, const CarriedStretch& stretch) {
   body.momentum_velocity = stretch.begin;
   body.acceleration = stretch.gain.linear / dt;
   body.torque = angularMomentum(body.inertia, stretch.R_WB, stretch.gain.angular) / dt;
+  body.solved_spin_B = stretch.R_WB.conjugate() * stretch.spin;
+  body.turning_B = stretch.R_WB.conjugate() * stretch.gain.angular / dt;
 }
 
 void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends) {

@@ -157,6 +157,7 @@ class ContactPaths {
       driveEvenly(bodies[i], {bodies[i].velocity,
                               {after.linear - bodies[i].velocity.linear, after.angular - half.spin},
                               half.R_WB,
+                              half.spin,
                               step_s_});
     });
     const std::vector<char> bends = findBends();

@@ -322,6 +322,7 @@ class EventLoop {
     driveEvenly(body, {begin,
                        {end.linear - begin.linear, end.angular - begin.angular},
                        body.path.X_WB.rotation,
+                       begin.angular,
                        rest_of_step_s});
   }
 

@@ -5,6 +5,8 @@
 namespace carom {
 namespace {
 
+constexpr double kLargestTurn = 2.0;  // rad in a step: beyond it a constant spin has no reliable axis
+
 // Where an angular momentum that stays takes an orientation.
 Quat turned(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, double dt_s) {
   const Vec3 spin = angularVelocity(inertia, R_WB, momentum);
@@ -16,7 +18,7 @@ Quat turned(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, doub
 HalfTurn halfTurn(const Body& body, double step_s, double noticed_mps) {
   HalfTurn half{body.X_WB.rotation, body.velocity.angular};
   const Vec3& spin = body.velocity.angular;
-  if (!body.moves() || spin.isZero(0.0) || spin.norm() * step_s > kLargestSpinTurn) return half;
+  if (!body.moves() || spin.isZero(0.0) || spin.norm() * step_s > kLargestTurn) return half;
   const double half_step_s = 0.5 * step_s;
   const Vec3 momentum = angularMomentum(body.inertia, half.R_WB, spin);
   const Vec3 gained = half_step_s * angularVelocity(body.inertia, half.R_WB, momentum.cross(spin));
@@ -24,7 +26,7 @@ HalfTurn halfTurn(const Body& body, double step_s, double noticed_mps) {
   const Vec3 torque = body.torque + body.contact_torque;
   half.R_WB =
       turned(body.inertia, half.R_WB, momentum + 0.5 * half_step_s * torque, half_step_s).normalized();
-  half.spin = angularVelocity(body.inertia, half.R_WB, momentum);
+  half.spin = spinOfEnergy(body.inertia, half.R_WB, momentum, 0.5 * spin.dot(momentum));
   half.tumbles = true;
   return half;
 }
