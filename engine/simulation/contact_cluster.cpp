@@ -508,13 +508,13 @@ void ContactCluster::boundPaths(bool all) {
   }
   solveSpreading(kPathShare * safeResidual());
   for (int round = 0; round < kTurningRounds; ++round) {
-    if (!raiseForTurning()) break;
+    if (!raiseForTurning(all)) break;
     solveSpreading(kPathShare * safeResidual());
   }
 }
 
-bool ContactCluster::raiseForTurning() {
-  const PathBounds bounds{bodies_, shapes_, time_s_, restOfStep()};
+bool ContactCluster::raiseForTurning(bool all) {
+  const PathBounds bounds{bodies_, shapes_, time_s_, restOfStep(), all};
   bool raised = false;
   for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
     while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;

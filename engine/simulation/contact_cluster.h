@@ -113,7 +113,7 @@ class ContactCluster {
   void takeOverForces(std::size_t first, std::size_t count);
   void keepForces();
   void findBends();
-  bool raiseForTurning();
+  bool raiseForTurning(bool all);
   void solveSpreading(double careful_mps);
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();

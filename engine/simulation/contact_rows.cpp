@@ -43,9 +43,12 @@ double slackOf(const ShapePair& pair, const std::vector<Shape>& shapes) {
 struct PairTravel {
   Pose X_WA;
   Velocity a;
+  Velocity momentum_a;  // now
   Pose X_WB;
   Velocity b;
+  Velocity momentum_b;
   double dt_s = 0.0;
+  bool all = false;
 };
 
 // By how much, m/s, a pair's rows must part faster; 0 when it stays in the window, or nothing turns
@@ -64,8 +67,15 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
   const Trajectory path_a{0.0, travel.X_WA, travel.a.linear, Vec3::Zero(), travel.a.angular};
   const Trajectory path_b{0.0, travel.X_WB, travel.b.linear, Vec3::Zero(), travel.b.angular};
   FeaturePair tracked = pair.tracked;
-  const double gap = closestFeatures(*a.part, path_a.at(dt), *b.part, path_b.at(dt), tracked).distance_m;
+  const Pose end_a = path_a.at(dt);
+  const Pose end_b = path_b.at(dt);
+  const ClosestFeatures closest = closestFeatures(*a.part, end_a, *b.part, end_b, tracked);
   ++counters.distance_queries;
+  const double gap = closest.distance_m;
+  const Vec3 arm_a = travel.X_WA.rotation * (end_a.inverse() * closest.p_A_W);
+  const Vec3 arm_b = travel.X_WB.rotation * (end_b.inverse() * closest.p_B_W);
+  const double speed_now = closest.n_W.dot(travel.momentum_b.at(arm_b) - travel.momentum_a.at(arm_a));
+  if (!travel.all && speed_now < -pair.collision_speed_mps) return 0.0;
   const double wanted = pair.window.rest * (1.0 - tolerance::kRestBand);
   return gap < kTurningGap * pair.window.rest ? (wanted - gap) / dt : 0.0;
 }
@@ -147,10 +157,18 @@ GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool press
 bool raiseForTurning(const PathBounds& bounds, const ShapePair& pair, std::span<const ImpulseBody> paths,
                      std::span<ContactRow> rows, StepCounters& counters) {
   if (rows.empty()) return false;
-  const PairTravel travel{bounds.bodies[at(pair.body_a)].path.at(bounds.time_s),
-                          paths[at(rows.front().a)].velocity,
-                          bounds.bodies[at(pair.body_b)].path.at(bounds.time_s),
-                          paths[at(rows.front().b)].velocity, bounds.rest_of_step_s};
+  const Body& a = bounds.bodies[at(pair.body_a)];
+  const Body& b = bounds.bodies[at(pair.body_b)];
+  const Pose X_WA = a.path.at(bounds.time_s);
+  const Pose X_WB = b.path.at(bounds.time_s);
+  const PairTravel travel{.X_WA = X_WA,
+                          .a = paths[at(rows.front().a)].velocity,
+                          .momentum_a = a.velocityAt(bounds.time_s, X_WA.rotation),
+                          .X_WB = X_WB,
+                          .b = paths[at(rows.front().b)].velocity,
+                          .momentum_b = b.velocityAt(bounds.time_s, X_WB.rotation),
+                          .dt_s = bounds.rest_of_step_s,
+                          .all = bounds.all};
   const double speed = turningSpeed(pair, bounds.shapes, travel, counters);
   for (ContactRow& row : rows) row.lowest_speed += speed;
   return speed > 0.0;

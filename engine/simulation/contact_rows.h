@@ -64,11 +64,13 @@ struct PathBounds {
   const std::vector<Shape>& shapes;
   double time_s = 0.0;
   double rest_of_step_s = 0.0;
+  bool all = false;  ///< Also by what comes in so fast that it has its own time of impact.
 };
 
 /// Rows are linear in time, but what turns while it slides along another approaches it with the square of the
 /// time. Raises the lowest speeds of the rows of a pair that would not end the step in the window on these
-/// `paths` (indexed by the rows); whether it would not.
+/// `paths` (indexed by the rows); whether it would not. What comes in fast is left to its time of impact: no
+/// path lifts a body over a collision.
 bool raiseForTurning(const PathBounds& bounds, const ShapePair& pair, std::span<const ImpulseBody> paths,
                      std::span<ContactRow> rows, StepCounters& counters);
 inline constexpr int kTurningRounds = 2;  ///< Of raising and solving again.
