@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLargestTurn = 2.0;  // rad in a step: beyond it a constant spin has no reliable axis
 
-// Where an angular momentum that stays takes an orientation.
+// Where a constant angular momentum takes an orientation.
 Quat turned(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, double dt_s) {
   const Vec3 spin = angularVelocity(inertia, R_WB, momentum);
   return rotationBy(dt_s * torqueFreeSpin(inertia, R_WB, spin, dt_s)) * R_WB;
@@ -39,7 +39,7 @@ Vec3 meanSpin(const Body& body, const HalfTurn& half, const Vec3& spin_after, do
   const Vec3 gained = angularMomentum(body.inertia, half.R_WB, spin_after - half.spin);
   const Quat R_middle = turned(body.inertia, R_begin, momentum + 0.25 * gained, half_step_s);
   const Quat R_end = turned(body.inertia, R_middle, momentum + 0.75 * gained, half_step_s);
-  return rotationOf(R_end * body.X_WB.rotation.conjugate()) / step_s;
+  return rotationOf(R_end * R_begin.conjugate()) / step_s;
 }
 
 }  // namespace carom
