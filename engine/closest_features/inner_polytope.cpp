@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A triangle lower than this share of its length has no trustworthy normal, and no point farther than that
-// from its neighbours' edges: it bounds nothing.
+// from its edges.
 constexpr double kSliver = 0x1p-46;
 // Corners that are no longer extreme dent the surface, and each dent must be raised anew: a polytope that has
 // gained this many since it was built is better begun again.
@@ -18,6 +18,8 @@ constexpr std::size_t kAgeing = 16;
 constexpr double kSameDirection = 1.0 - 1e-12;
 // The start is a tetrahedron of at least this share of its size.
 constexpr double kFlat = 1e-12;
+// Of a remembered polytope at most one triangle in this many may be low: with more it is made anew as fast.
+constexpr int kFewLow = 4;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -43,26 +45,63 @@ struct LevelEdges {
   std::array<double, 2> slopes{kInfinity, kInfinity};
 };
 
+double distanceToSegment(const Vec3& from, const Vec3& to) {
+  const Vec3 side = to - from;
+  const double squared = side.squaredNorm();
+  const double s = squared > 0.0 ? std::clamp(-side.dot(from) / squared, 0.0, 1.0) : 0.0;
+  return (from + s * side).norm();
+}
+
 }  // namespace
 
 MinimumTranslation InnerPolytope::minimumTranslation(const PolyhedronPair& pair, double noise_m,
                                                      const MinimumTranslation* known) {
-  noise_m_ = noise_m;
-  expansions_ = 0;
-  ++query_;
-  const FeaturePair last = best_.features;
-  best_.gap_m = -kInfinity;
-  if (known != nullptr) keep(*known);
-  if (stillHolds(pair)) {
-    if (known == nullptr) recall(pair, last);
-  } else if (!build(pair)) {
-    return largestGap(pair);
-  }
-  if (!raise(pair)) {
+  if (const auto followed = follow(pair, noise_m, known)) return *followed;
+  begin(noise_m, known);
+  if (!build(pair) || !raise(pair, From::kNothing)) {
     forget();
     return largestGap(pair);
   }
+  if (best_.gap_m >= -noise_m) forget();
   return best_;
+}
+
+std::optional<MinimumTranslation> InnerPolytope::follow(const PolyhedronPair& pair, double noise_m,
+                                                        const MinimumTranslation* known) {
+  if (triangles_.empty()) return std::nullopt;
+  if (!isOf(pair)) {
+    forget();
+    return std::nullopt;
+  }
+  const double motion = motionTo(pair);
+  const bool still_winds = provenDepth() - motion > noise_m;
+  const bool aged = corners_.size() > corners_when_built_ + kAgeing;
+  if (still_winds && !aged) {
+    odometer_m_ += motion;
+    R_AB_ = pair.R_AB;
+    t_AB_ = pair.t_AB;
+    const FeaturePair last = best_.features;
+    begin(noise_m, known);
+    if (known == nullptr) recall(pair, last);
+    if (raise(pair, From::kMemory)) return best_;
+  }
+  forget();
+  if (still_winds) return minimumTranslation(pair, noise_m, known);
+  // Whether the bodies still intersect is not known, but that they overlap along the given axis: from there a
+  // new polytope takes fewer points, unless they turn out to have parted.
+  if (known == nullptr) return std::nullopt;
+  begin(noise_m, known);
+  if (build(pair) && raise(pair, From::kFacet)) return best_;
+  forget();
+  return std::nullopt;
+}
+
+void InnerPolytope::begin(double noise_m, const MinimumTranslation* known) {
+  noise_m_ = noise_m;
+  expansions_ = 0;
+  ++query_;
+  best_.gap_m = -kInfinity;
+  if (known != nullptr) keep(*known);
 }
 
 double InnerPolytope::provenDepth() const {
@@ -77,6 +116,14 @@ void InnerPolytope::forget() {
   reach_.clear();
   free_.clear();
   odometer_m_ = 0.0;
+}
+
+// How far a corner may move from where the last query left it.
+double InnerPolytope::motionTo(const PolyhedronPair& pair) const {
+  const Mat3 turn = pair.R_AB - R_AB_;
+  // The norm of the difference of two rotations is that of Frobenius over the root of two.
+  return (turn * pair.b.center() + (pair.t_AB - t_AB_)).norm() +
+         std::sqrt(0.5) * turn.norm() * pair.b.radius();
 }
 
 // The facet of the last answer is an axis of this query too, and mostly the best.
@@ -94,32 +141,12 @@ void InnerPolytope::keep(const MinimumTranslation& found) {
   if (found.gap_m > best_.gap_m) best_ = found;
 }
 
-bool InnerPolytope::stillHolds(const PolyhedronPair& pair) {
-  const Mat3 turn = pair.R_AB - R_AB_;
-  // The norm of the difference of two rotations is that of Frobenius over the root of two.
-  const double step =
-      (turn * pair.b.center() + (pair.t_AB - t_AB_)).norm() + std::sqrt(0.5) * turn.norm() * pair.b.radius();
-  odometer_m_ += step;
-  R_AB_ = pair.R_AB;
-  t_AB_ = pair.t_AB;
-  if (triangles_.empty() || corners_.size() > corners_when_built_ + kAgeing) return false;
-  if (provenDepth() > 0.0) return true;
-  // Something may have passed through the origin. It still winds around an inner point if that is below all
-  // triangles' planes.
-  Vec3 inner = Vec3::Zero();
-  for (int i = 0; i < 4; ++i) inner += 0.25 * position(pair, i);
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    Triangle& t = triangles_[i];
-    if (t.removed) continue;
-    measure(pair, static_cast<int>(i));
-    if (!(t.height_m - t.normal.dot(inner) > noise_m_)) return false;
-  }
-  return true;
-}
-
 // A tetrahedron between support points: far apart along a line, far from the line, far from the plane.
 bool InnerPolytope::build(const PolyhedronPair& pair) {
   forget();
+  bodies_ = {pair.a.fingerprint(), pair.b.fingerprint()};
+  R_AB_ = pair.R_AB;
+  t_AB_ = pair.t_AB;
   const Corner any = cornerOf(pair, 0, 0);
   const auto farthest = [&](std::initializer_list<Vec3> directions, auto&& distance) {
     Corner best = any;
@@ -162,14 +189,17 @@ bool InnerPolytope::build(const PolyhedronPair& pair) {
   return true;
 }
 
-bool InnerPolytope::raise(const PolyhedronPair& pair) {
+// False if it takes too many points, or, but from nothing, the bodies have parted.
+bool InnerPolytope::raise(const PolyhedronPair& pair, From from) {
   // The least support so far: the depth is at most that.
   double depth = -best_.gap_m;
   Corner deepest{};
   Vec3 normal = best_.normal;
   findLow(pair, depth - noise_m_);
+  if (from == From::kMemory && kFewLow * static_cast<int>(low_.size()) > triangleCount()) return false;
   const int limit = 200 + 20 * (pair.a.vertexCount() + pair.b.vertexCount());
   for (int i = 0; i < limit; ++i) {
+    if (from != From::kNothing && depth <= noise_m_) return false;
     const int lowest = takeLowest(depth - noise_m_);
     if (lowest < 0) {
       if (depth < -best_.gap_m) nameFacet(pair, deepest, normal, depth);
@@ -253,9 +283,10 @@ void InnerPolytope::placeWitnesses(const PolyhedronPair& pair, MinimumTranslatio
   double innermost = -kInfinity;
   for (std::size_t i = 0; i < reach_.size(); ++i) {
     if (!(boundNow(i) <= 4.0 * noise_m_ - answer.gap_m)) continue;
+    if (triangles_[i].measured != query_) measure(pair, static_cast<int>(i));
     const Triangle& t = triangles_[i];
-    const std::array<Vec3, 3> w{position(pair, t.corners[0]), position(pair, t.corners[1]),
-                                position(pair, t.corners[2])};
+    if (t.height_m == kInfinity) continue;  // a sliver
+    const std::array<Vec3, 3> w = positions(pair, static_cast<int>(i));
     std::array<double, 3> share{};
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -363,6 +394,11 @@ const Vec3& InnerPolytope::position(const PolyhedronPair& pair, int corner) {
   return c.w;
 }
 
+std::array<Vec3, 3> InnerPolytope::positions(const PolyhedronPair& pair, int triangle) {
+  const auto& corners = triangles_[at(triangle)].corners;
+  return {position(pair, corners[0]), position(pair, corners[1]), position(pair, corners[2])};
+}
+
 void InnerPolytope::measure(const PolyhedronPair& pair, int triangle) {
   Triangle& t = triangles_[at(triangle)];
   const Vec3& w0 = position(pair, t.corners[0]);
@@ -372,15 +408,18 @@ void InnerPolytope::measure(const PolyhedronPair& pair, int triangle) {
   const Vec3 side2 = w2 - w0;
   const Vec3 across = side1.cross(side2);
   const double twice_area = across.norm();
+  double distance_m;
   if (twice_area > kSliver * (side1.squaredNorm() + side2.squaredNorm())) {
     t.normal = across / twice_area;
     t.height_m = std::min({t.normal.dot(w0), t.normal.dot(w1), t.normal.dot(w2)});
+    distance_m = t.height_m;
   } else {
     t.normal = Vec3::Zero();
     t.height_m = kInfinity;
+    distance_m = std::min({distanceToSegment(w0, w1), distanceToSegment(w1, w2), distanceToSegment(w2, w0)});
   }
   t.measured = query_;
-  reach_[at(triangle)] = t.height_m + odometer_m_;
+  reach_[at(triangle)] = distance_m + odometer_m_;
 }
 
 int InnerPolytope::addTriangle(const PolyhedronPair& pair, const std::array<int, 3>& corners) {

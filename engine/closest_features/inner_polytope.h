@@ -10,12 +10,19 @@
 // a triangle is replaced when the new point is not below its plane, so that what is swept holds no interior
 // point; rounding can cost a needless triangle, not the bound.
 //
-// From query to query the corners move by less than the bodies' relative motion. A triangle whose height,
+// From query to query the corners move by less than the bodies' relative motion. A triangle whose distance,
 // less the motion since it was measured, is above the depth needs no look; and the surface still winds around
-// the origin as long as no triangle can have passed through it. Tested in
-// tests/engine/closest_features/inner_polytope_test.cpp.
+// the origin as long as no triangle can have passed through it. Raising the surface never unwinds it: a
+// triangle gives way to those up to a point above it, which adds the tetrahedron between them.
+//
+// A polytope of which that is not certain, as one of bodies that have moved by more than it was away from the
+// origin, or that takes many points to mend, is forgotten. Slivers have no trustworthy normal: they are never
+// raised and prove nothing, but they too can pass through the origin, so the distance of their edges counts
+// in the motion that is allowed. Tested in tests/engine/closest_features/inner_polytope_test.cpp and
+// any_history_test.cpp.
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "engine/closest_features/penetration.h"
@@ -24,11 +31,20 @@ namespace carom {
 
 class InnerPolytope {
  public:
-  /// The minimum translation of `pair`; what was built for the pair's last query is used if it still holds.
-  /// At least one of the two must have faces. `known`: the gap along some axis, from which on to search; else
-  /// the last answer's. `gap_m` > 0: a separating axis was found.
+  /// The minimum translation of `pair`; what was built for the last query is used if it still holds. At least
+  /// one of the two must have faces. `known`: the gap along some axis, from which on to search; else the last
+  /// answer's. `gap_m` > 0: a separating axis was found. Nothing is kept of a pair that does not intersect.
   MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m,
                                         const MinimumTranslation* known = nullptr);
+
+  /// Whether it was built of these bodies, wherever they stand.
+  bool isOf(const PolyhedronPair& pair) const {
+    return bodies_ == std::array{pair.a.fingerprint(), pair.b.fingerprint()};
+  }
+  /// The same of bodies that may have parted since the last query: none, and all is forgotten, if they have,
+  /// or neither the polytope nor `known` is a start.
+  std::optional<MinimumTranslation> follow(const PolyhedronPair& pair, double noise_m,
+                                           const MinimumTranslation* known = nullptr);
 
   /// Triangles of the surface that proves the last answer.
   int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }
@@ -61,8 +77,8 @@ class InnerPolytope {
 
   /// Support points added by the last query.
   int expansions() const { return expansions_; }
-  /// The least height of a triangle's plane over the origin: a lower bound of the last answer's depth, as no
-  /// triangle is nearer than its plane.
+  /// How far all triangles are from the origin at least, as the heights of their planes tell (of slivers
+  /// their edges): a lower bound of the last answer's depth.
   double provenDepth() const;
   void forget();
 
@@ -76,7 +92,7 @@ class InnerPolytope {
     std::array<int, 3> corners;     // counter-clockwise seen from outside
     std::array<int, 3> neighbours;  // across the edge from the k-th to the next corner
     Vec3 normal;
-    double height_m;  // of the plane over the origin when it was measured
+    double height_m;  // of the plane over the origin when it was measured; of a sliver infinite
     int measured;     // the query in which that was
     bool removed;
   };
@@ -86,9 +102,11 @@ class InnerPolytope {
     int inner;  // the triangle that goes
   };
 
-  bool stillHolds(const PolyhedronPair& pair);
+  double motionTo(const PolyhedronPair& pair) const;
+  void begin(double noise_m, const MinimumTranslation* known);
   bool build(const PolyhedronPair& pair);
-  bool raise(const PolyhedronPair& pair);
+  enum class From { kMemory, kFacet, kNothing };
+  bool raise(const PolyhedronPair& pair, From from);
   void findLow(const PolyhedronPair& pair, double enough_m);
   int takeLowest(double enough_m);
   void nameFacet(const PolyhedronPair& pair, const Corner& corner, const Vec3& normal, double height_m);
@@ -100,6 +118,7 @@ class InnerPolytope {
   Corner supportAlong(const PolyhedronPair& pair, const Vec3& n, const Corner& start) const;
   Corner cornerOf(const PolyhedronPair& pair, int a, int b) const;
   const Vec3& position(const PolyhedronPair& pair, int corner);
+  std::array<Vec3, 3> positions(const PolyhedronPair& pair, int triangle);
   void measure(const PolyhedronPair& pair, int triangle);
   int addTriangle(const PolyhedronPair& pair, const std::array<int, 3>& corners);
   void connect(int triangle, int from, int neighbour);
@@ -107,7 +126,7 @@ class InnerPolytope {
 
   std::vector<Corner> corners_;
   std::vector<Triangle> triangles_;
-  std::vector<double> reach_;  // by triangle: the odometer at which its plane may have come to the origin
+  std::vector<double> reach_;  // by triangle: the odometer at which it may have come to the origin
   std::vector<int> free_;      // places of removed triangles
   std::vector<int> visible_;
   std::vector<int> low_;
@@ -116,7 +135,8 @@ class InnerPolytope {
   int query_ = 0;
   int expansions_ = 0;
   double noise_m_ = 0.0;
-  double odometer_m_ = 0.0;  // how far the corners may have moved since the polytope was built
+  double odometer_m_ = 0.0;                // how far the corners may have moved since the polytope was built
+  std::array<std::uint64_t, 2> bodies_{};  // the fingerprints of A and B
   Mat3 R_AB_ = Mat3::Identity();
   Vec3 t_AB_ = Vec3::Zero();
   MinimumTranslation best_;

@@ -25,6 +25,8 @@ constexpr double kNoDirection = 1e-9;
 // Rounding within a query, relative to its lengths, and of the positions, relative to their coordinates.
 constexpr double kNoise = 0x1p-47;
 constexpr double kShift = 0x1p-51;
+// The square of a length shorter than this loses digits or is zero: it has no direction, metres.
+constexpr double kShortest = 0x1p-500;
 // A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
 constexpr int kLongWalk = 12;
@@ -37,7 +39,7 @@ constexpr double kTouching = 1e-14;
 struct Scale {
   Scale(const ConvexPolyhedron& a, const Pose& X_WA, const ConvexPolyhedron& b, const Pose& X_WB)
       : size_m((X_WB.position - X_WA.position).lpNorm<1>() + a.reach() + b.reach()),
-        noise_m(kNoise * size_m),
+        noise_m(std::max(kNoise * size_m, kShortest)),
         shift_m(noise_m + kShift * (X_WA.position.lpNorm<1>() + X_WB.position.lpNorm<1>())) {}
 
   double size_m;
@@ -96,7 +98,6 @@ void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
   const MinimumTranslation m = axes ? *axes : minimumTranslation(pair, scale.noise_m, polytope);
   answer = answerFrom(m);
   if (m.gap_m < -scale.noise_m) return makeDepthCanonical(pair, scale, polytope, false, answer);
-  polytope.forget();
   if (inside) {  // they touch, to rounding
     answer.p_a = walk.commonPoint();
     answer.p_b = walk.commonPoint() + m.gap_m * m.normal;
@@ -107,9 +108,41 @@ void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
   // has the better normal.
   if (makeCanonical(pair, answer, scale.noise_m, scale.shift_m)) return;
   answer = answerFrom(pair, found);
-  if (!(answer.gap_m > 0.0) || m.gap_m > slabAlong(pair, answer.features, answer.normal))
-    answer.normal = m.normal;
+  // Of witnesses in one point, or along their own edge by rounding, there is no normal.
+  const bool has_normal = answer.gap_m > 0.0 && answer.normal.allFinite();
+  if (!has_normal || m.gap_m > slabAlong(pair, answer.features, answer.normal)) answer.normal = m.normal;
   makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
+}
+
+// The depth of a pair that intersected last time, if what is remembered proves that it still does: a facet,
+// or the polytope. Else it is all forgotten, but for the features that the bodies have parted at.
+bool followDepth(const PolyhedronPair& pair, const Scale& scale, PairMemory& memory, CoreAnswer& answer) {
+  InnerPolytope& polytope = memory.penetration;
+  if (!polytope.isOf(pair)) {
+    polytope.forget();
+    memory.features = {};
+    return false;
+  }
+  const std::optional<WarmFacet> warm = nearestFacet(pair, memory.features, scale.noise_m);
+  if (warm && warm->proven) {
+    answer = answerFrom(warm->gap);
+    if (warm->inside_m > scale.shift_m && clearlyAlone(pair, answer, scale.shift_m)) return true;
+  }
+  const bool parted = warm && warm->gap.gap_m > scale.noise_m;
+  std::optional<MinimumTranslation> found;
+  if (warm && warm->proven)
+    found = polytope.minimumTranslation(pair, scale.noise_m, &warm->gap);
+  else if (!parted && !(warm && warm->stale))
+    found = polytope.follow(pair, scale.noise_m, warm ? &warm->gap : nullptr);
+  if (found && found->gap_m < -scale.noise_m) {
+    answer = answerFrom(*found);
+    if (!clearlyInside(pair, answer, scale.shift_m) || !clearlyAlone(pair, answer, scale.shift_m))
+      makeDepthCanonical(pair, scale, polytope, true, answer);
+    return true;
+  }
+  polytope.forget();
+  memory.features = parted ? warm->gap.features : FeaturePair{};
+  return false;
 }
 
 // From the features of the last query to those of this one, which are not clearly the same. One variable is
@@ -117,22 +150,6 @@ void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
 CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
                         InnerPolytope& polytope, Visits& visits) {
   CoreAnswer answer;
-  if (polytope.triangleCount() > 0) {
-    const std::optional<WarmFacet> warm = nearestFacet(pair, tracked, scale.noise_m);
-    if (warm && warm->proven) {
-      answer = answerFrom(warm->gap);
-      if (warm->inside_m > scale.shift_m && clearlyAlone(pair, answer, scale.shift_m)) return answer;
-    }
-    answer = answerFrom(polytope.minimumTranslation(pair, scale.noise_m, warm ? &warm->gap : nullptr));
-    if (answer.gap_m < -scale.noise_m) {
-      if (!clearlyInside(pair, answer, scale.shift_m) || !clearlyAlone(pair, answer, scale.shift_m))
-        makeDepthCanonical(pair, scale, polytope, true, answer);
-      return answer;
-    }
-    polytope.forget();
-    tracked = answer.features;
-  }
-
   // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
   // never needs.
   const int bound = 100 + 2 * (pair.a.edgeCount() + pair.b.edgeCount());
@@ -159,7 +176,6 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
       makeDepthCanonical(pair, scale, polytope, false, answer);
       return answer;
     }
-    polytope.forget();
     if (move == Move::kInside && (axes->gap_m <= scale.noise_m || walk.here().distance() <= scale.shift_m))
       break;
     if (walk.jumpTo(axes->features) || move == Move::kTaken) {
@@ -183,11 +199,8 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
 // Whether what was closest last time, or what it leads on to, clearly is; places are seen from A's origin.
 PairsInPlace findInPlace(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                          double noise_m, PairMemory& memory, PlacedGap& gap) {
-  if (memory.penetration.triangleCount() > 0) return {};
   const PlacedPolyhedron placed_a(a.core, X_WA.rotation, Vec3::Zero());
   const PlacedPolyhedron placed_b(b.core, X_WB.rotation, X_WB.position - X_WA.position);
-  if (memory.features.a.index < 0 || memory.features.b.index < 0)
-    memory.features = facingFeatures(placed_a, placed_b);
   return findClearlyClosest(placed_a, placed_b, noise_m, memory.features, gap);
 }
 
@@ -209,20 +222,30 @@ ClosestFeatures answerOf(const ConvexPart& a, const Pose& X_WA, const ConvexPart
           .reached_limit = visits.reached_limit};
 }
 
+// An answer seen from A's origin, its features left for the next query.
+PlacedGap keepFeatures(const CoreAnswer& core, const Pose& X_WA, PairMemory& memory) {
+  memory.features = core.features;
+  const Rotation R_WA(X_WA.rotation);
+  return {core.gap_m, R_WA * core.normal, R_WA * core.p_a};
+}
+
 ClosestFeatures query(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                       PairMemory& memory) {
   const Scale scale(a.core, X_WA, b.core, X_WB);
   PlacedGap gap;
+  Visits visits;
+  if (memory.penetration.triangleCount() > 0) {
+    const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
+    CoreAnswer core;
+    if (followDepth(pair, scale, memory, core))
+      return answerOf(a, X_WA, b, keepFeatures(core, X_WA, memory), scale, core.features, visits);
+  }
   const PairsInPlace in_place = findInPlace(a, X_WA, b, X_WB, scale.shift_m, memory, gap);
   if (in_place.found) return answerOf(a, X_WA, b, gap, scale, memory.features, {in_place.visited, false});
   const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
-  Visits visits;
   const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
   visits.states += in_place.visited;
-  memory.features = core.features;
-  const Rotation R_WA(X_WA.rotation);
-  gap = {core.gap_m, R_WA * core.normal, R_WA * core.p_a};
-  return answerOf(a, X_WA, b, gap, scale, core.features, visits);
+  return answerOf(a, X_WA, b, keepFeatures(core, X_WA, memory), scale, core.features, visits);
 }
 
 }  // namespace

@@ -63,18 +63,25 @@ class Descent {
         } else {
           CapCover::Lower lower;
           const CapCover::Outcome outcome = prove(*facet, sides, lower);
-          if (outcome == CapCover::Outcome::kCovered) return WarmFacet{*facet, true, nearest.inside_m};
+          if (outcome == CapCover::Outcome::kCovered) return WarmFacet{*facet, true, false, nearest.inside_m};
           if (outcome == CapCover::Outcome::kLower) next = facetBelow(lower);
         }
       }
+      if (i == 0 && isStale(*facet)) return WarmFacet{*facet, false, true, 0.0};
       if (!best || facet->gap_m > best->gap_m) best = facet;
       if (!next || !(next->gap_m > facet->gap_m + noise_m_)) break;
       facet = next;
     }
-    return WarmFacet{*best, false, 0.0};
+    return WarmFacet{*best, false, false, 0.0};
   }
 
  private:
+  // M lies within a ball of the sum of the bodies' radii, about the difference of their middles. A facet that
+  // is farther than that radius is on the far side of the ball, where the nearest one never is.
+  bool isStale(const MinimumTranslation& facet) const {
+    return -facet.gap_m > pair_.a.radius() + pair_.b.radius();
+  }
+
   std::optional<MinimumTranslation> facetOf(FeaturePair features) const {
     const auto& [a, b] = features;
     if (a.kind == FeatureKind::kFace && b.kind == FeatureKind::kVertex)

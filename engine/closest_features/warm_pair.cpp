@@ -11,12 +11,21 @@ namespace {
 // Edges that cross at a smaller angle have no well-defined common perpendicular.
 constexpr double kCrossingSineSquared = 1e-6;
 constexpr int kMostPairs = 8;  // tried before a walk begins
+// The cosine of how far apart the ways across features that lie side by side may be.
+constexpr double kBeside = 0.95;
 
 double steepestSpoke(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
   double steepest = -std::numeric_limits<double>::infinity();
   for (const Spoke& spoke : polyhedron.spokes(v))
     steepest = std::max(steepest, spoke.direction.dot(direction));
   return steepest;
+}
+
+bool isOf(const ConvexPolyhedron& polyhedron, Feature feature) {
+  const int count = feature.kind == FeatureKind::kVertex ? polyhedron.vertexCount()
+                    : feature.kind == FeatureKind::kEdge ? polyhedron.edgeCount()
+                                                         : polyhedron.faceCount();
+  return feature.index >= 0 && feature.index < count;
 }
 
 double steeperSide(const Edge& edge, const Vec3& direction) {
@@ -66,6 +75,21 @@ class WarmPair {
     if (a.kind == kFace) return b.kind == kVertex ? fromFaceVertex(a.index, b.index) : features;
     if (b.kind == kEdge) return fromEdgeEdge(a.index, b.index);
     return a.kind == kEdge ? fromEdgeVertex(a.index, b.index) : upFrom(features, between(a.index, b.index));
+  }
+
+  // Whether features are far from the closest ones. The plane across the way between closest points supports
+  // its body, so it clears the ball within (a face's own plane always does); across features beside them it
+  // almost does.
+  bool faceAway(FeaturePair features) const {
+    const Vec3 w = wayAcross(features);
+    const double squared = kBeside * kBeside * w.squaredNorm();
+    const auto clears = [squared](const PlacedPolyhedron& body, Feature feature, const Vec3& out) {
+      if (feature.kind == FeatureKind::kFace) return true;
+      const InnerBall& ball = body.polyhedron.innerBall();
+      const double height = body.directionBack(out).dot(pointOf(body.polyhedron, feature) - ball.center);
+      return height >= 0.0 && height * height >= ball.radius_m * ball.radius_m * squared;
+    };
+    return !clears(b_, features.b, -w) || !clears(a_, features.a, w);
   }
 
  private:
@@ -139,6 +163,30 @@ class WarmPair {
     const double steepest = std::max(steepestSpoke(a_.polyhedron, v1, a_.directionBack(w)),
                                      steepestSpoke(b_.polyhedron, v2, -b_.directionBack(w)));
     return along(w, steepest, gap);
+  }
+
+  static const Vec3& pointOf(const ConvexPolyhedron& polyhedron, Feature feature) {
+    if (feature.kind == FeatureKind::kVertex) return polyhedron.vertex(feature.index);
+    if (feature.kind == FeatureKind::kEdge) return polyhedron.vertex(polyhedron.edge(feature.index).tail);
+    return polyhedron.vertex(polyhedron.faceVertices(feature.index)[0]);
+  }
+
+  // The way from A to B across the lines and planes of features, of any length.
+  Vec3 wayAcross(FeaturePair features) const {
+    const auto [a, b] = features;
+    using enum FeatureKind;
+    if (a.kind == kFace) return a_.direction(a_.polyhedron.plane(a.index).normal);
+    if (b.kind == kFace) return -b_.direction(b_.polyhedron.plane(b.index).normal);
+    const Vec3 between = b_.point(pointOf(b_.polyhedron, b)) - a_.point(pointOf(a_.polyhedron, a));
+    if (a.kind == kVertex && b.kind == kVertex) return between;
+    if (a.kind == kEdge && b.kind == kEdge) {
+      const Vec3 across = a_.direction(a_.polyhedron.edge(a.index).direction)
+                              .cross(b_.direction(b_.polyhedron.edge(b.index).direction));
+      return across.dot(between) < 0.0 ? Vec3(-across) : across;
+    }
+    const Vec3 along = a.kind == kEdge ? a_.direction(a_.polyhedron.edge(a.index).direction)
+                                       : b_.direction(b_.polyhedron.edge(b.index).direction);
+    return between - along.dot(between) * along;
   }
 
   Vec3 between(int v1, int v2) const {
@@ -260,13 +308,20 @@ PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedro
                                 FeaturePair& features, PlacedGap& gap) {
   const WarmPair pair(a, b, noise_m);
   PairsInPlace tried;
+  bool remembered = isOf(a.polyhedron, features.a) && isOf(b.polyhedron, features.b);
+  if (!remembered) features = facingFeatures(a, b);
   while (tried.visited < kMostPairs) {
     ++tried.visited;
     tried.found = pair.proves(features, gap);
     if (tried.found) break;
-    const FeaturePair next = pair.leadsTo(features);
-    if (next == features) break;
-    features = next;
+    if (remembered && pair.faceAway(features)) {
+      features = facingFeatures(a, b);
+    } else {
+      const FeaturePair next = pair.leadsTo(features);
+      if (next == features) break;
+      features = next;
+    }
+    remembered = false;
   }
   return tried;
 }

@@ -43,8 +43,9 @@ struct PairsInPlace {
   bool found = false;  ///< The last one is clear.
 };
 
-/// The same, asked of `features` and of what they lead on to, a few pairs, until one is clear. `features` are
-/// then that one, or where to look further.
+/// The same, asked of `features` and of what they lead on to, a few pairs, until one is clear; of the
+/// vertices that face each other instead, where `features` are none of these bodies' or far from what is
+/// closest. `features` are then the clear ones, or where to look further.
 PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
                                 FeaturePair& features, PlacedGap& gap);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -205,6 +206,23 @@ void ConvexPolyhedron::measure() {
   for (const Plane& plane : planes_)
     width_m_ = std::min(width_m_, -plane.signedDistance(vertex(support(-plane.normal))));
   inner_ball_ = largestInnerBall();
+  fingerprint_ = computeFingerprint();
+}
+
+std::uint64_t ConvexPolyhedron::computeFingerprint() const {
+  std::uint64_t sum = 0;
+  // The finaliser of splitmix64 (Steele, Lea, Flood 2014): every bit of what is added moves all others.
+  const auto add = [&sum](std::uint64_t bits) {
+    sum += bits + 0x9e3779b97f4a7c15;
+    sum = (sum ^ (sum >> 30)) * 0xbf58476d1ce4e5b9;
+    sum = (sum ^ (sum >> 27)) * 0x94d049bb133111eb;
+    sum ^= sum >> 31;
+  };
+  for (const Vec3& v : vertices_)
+    for (const double x : v) add(std::bit_cast<std::uint64_t>(x));
+  for (const std::vector<int>* loops : {&face_begin_, &face_vertices_})
+    for (const int i : *loops) add(static_cast<std::uint64_t>(i));
+  return sum;
 }
 
 // From the roomiest of two middles away from whatever face is nearest, in ever smaller steps.
@@ -278,6 +296,7 @@ ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   result.reach_m_ = result.center_.lpNorm<Eigen::Infinity>() + radius_m_;
   if (!result.planes_.empty()) result.buildSides();
   result.inner_ball_.center += shift;
+  result.fingerprint_ = result.computeFingerprint();
   if (!result.planes_.empty())
     result.inner_ball_.radius_m = std::max(0.0, roomAbout(result, result.inner_ball_.center));
   return result;

@@ -108,6 +108,9 @@ class ConvexPolyhedron {
   double width() const { return width_m_; }
   /// The largest, to a thousandth of its radius mostly; of radius 0 in a point or segment.
   const InnerBall& innerBall() const { return inner_ball_; }
+  /// Of the vertices and faces, bit for bit: what was found out about one polyhedron is true of another with
+  /// the same fingerprint.
+  std::uint64_t fingerprint() const { return fingerprint_; }
 
   /// The same polyhedron moved: vertices become p + shift.
   ConvexPolyhedron translated(const Vec3& shift) const;
@@ -124,6 +127,7 @@ class ConvexPolyhedron {
   void validate() const;
   void measure();
   InnerBall largestInnerBall() const;
+  std::uint64_t computeFingerprint() const;
   /// The face to the left of a spoke, seen from its vertex outwards.
   int faceBeside(const Spoke& spoke, int v) const {
     const Edge& e = edge(spoke.edge);
@@ -148,6 +152,7 @@ class ConvexPolyhedron {
   bool has_flat_vertices_ = false;  // some vertex is in the middle of coplanar faces
   double width_m_ = 0.0;
   InnerBall inner_ball_;
+  std::uint64_t fingerprint_ = 0;
 };
 
 }  // namespace carom

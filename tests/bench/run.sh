@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the benchmarks, prints nanoseconds a query for ours and for each peer that is there,
 # then wrong answers on adversarial pairs. Arguments go to Google Benchmark (for example: --benchmark_filter=/20$).
-# The long run is apart: build/bench/tests/bench/long_run --queries 100000000
+# The long runs are apart: build/bench/tests/bench/long_run --queries 100000000, and any_history with the same options
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source demos/packages.sh
 
 install_missing_packages "${carom_packages[@]}" libbenchmark-dev
 install_missing_packages "${benchmark_peers[@]}" || echo "comparing with the peers that are there" >&2
-build_preset bench closest_features_bench robustness long_run
+build_preset bench closest_features_bench robustness long_run any_history
 
 programs=build/bench/tests/bench
 "$programs/closest_features_bench" --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \

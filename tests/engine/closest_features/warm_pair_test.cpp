@@ -181,6 +181,26 @@ TEST(FindClearlyClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
   EXPECT_LT(stopped, found / 20);
 }
 
+// Of round bodies that have turned: from features on the far sides one visit more than from the facing ones.
+TEST(FindClearlyClosest, FromFeaturesThatHaveTurnedAway_GoesOnFromThoseThatFace) {
+  Random random(7419);
+  const ConvexPolyhedron ball = oracle::randomHull(random, 250);
+  int visited = 0, visited_facing = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Pose X_WA = random.pose(0.5);
+    const Pose X_WB{random.rotation(), X_WA.position + random.uniform(2.2, 4.0) * random.direction()};
+    const Placed placed(ball, X_WA, ball, X_WB);
+    const Vec3 between = X_WB.position - X_WA.position;
+    FeaturePair facing = facingFeatures(placed.a, placed.b);
+    FeaturePair averted{vertexFeature(ball.support(-placed.a.directionBack(between))),
+                        vertexFeature(ball.support(placed.b.directionBack(between)))};
+    PlacedGap gap;
+    visited_facing += findClearlyClosest(placed.a, placed.b, placed.noise_m, facing, gap).visited;
+    visited += findClearlyClosest(placed.a, placed.b, placed.noise_m, averted, gap).visited;
+  }
+  EXPECT_LE(visited, visited_facing + 200);
+}
+
 // Slabs of all facets afresh: the named features are the only ones that touch the planes of the depth.
 TEST(ClearlyAlone, IsNeverSaidOfFeaturesThatOthersAreLevelWith) {
   Random random(7402);

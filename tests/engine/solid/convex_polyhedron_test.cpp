@@ -269,6 +269,19 @@ TEST(ConvexPolyhedron, TheInnerBallOfACornerThatIsCutOffTouchesAllItsFaces) {
   EXPECT_NEAR(ball.radius_m, inscribed, 1e-3 * inscribed);
 }
 
+TEST(ConvexPolyhedron, TheFingerprintIsThatOfTheSameVerticesAndFaces) {
+  const ConvexPolyhedron box = boxPolyhedron({1, 2, 3});
+  EXPECT_EQ(box.fingerprint(), boxPolyhedron({1, 2, 3}).fingerprint());
+  EXPECT_NE(box.fingerprint(), boxPolyhedron({1, 2, std::nextafter(3.0, 4.0)}).fingerprint());
+  EXPECT_NE(box.fingerprint(), box.translated({0, 0, 1e-3}).fingerprint());
+  EXPECT_EQ(box.translated({1, 2, 3}).translated({-1, -2, -3}).fingerprint(), box.fingerprint());
+  const std::vector<std::vector<int>> faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const std::vector<std::vector<int>> turned{{2, 1, 0}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_NE(ConvexPolyhedron::fromFaces(corners, faces).fingerprint(),
+            ConvexPolyhedron::fromFaces(corners, turned).fingerprint());
+}
+
 TEST(ConvexPolyhedron, APointOrSegmentHasNoRoomForABall) {
   EXPECT_EQ(ConvexPolyhedron::point({1, 2, 3}).innerBall().radius_m, 0.0);
   EXPECT_EQ(ConvexPolyhedron::segment({1, 2, 3}, {3, 2, 1}).innerBall().radius_m, 0.0);
