@@ -41,10 +41,11 @@ std::size_t SupportTable::cellOf(const Vec3& direction) const {
   if (std::abs(direction.y()) > std::abs(direction.x())) axis = 1;
   if (std::abs(direction.z()) > std::abs(direction[axis])) axis = 2;
   const double major = std::abs(direction[axis]);
-  const double scale = 0.5 * cells_per_side_ / major;
+  // From -1 to 1, but for the zero vector's and NaN; the division, unlike one by `major` beforehand, cannot
+  // overflow.
   const auto cell = [&](double component) {
-    const double k = (component + major) * scale;
-    return k > 0.0 ? std::min(static_cast<int>(k), cells_per_side_ - 1) : 0;  // NaN too
+    const double k = 0.5 * cells_per_side_ * (component / major + 1.0);
+    return k > 0.0 ? static_cast<int>(std::min(k, cells_per_side_ - 1.0)) : 0;
   };
   const int side = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
   const int row = cell(direction[(axis + 1) % 3]);

@@ -17,7 +17,8 @@ class SupportTable {
   /// `support(direction, start)` climbs from `start` to the farthest vertex. Few vertices make no table.
   SupportTable(int vertex_count, const std::function<int(const Vec3&, int)>& support);
 
-  /// A vertex at or near the farthest along `direction` (any length, not zero).
+  /// A vertex at or near the farthest along `direction` (any length; of zero, or what is no number, some
+  /// vertex).
   int vertexNear(const Vec3& direction) const {
     return cells_per_side_ == 0 ? 0 : vertices_[cellOf(direction)];
   }

@@ -1,5 +1,5 @@
 // The table of directions: where it starts a climb, the climb ends at the true support vertex, after few
-// steps whatever the number of vertices. Seeds 7200 to 7206.
+// steps whatever the number of vertices. Seeds 7200 to 7208.
 
 #include "engine/solid/support_table.h"
 
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -191,6 +192,37 @@ TEST(SupportTable, DoesNotDependOnTheLengthOfTheDirection) {
     for (const double scale : {0x1p-60, 0x1p-3, 0x1p20, 0x1p100})
       ASSERT_EQ(table.vertexNear(scale * d), near) << i;
   }
+}
+
+// Over the smallest component of such a direction a length in cells would be infinite.
+TEST(SupportTable, OfDenormalAndHugeDirections_IsThatOfDirectionsOfAnyLength) {
+  Random random(7207);
+  const ConvexPolyhedron p = oracle::randomHull(random, 252);
+  const SupportTable table = tableOf(p);
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      for (int z = -3; z <= 3; ++z) {
+        const Vec3 d(x, y, z);
+        if (d.isZero()) continue;
+        const int near = table.vertexNear(d);
+        ASSERT_EQ(table.vertexNear(Vec3(x * 0x1p-1074, y * 0x1p-1074, z * 0x1p-1074)), near) << d.transpose();
+        ASSERT_EQ(table.vertexNear(Vec3(x * 0x1p1022, y * 0x1p1022, z * 0x1p1022)), near) << d.transpose();
+      }
+}
+
+TEST(SupportTable, OfZeroAndOfWhatIsNoNumber_IsSomeVertex) {
+  Random random(7208);
+  const ConvexPolyhedron p = oracle::randomHull(random, 252);
+  const SupportTable table = tableOf(p);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : {0.0, -0.0, infinity, -infinity, none})
+    for (const double y : {0.0, 1.0, infinity, none})
+      for (const double z : {0.0, -1.0, -infinity, none}) {
+        const int near = table.vertexNear({x, y, z});
+        ASSERT_GE(near, 0);
+        ASSERT_LT(near, p.vertexCount());
+      }
 }
 
 TEST(SupportTable, OfFewVertices_IsNoneAndNamesTheFirst) {
