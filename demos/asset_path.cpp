@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "demos/nearest_name.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
@@ -77,8 +77,7 @@ std::optional<fs::path> findBeside(const fs::path& scene_file, const std::string
 }
 
 std::string readTextFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !isFile(path)) throw InputError(path.string() + ": cannot be read");
+  const std::ifstream file = openInputFile(path);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

@@ -2,13 +2,13 @@
 #include "demos/command.h"
 
 #include <array>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <string_view>
 
 #include "demos/distance_query.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace {
@@ -87,11 +87,10 @@ void answerLines(std::istream& in, const std::string& origin, DistanceAnswers& a
 
 void answerBatch(const std::string& batch, DistanceAnswers& answers) {
   if (batch == "-") return answerLines(std::cin, "stdin", answers);
-  std::error_code ignored;
-  std::ifstream file(batch, std::ios::binary);
-  if (!file || std::filesystem::is_directory(batch, ignored))
+  InputFile file = tryInputFile(batch);
+  if (!file.problem.empty())
     throw InputError(batch + ": cannot be read; accepted: a file of JSON lines, or - for standard input");
-  answerLines(file, batch, answers);
+  answerLines(file.stream, batch, answers);
 }
 
 void checkOptions(const DistanceOptions& options) {

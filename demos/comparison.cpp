@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 #include "renderer/png.h"
 
 namespace carom::demos {
@@ -29,8 +30,8 @@ std::optional<DecodedRaster> read(const std::filesystem::path& path, std::string
 
 /// Frames that were rendered alike are mostly alike to the byte, and then one decoding will do.
 bool sameBytes(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::ifstream in_a(a, std::ios::binary), in_b(b, std::ios::binary);
-  if (!in_a || !in_b) return false;
+  std::ifstream in_a = tryInputFile(a).stream, in_b = tryInputFile(b).stream;
+  if (!in_a.is_open() || !in_b.is_open()) return false;
   std::array<char, 1 << 16> chunk_a, chunk_b;
   do {
     in_a.read(chunk_a.data(), chunk_a.size());

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 
 #include "demos/build_info.h"
 #include "demos/content_hash.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace {
 
 bool holdsExactly(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = openInputFile(path);
   const std::string held{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return std::equal(held.begin(), held.end(), bytes.begin(), bytes.end(),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
@@ -68,8 +68,6 @@ template <typename Decode, typename Encode>
 std::optional<std::uint64_t> wanted(const std::filesystem::path& path, const renderer::PngText& text,
                                     const FrameSize& size, const Decode& decode, const Encode& encode) {
   try {
-    std::error_code unreadable;
-    if (!std::filesystem::is_regular_file(path, unreadable)) return std::nullopt;
     const auto [pixels, found] = decode(path);
     if (pixels.width != size.width || pixels.height != size.height) return std::nullopt;
     // The text is compared first: it is what differs in a stale frame, and encoding costs more.

@@ -1,16 +1,16 @@
 #include "demos/golden_update.h"
 
-#include <fstream>
 #include <iterator>
 
 #include "demos/atomic_file.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace {
 
 void copyWhole(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::ifstream in(from, std::ios::binary);
+  std::ifstream in = openInputFile(from);
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in || bytes.empty()) throw InputError("cannot read '" + from.string() + "': it has changed meanwhile");
   AtomicFile file(to);

@@ -33,8 +33,10 @@ std::vector<std::string> pngNames(const fs::path& folder, Kind kind) {
   if (kind == Kind::kNothing) return names;
   std::error_code failed;
   fs::recursive_directory_iterator entries(folder, failed);
+  // What is no folder is a pair's, even a link that leads nowhere, which is that pair's failure alone.
+  std::error_code unknown;
   for (; !failed && entries != fs::recursive_directory_iterator(); entries.increment(failed))
-    if (isPng(entries->path()) && !entries->is_directory(failed))
+    if (isPng(entries->path()) && !entries->is_directory(unknown))
       names.push_back(entries->path().lexically_relative(folder).generic_string());
   if (failed) throw InputError("cannot read '" + folder.string() + "': " + failed.message());
   return names;

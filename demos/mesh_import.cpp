@@ -10,6 +10,7 @@
 #include <assimp/scene.h>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
@@ -71,7 +72,7 @@ std::vector<std::vector<Vec3>> collectParts(const aiScene& scene, const fs::path
 
 /// assimp 5.2 reads a PLY header without an end for ever.
 void requireEndOfPlyHeader(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = openInputFile(path);
   std::string line;
   if (!std::getline(file, line) || line.rfind("ply", 0) != 0) return;
   while (std::getline(file, line))

@@ -1,13 +1,12 @@
 #include "demos/recording.h"
 
 #include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "demos/exit_code.h"
 #include "demos/json.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 
 namespace carom::demos {
 namespace {
@@ -203,13 +202,10 @@ std::string RecordingReader::take(std::size_t count) {
 }
 
 void RecordingReader::start() {
-  errno = 0;
-  file_ = std::ifstream(path_, std::ios::binary);
+  file_ = openInputFile(path_);
   std::error_code failed;
   left_ = std::filesystem::file_size(path_, failed);
-  if (!file_ || failed)
-    throw InputError("cannot read " + path_.string() + ": " +
-                     (failed ? failed.message() : std::strerror(errno)));
+  if (failed) throw InputError("cannot read '" + path_.string() + "': " + failed.message());
   sum_ = ContentHash();
   frame_ = -1;
   if (left_ < kMagicSize || take(kMagicSize) != kMagic)

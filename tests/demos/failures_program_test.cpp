@@ -69,6 +69,33 @@ TEST_F(Failures, EveryCommandEndsWith4WhereItsOutputFindsNoSpace) {
   close(full);
 }
 
+// A pipe without a writer would keep its reader waiting for ever.
+TEST_F(Failures, EveryFileThatIsAPipeADeviceOrALinkToItselfEndsWith3AtOnce) {
+  const fs::path pipe = folder.path() / "pipe", link = folder.path() / "link";
+  for (const char* kind : {"", ".json", ".obj", ".png", ".carom"}) {
+    ASSERT_EQ(mkfifo((pipe.string() + kind).c_str(), 0600), 0);
+    fs::create_symlink(link.string() + kind, link.string() + kind);
+    fs::create_symlink("/dev/zero", (folder.path() / "zero").string() + kind);
+  }
+  for (const std::string& path : {pipe.string(), link.string(), (folder.path() / "zero").string()}) {
+    for (const Words& words : {Words{"check", path + ".json"},
+                               {"check", path + ".obj"},
+                               {"render", path + ".json"},
+                               {"render", "drop-mesh", "--mesh", path + ".obj"},
+                               {"render", "--from", path + ".carom"},
+                               {"simulate", path + ".json"},
+                               {"export", path + ".carom", "a.glb"},
+                               {"distance", path + ".obj", mesh},
+                               {"distance", "--batch", path},
+                               {"compare", path + ".png", golden, "-q", "--report", "none"},
+                               {"compare", golden, path + ".png", "-q", "--report", "none"},
+                               budget({"--baseline", path + ".json"})}) {
+      SCOPED_TRACE(words[0] + ' ' + words[1]);
+      expectOneLine(runCarom(words), 3, path);
+    }
+  }
+}
+
 TEST_F(Failures, EveryCommandEndsWith4WhereStandardOutputIsClosed) {
   for (const auto& [name, words] : commands()) {
     SCOPED_TRACE(name);
