@@ -4,10 +4,12 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <shared_mutex>
 #include <thread>
 
 #include "demos/interrupt.h"
 #include "demos/machine_load.h"
+#include "renderer/png.h"
 
 namespace carom::demos {
 namespace {
@@ -22,12 +24,24 @@ struct Work {
   std::mutex telling;
   int finished = 0;            // guarded by telling
   std::exception_ptr failure;  // guarded by telling; the first
+  std::shared_mutex memory;
+
+  /// Pairs at work together hold no more pixels than the largest that is accepted: one that is larger than
+  /// that shared among the threads is at work alone.
+  Comparison comparedInMemory(const ImagePair& pair) {
+    const std::int64_t pixels = std::max(renderer::pngPixels(pair.actual), renderer::pngPixels(pair.golden));
+    const bool is_large = pixels > renderer::kMaxPngPixels / processors();
+    std::unique_lock alone(memory, std::defer_lock);
+    std::shared_lock beside(memory, std::defer_lock);
+    is_large ? alone.lock() : beside.lock();
+    return compared(pair, gate);
+  }
 
   void run() {
     try {
       for (std::size_t i = next++; i < pairs.size(); i = next++) {
         throwIfInterrupted();
-        results[i] = compared(pairs[i], gate);
+        results[i] = comparedInMemory(pairs[i]);
         const std::lock_guard lock(telling);
         done(++finished);
       }
@@ -43,7 +57,7 @@ struct Work {
 
 std::vector<Comparison> comparedPairs(const std::vector<ImagePair>& pairs, const Gate& gate,
                                       const std::function<void(int)>& done) {
-  Work work{pairs, gate, done, std::vector<Comparison>(pairs.size()), {}, {}, 0, {}};
+  Work work{pairs, gate, done, std::vector<Comparison>(pairs.size()), {}, {}, 0, {}, {}};
   {
     const auto cores = static_cast<std::size_t>(processors());
     std::vector<std::jthread> threads;

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <bit>
 #include <csetjmp>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <istream>
+#include <optional>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
 #include "renderer/quick_deflate.h"
 
 namespace carom::renderer {
@@ -66,12 +68,6 @@ struct Reader {
   png_infop info = nullptr;
 };
 
-struct ByteSource {
-  const std::uint8_t* data = nullptr;
-  std::size_t size = 0;
-  std::size_t at = 0;
-};
-
 void appendBytes(png_structp png, png_bytep bytes, png_size_t count) {
   auto* out = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
   bool appended = true;
@@ -84,10 +80,9 @@ void appendBytes(png_structp png, png_bytep bytes, png_size_t count) {
 }
 
 void takeBytes(png_structp png, png_bytep bytes, png_size_t count) {
-  auto* source = static_cast<ByteSource*>(png_get_io_ptr(png));
-  if (source->size - source->at < count) png_error(png, "the file is truncated");
-  std::memcpy(bytes, source->data + source->at, count);
-  source->at += count;
+  auto* in = static_cast<std::istream*>(png_get_io_ptr(png));
+  if (!in->read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count)))
+    png_error(png, "the file is truncated");
 }
 
 // A file's rows as they lie in the file before they are filtered, and what the header says of them.
@@ -173,6 +168,7 @@ struct Header {
   png_uint_32 width = 0;
   png_uint_32 height = 0;
   std::size_t row_bytes = 0;
+  std::size_t row_samples = 0;
   int channels = 3;
   int bits = 8;
   int passes = 1;
@@ -184,10 +180,35 @@ enum class Samples { kRgb8, kAsStored };
 // given memory.
 constexpr std::size_t kMaxDeflateRatio = 1032;
 
+// How the samples of 16 bits lie in memory; a file has the high byte first.
+constexpr bool kLowByteFirst = std::endian::native == std::endian::little;
+
+// What the first chunk says, which is of fixed length; libpng checks it again.
+constexpr std::size_t kHeadSize = 24;
+struct Claimed {
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+};
+
+std::uint32_t bigEndian(const std::uint8_t* at) {
+  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
+}
+
+std::optional<Claimed> readClaimed(std::istream& in) {
+  std::array<std::uint8_t, kHeadSize> head{};
+  if (!in.read(reinterpret_cast<char*>(head.data()), kHeadSize) || png_sig_cmp(head.data(), 0, 8) != 0 ||
+      std::memcmp(head.data() + 12, "IHDR", 4) != 0)
+    return std::nullopt;
+  return Claimed{bigEndian(head.data() + 16), bigEndian(head.data() + 20)};
+}
+
 // Whatever the file holds becomes 8-bit RGB, or whole samples of the channels and bits it has.
 bool readHeader(png_structp png, png_infop info, std::size_t file_size, Samples wanted, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, kMaxPngSide, kMaxPngSide);
+  // Of no other chunk do the pixels depend (-1: on none but the critical ones and tRNS). libpng would unpack
+  // texts and profiles to whatever length they claim.
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png, info);
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);
@@ -198,12 +219,15 @@ bool readHeader(png_structp png, png_infop info, std::size_t file_size, Samples 
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);
     png_set_strip_alpha(png);
+  } else if (kLowByteFirst) {
+    png_set_swap(png);
   }
   header->passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
   header->row_bytes = png_get_rowbytes(png, info);
   header->channels = png_get_channels(png, info);
   header->bits = png_get_bit_depth(png, info);
+  header->row_samples = std::size_t{header->width} * static_cast<std::size_t>(header->channels);
   return true;
 }
 
@@ -233,52 +257,92 @@ std::vector<png_text> textChunks(const PngText& text) {
   return chunks;
 }
 
-std::vector<std::uint8_t> readBytes(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
-    throw InputError("cannot read '" + path.string() + "': it is a folder");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
-  return bytes;
+// Where chunks begin: after the file's signature.
+constexpr std::size_t kSignatureSize = 8;
+constexpr std::size_t kLongestKeyword = 79;
+
+// The keyword and text of a tEXt or iTXt chunk (PNG 1.2, 4.2.3); nothing when it is malformed or packed.
+std::optional<std::pair<std::string, std::string>> textOf(const std::string& data, bool international) {
+  const std::size_t keyword = data.find('\0');
+  if (keyword == std::string::npos || keyword == 0 || keyword > kLongestKeyword) return std::nullopt;
+  std::size_t begin = keyword + 1;
+  if (international) {
+    // Whether it is packed, how, the language and the keyword in that language stand before the text.
+    if (data.size() < begin + 2 || data[begin] != 0) return std::nullopt;
+    const std::size_t language = data.find('\0', begin + 2);
+    if (language == std::string::npos) return std::nullopt;
+    const std::size_t translated = data.find('\0', language + 1);
+    if (translated == std::string::npos) return std::nullopt;
+    begin = translated + 1;
+  }
+  return std::pair{data.substr(0, keyword), data.substr(begin)};
 }
 
-PngText readText(const Reader& reader) {
-  png_textp chunks = nullptr;
-  const int count = png_get_text(reader.png, reader.info, &chunks, nullptr);
+// The texts of a file that libpng has found whole, which it was told to pass over.
+PngText readText(std::istream& in, const std::string& name) {
   PngText text;
-  for (int i = 0; i < count; ++i) {
-    const std::size_t length = chunks[i].compression > 0 ? chunks[i].itxt_length : chunks[i].text_length;
-    text.emplace_back(chunks[i].key, std::string(chunks[i].text, length));
+  std::size_t text_bytes = 0;
+  in.clear();
+  in.seekg(kSignatureSize);
+  std::array<std::uint8_t, 8> head{};
+  while (in.read(reinterpret_cast<char*>(head.data()), head.size())) {
+    const std::size_t length = bigEndian(head.data());
+    const std::string kind(head.begin() + 4, head.end());
+    if (kind == "IEND") break;
+    if (kind != "tEXt" && kind != "iTXt") {
+      in.seekg(static_cast<std::streamoff>(length + 4), std::ios::cur);
+      continue;
+    }
+    text_bytes += length;
+    if (text_bytes > kMaxPngTextBytes)
+      throw InputError("cannot decode PNG '" + name + "': its text chunks are longer than accepted: " +
+                       std::to_string(kMaxPngTextBytes) + " bytes in all");
+    std::string data(length, '\0');
+    std::array<std::uint8_t, 4> sum{};
+    if (!in.read(data.data(), static_cast<std::streamsize>(length)) ||
+        !in.read(reinterpret_cast<char*>(sum.data()), sum.size()))
+      break;
+    const uLong of_kind = crc32(0, head.data() + 4, 4);
+    if (crc32(of_kind, reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(length)) !=
+        bigEndian(sum.data()))
+      continue;
+    if (auto pair = textOf(data, kind == "iTXt")) text.push_back(std::move(*pair));
   }
   return text;
 }
 
-struct DecodedBytes {
-  Header header;
-  std::vector<std::uint8_t> bytes;
-  PngText text;
-};
+void requireAcceptedSize(const Claimed& size, const std::string& name) {
+  const bool is_accepted = size.width <= kMaxPngSide && size.height <= kMaxPngSide &&
+                           size.width * size.height <= std::uint64_t{kMaxPngPixels};
+  if (is_accepted) return;
+  throw InputError("cannot decode PNG '" + name + "': it has " + std::to_string(size.width) + " x " +
+                   std::to_string(size.height) + " pixels; accepted: at most " +
+                   std::to_string(kMaxPngPixels) + ", and " + std::to_string(kMaxPngSide) + " a side");
+}
 
-DecodedBytes decode(const std::filesystem::path& path, Samples wanted) {
-  const std::vector<std::uint8_t> file = readBytes(path);
-  if (file.size() < 8 || png_sig_cmp(file.data(), 0, 8) != 0)
-    throw InputError("'" + path.string() + "' is no PNG file: its first bytes are not PNG's");
+// Decodes to rows where `rowsOf(header)` says; its memory is held by the caller.
+template <typename RowsOf>
+PngText decode(std::istream& in, const std::string& name, Samples wanted, Header& header,
+               const RowsOf& rowsOf) {
+  in.seekg(0, std::ios::end);
+  const auto file_size = static_cast<std::size_t>(std::max<std::streamoff>(in.tellg(), 0));
+  in.seekg(0);
+  const std::optional<Claimed> claimed = readClaimed(in);
+  if (claimed) requireAcceptedSize(*claimed, name);
+  in.clear();
+  in.seekg(0);
+  std::array<std::uint8_t, kSignatureSize> signature{};
+  in.read(reinterpret_cast<char*>(signature.data()), signature.size());
+  if (!in || png_sig_cmp(signature.data(), 0, signature.size()) != 0)
+    throw InputError("'" + name + "' is no PNG file: its first bytes are not PNG's");
+  in.seekg(0);
   ErrorText error;
   const Reader reader(error);
-  ByteSource source{file.data(), file.size(), 0};
-  png_set_read_fn(reader.png, &source, takeBytes);
-
-  DecodedBytes decoded;
-  bool complete = readHeader(reader.png, reader.info, file.size(), wanted, &decoded.header);
-  if (complete) {
-    decoded.bytes.resize(decoded.header.row_bytes * decoded.header.height);
-    complete = readRows(reader.png, reader.info, decoded.header, decoded.bytes.data());
-  }
-  if (!complete) throw InputError("cannot decode PNG '" + path.string() + "': " + error.message.data());
-  decoded.text = readText(reader);
-  return decoded;
+  png_set_read_fn(reader.png, &in, takeBytes);
+  const bool complete = readHeader(reader.png, reader.info, file_size, wanted, &header) &&
+                        readRows(reader.png, reader.info, header, rowsOf(header));
+  if (!complete) throw InputError("cannot decode PNG '" + name + "': " + error.message.data());
+  return readText(in, name);
 }
 
 // PNG stores the high byte of a 16-bit sample first.
@@ -290,14 +354,6 @@ std::vector<std::uint8_t> bytesOf(const Raster& raster) {
     bytes[2 * i + 1] = static_cast<std::uint8_t>(raster.samples[i] & 0xff);
   }
   return bytes;
-}
-
-std::vector<std::uint16_t> samplesOf(const std::vector<std::uint8_t>& bytes, int bits) {
-  if (bits == 8) return {bytes.begin(), bytes.end()};
-  std::vector<std::uint16_t> samples(bytes.size() / 2);
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    samples[i] = static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
-  return samples;
 }
 
 std::vector<std::uint8_t> zlibFile(const Rows& rows, Zlib zlib, const PngText& text) {
@@ -412,26 +468,54 @@ std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, P
   return zlibFile(rows, Zlib::kUp, text);
 }
 
-DecodedPng readPng(const std::filesystem::path& path) {
-  DecodedBytes decoded = decode(path, Samples::kRgb8);
+DecodedPng decodePng(std::istream& in, const std::string& name) {
   DecodedPng png;
-  png.image.width = static_cast<int>(decoded.header.width);
-  png.image.height = static_cast<int>(decoded.header.height);
-  png.image.rgb = std::move(decoded.bytes);
-  png.text = std::move(decoded.text);
+  Header header;
+  png.text = decode(in, name, Samples::kRgb8, header, [&png](const Header& read) {
+    png.image.rgb.resize(read.row_bytes * read.height);
+    return png.image.rgb.data();
+  });
+  png.image.width = static_cast<int>(header.width);
+  png.image.height = static_cast<int>(header.height);
+  return png;
+}
+
+DecodedPng readPng(const std::filesystem::path& path) {
+  std::ifstream file = openInputFile(path);
+  return decodePng(file, path.string());
+}
+
+DecodedRaster decodePngRaster(std::istream& in, const std::string& name) {
+  DecodedRaster png;
+  std::vector<std::uint16_t>& samples = png.raster.samples;
+  Header header;
+  png.text = decode(in, name, Samples::kAsStored, header, [&samples](const Header& read) {
+    samples.resize(read.row_samples * read.height);
+    auto* bytes = reinterpret_cast<std::uint8_t*>(samples.data());
+    // Samples of 8 bits are read into the second half of their memory and spread out from there.
+    return read.bits == 8 ? bytes + samples.size() : bytes;
+  });
+  if (header.bits == 8) {
+    const auto* narrow = reinterpret_cast<const std::uint8_t*>(samples.data()) + samples.size();
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = narrow[i];
+  }
+  png.raster.width = static_cast<int>(header.width);
+  png.raster.height = static_cast<int>(header.height);
+  png.raster.channels = header.channels;
+  png.raster.bits = header.bits;
   return png;
 }
 
 DecodedRaster readPngRaster(const std::filesystem::path& path) {
-  DecodedBytes decoded = decode(path, Samples::kAsStored);
-  DecodedRaster png;
-  png.raster.width = static_cast<int>(decoded.header.width);
-  png.raster.height = static_cast<int>(decoded.header.height);
-  png.raster.channels = decoded.header.channels;
-  png.raster.bits = decoded.header.bits;
-  png.raster.samples = samplesOf(decoded.bytes, decoded.header.bits);
-  png.text = std::move(decoded.text);
-  return png;
+  std::ifstream file = openInputFile(path);
+  return decodePngRaster(file, path.string());
+}
+
+std::int64_t pngPixels(const std::filesystem::path& path) {
+  InputFile file = tryInputFile(path);
+  if (!file.problem.empty()) return 0;
+  const std::optional<Claimed> size = readClaimed(file.stream);
+  return size ? static_cast<std::int64_t>(size->width * size->height) : 0;
 }
 
 }  // namespace carom::renderer

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,8 +14,14 @@
 
 namespace carom::renderer {
 
-/// Images with a longer side are refused.
+/// Images with a longer side, or of more pixels, are refused by what their header says, before they are given
+/// memory. 8K (7680 x 4320) fits. A pixel takes at most 8 bytes here (4 channels of 16 bits), and where two
+/// images are compared and shown in a report at most 50.
 inline constexpr int kMaxPngSide = 16384;
+inline constexpr std::int64_t kMaxPngPixels = std::int64_t{1} << 25;
+
+/// Files whose text chunks are longer in all are refused.
+inline constexpr std::size_t kMaxPngTextBytes = std::size_t{1} << 20;
 
 /// (keyword, text) pairs for the file's text chunks.
 using PngText = std::vector<std::pair<std::string, std::string>>;
@@ -54,8 +61,10 @@ struct DecodedPng {
   PngText text;
 };
 
-/// Any PNG file as 8-bit RGB (alpha is dropped, 16 bits are scaled), and its text chunks in the file's order.
-/// Throws InputError naming the file when it cannot be read, is no PNG, or is truncated.
+/// Any PNG file as 8-bit RGB (alpha is dropped, 16 bits are scaled), and its text chunks in the file's order
+/// but for packed ones, which encodePng does not write and which could become a thousand times as long.
+/// Throws InputError naming the file when it cannot be read, is no PNG, is truncated, or is beyond the limits
+/// above.
 DecodedPng readPng(const std::filesystem::path& path);
 
 struct DecodedRaster {
@@ -66,5 +75,11 @@ struct DecodedRaster {
 /// Any PNG file with the channels and bits it has; palettes become RGB, fewer than 8 bits become 8, a
 /// transparent colour becomes an alpha channel. Throws as readPng does.
 DecodedRaster readPngRaster(const std::filesystem::path& path);
+/// The same of a stream that can be read again from its beginning; `name` is for messages.
+DecodedPng decodePng(std::istream& in, const std::string& name);
+DecodedRaster decodePngRaster(std::istream& in, const std::string& name);
+
+/// How many pixels the file says it has; 0 where it cannot be read or is no PNG.
+std::int64_t pngPixels(const std::filesystem::path& path);
 
 }  // namespace carom::renderer

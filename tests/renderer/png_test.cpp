@@ -7,9 +7,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "engine/foundation/contract.h"
+#include "tests/fuzz/png_mutations.h"
 
 namespace carom::renderer {
 namespace {
@@ -160,6 +163,113 @@ TEST_F(PngFile, AShortFileThatClaimsALargeImageIsRefused) {
   const std::vector<std::uint8_t> square = encodePng(noise(1, 1));
   bytes.resize(60);
   EXPECT_NE(refusal(write(bytes)), "");
+}
+
+// A chunk after the header, whose sum need not be right: nothing reads it.
+std::vector<std::uint8_t> withChunk(const std::vector<std::uint8_t>& file, const std::string& kind,
+                                    const std::string& data, std::uint32_t claimed) {
+  constexpr std::size_t kHeaderEnd = 33;
+  std::string chunk;
+  for (const int shift : {24, 16, 8, 0}) chunk += static_cast<char>(claimed >> shift & 255);
+  chunk += kind + data;
+  uLong sum = crc32(0, reinterpret_cast<const Bytef*>(kind.data()), 4);
+  sum = crc32(sum, reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(data.size()));
+  for (const int shift : {24, 16, 8, 0}) chunk += static_cast<char>(sum >> shift & 255);
+  std::vector<std::uint8_t> longer = file;
+  longer.insert(longer.begin() + kHeaderEnd, chunk.begin(), chunk.end());
+  return longer;
+}
+
+std::string packed(std::size_t zeros) {
+  const std::string bytes(zeros, '\0');
+  uLongf size = compressBound(zeros);
+  std::string result(size, '\0');
+  compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+            zeros, 9);
+  result.resize(size);
+  return result;
+}
+
+long peak_kB() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:" && status >> word) return std::stol(word);
+  return 0;
+}
+
+// 60 chunks of 8 kB, each of which would become the 8 MB that libpng takes for a chunk.
+TEST_F(PngFile, TextsAndProfilesThatUnpackToAThousandTimesTheirLengthTakeNoMemory) {
+  const std::string zeros = packed(7900000);
+  std::vector<std::uint8_t> file = encodePng(noise(20, 10), {{"Scene", "ramp"}});
+  const std::string key("Key\0", 4);
+  for (int i = 0; i < 20; ++i) {
+    for (const auto& [kind, data] : {std::pair{"zTXt", key + std::string(1, '\0') + zeros},
+                                     {"iTXt", key + '\1' + std::string(3, '\0') + zeros},
+                                     {"iCCP", key + std::string(1, '\0') + zeros}})
+      file = withChunk(file, kind, data, static_cast<std::uint32_t>(data.size()));
+  }
+  const fs::path path = write(file);
+  const long before_kB = peak_kB();
+  const DecodedPng png = readPng(path);
+  EXPECT_LT(peak_kB() - before_kB, 50000);
+  EXPECT_EQ(png.image.rgb, noise(20, 10).rgb);
+  EXPECT_EQ(png.text, (PngText{{"Scene", "ramp"}}));
+}
+
+TEST_F(PngFile, AChunkThatClaimsAGigabyteTakesNoMemory) {
+  for (const char* kind : {"tEXt", "zTXt", "iTXt", "iCCP", "eXIf"}) {
+    const fs::path path = write(withChunk(encodePng(noise(20, 10)), kind, "Key", 1000000000));
+    const long before_kB = peak_kB();
+    EXPECT_NE(refusal(path).find("the file is truncated"), std::string::npos) << kind;
+    EXPECT_LT(peak_kB() - before_kB, 50000) << kind;
+  }
+}
+
+TEST_F(PngFile, TextsLongerThanAcceptedAreRefusedInOneLineThatNamesTheLimit) {
+  const std::string half(kMaxPngTextBytes / 2 - 10, 'x');
+  EXPECT_EQ(readPng(write(encodePng(noise(5, 4), {{"A", half}, {"B", half}}))).text.size(), 2u);
+  EXPECT_NE(refusal(write(encodePng(noise(5, 4), {{"A", half}, {"B", half}, {"C", half}})))
+                .find("accepted: 1048576 bytes in all"),
+            std::string::npos);
+}
+
+// The file holds pixels enough not to be found short.
+TEST_F(PngFile, MorePixelsThanAcceptedAreRefusedByTheHeaderWithTheLimitNamed) {
+  std::vector<std::uint8_t> bytes = encodePng(noise(600, 600));
+  for (const auto& [width, height] :
+       {std::pair{16000u, 16000u}, {8192u, 4097u}, {16385u, 1u}, {1u, 0xffffffffu}}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[16 + i] = static_cast<std::uint8_t>(width >> (24 - 8 * i) & 255);
+      bytes[20 + i] = static_cast<std::uint8_t>(height >> (24 - 8 * i) & 255);
+    }
+    EXPECT_NE(refusal(write(bytes)).find("accepted: at most 33554432, and 16384 a side"), std::string::npos)
+        << width << " x " << height << ": " << refusal(write(bytes));
+  }
+  EXPECT_GE(kMaxPngPixels, 7680 * 4320);
+}
+
+TEST_F(PngFile, APipeADeviceAndALinkToItselfAreRefusedAtOnce) {
+  const fs::path pipe = folder_ / "pipe.png", link = folder_ / "link.png";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(link, link);
+  EXPECT_NE(refusal(pipe).find("it is a pipe"), std::string::npos);
+  EXPECT_NE(refusal("/dev/zero").find("it is a device"), std::string::npos);
+  EXPECT_NE(refusal(link).find("symbolic link"), std::string::npos);
+  EXPECT_EQ(pngPixels(pipe), 0);
+  EXPECT_EQ(pngPixels(write(encodePng(noise(20, 10)))), 200);
+}
+
+// tests/fuzz/png_fuzz.cpp does the same by the hundred thousand, under sanitizers.
+TEST(Png, EveryDamagedFileIsDecodedOrRefusedInOneLine) {
+  int decoded = 0;
+  for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    PngMutations mutations(seed);
+    EXPECT_EQ(fateOf(mutations.whole()), PngFate::kDecoded);
+    EXPECT_NO_THROW(decoded += fateOf(mutations.damaged()) == PngFate::kDecoded ? 1 : 0);
+  }
+  EXPECT_GT(decoded, 100);
+  EXPECT_LT(decoded, 1400);
 }
 
 TEST(Png, AnImageWithoutItsPixelsIsABug) {
