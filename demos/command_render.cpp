@@ -19,6 +19,7 @@
 #include "demos/content_hash.h"
 #include "demos/drawn_water.h"
 #include "demos/ffmpeg_video.h"
+#include "demos/folder_claim.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_identity.h"
 #include "demos/frame_names.h"
@@ -399,6 +400,21 @@ void renderVideo(Run& run, const Artists& artists, const RenderOptions& options,
   std::cout << options.ffmpeg.string() << "  " << pipedReport(run) << '\n';
 }
 
+/// What the bytes of the run's frames and their names depend on, but for the number of a frame. A folder has
+/// one manifest and one kind of frames; a still is by itself.
+FolderClaim::Claim folderClaim(const RenderOptions& options, const Manifest& manifest,
+                               const FrameNames& names) {
+  ContentHash identity;
+  for (const auto& [key, value] : frameText(manifest, {})) identity.add(key).add(value);
+  for (const int number : {options.width, options.height, static_cast<int>(options.portable)})
+    identity.add(std::to_string(number));
+  for (const double number :
+       {manifest.fps, manifest.speed, manifest.steps_per_second, options.at_s.value_or(0.0)})
+    identity.add(&number, sizeof number);
+  const std::string name = std::filesystem::path(names.pattern()).filename().string();
+  return {names.folder(), options.at_s ? "still " + name : "frames", identity.add(name).value()};
+}
+
 /// How a frame is encoded for where it goes.
 Sink sinkOf(const RenderOptions& options) {
   if (!options.ffmpeg.empty())
@@ -468,6 +484,8 @@ ExitCode render(const RenderOptions& options) {
   if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
   settings.backend = renderer::backendOf(options.gl);
   const int workers_wanted = workersOf(options, plan, overlays);
+  std::optional<FolderClaim> claim;
+  if (names) claim.emplace(folderClaim(options, manifest, *names));
   std::optional<renderer::FrameRenderer> here;
   if (workers_wanted == 1) {
     here.emplace(settings, made.world.solids());

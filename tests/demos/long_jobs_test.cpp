@@ -100,6 +100,35 @@ TEST_F(LongJob, ShardsAtOnceAreTheSingleRunByteForByte) {
                 single.at("frames").items().at(k).at(key).asString());
 }
 
+TEST_F(LongJob, AnotherSceneIsRefusedAFolderThatFramesAreBeingDrawnIn) {
+  folder.file("other.json", sceneText("#0072b2"));
+  const std::string out = (folder.path() / "out/f_%04d.png").string();
+  const auto drawn = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"render", (folder.path() / name).string(), "--size", "64x36", "-q", "-o"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const Program running(drawn("ball.json", {out, "--fps", "24", "--duration", "600"}));
+  while (framesIn(folder.path() / "out") == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  expectOneLine(runCarom(drawn("other.json", {out, "--fps", "24"})), 4,
+                "another carom is writing other frames there; accepted: another folder");
+  expectOneLine(runCarom(drawn("ball.json", {out, "--fps", "25"})), 4, "cannot write to");
+  expectOneLine(runCarom(drawn("ball.json", {out, "--fps", "24", "--resume", "--overlay", "closest"})), 4,
+                "cannot write to");
+  // Another still, another folder, and another part of the same run are nobody's business.
+  EXPECT_EQ(runCarom(drawn("other.json", {(folder.path() / "out/still.png").string(), "--at", "0"})).code, 0);
+  EXPECT_EQ(runCarom(drawn("other.json", {(folder.path() / "b/f_%04d.png").string(), "--fps", "24"})).code,
+            0);
+  EXPECT_EQ(runCarom(drawn("ball.json", {out, "--fps", "24", "--resume", "--shard", "2/2"})).code, 0);
+  running.signal(SIGKILL);
+  running.wait();
+  for (int turn = 0; turn < 500; ++turn) {  // its workers finish the frames they are at
+    if (runCarom(drawn("other.json", {out, "--fps", "24"})).code == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(files("b").at("f_0003.png"), files("out").at("f_0003.png"));
+}
+
 TEST_F(LongJob, ChosenFramesAreThoseOfTheWholeRun) {
   render("single");
   render("part", {"--frames", "0-2,5,6-11x4"});
