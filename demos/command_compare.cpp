@@ -11,6 +11,7 @@
 #include "demos/comparison_run.h"
 #include "demos/interrupt.h"
 #include "demos/junit.h"
+#include "demos/printable.h"
 #include "demos/progress.h"
 #include "engine/foundation/contract.h"
 #include "renderer/png.h"
@@ -29,8 +30,9 @@ bool isWithin(const fs::path& path, const fs::path& folder) {
 
 void checkOptions(const CompareOptions& options) {
   if (options.differences.empty()) return;
+  std::error_code ignored;
   for (const fs::path& folder : {options.actual, options.golden})
-    if (fs::is_directory(folder) && isWithin(options.differences, folder))
+    if (fs::is_directory(folder, ignored) && isWithin(options.differences, folder))
       throw UsageError("compare: --differences " + options.differences.string() + " lies in " +
                        folder.string() +
                        ", and would be compared the next time; accepted: a folder elsewhere");
@@ -86,7 +88,7 @@ void printLines(const ComparisonOutcome& outcome) {
     if (c.passes()) continue;
     const std::string update =
         outcome.updates.empty() ? "" : std::string(updateName(outcome.updates[i])) + "  ";
-    std::cout << update << c.pair.name << "  " << comparisonLine(c, outcome.gate) << '\n';
+    std::cout << update << printable(c.pair.name + "  " + comparisonLine(c, outcome.gate)) << '\n';
   }
   std::cout << tallyText(tallyOf(outcome.comparisons)) << '\n';
 }
@@ -129,7 +131,7 @@ ExitCode afterUpdate(const ComparisonOutcome& outcome) {
       throw InputError(outcome.comparisons[i].problem);
   }
   if (first == nullptr) return ExitCode::kOk;
-  const std::string path = first->pair.golden.string();
+  const std::string path = printable(first->pair.golden.string());
   if (kept == 1) {
     std::cerr << "carom: 1 golden file has no counterpart and stays: " << path
               << "; delete it if it is meant to go\n";
@@ -152,7 +154,8 @@ ExitCode afterComparison(const CompareOptions& options, const ComparisonOutcome&
                      report);
   }
   if (tally.passed == tally.total) return ExitCode::kOk;
-  std::cerr << "carom: " << tallyText(tally) << report << "; accept with: " << updateCommand(options) << '\n';
+  std::cerr << "carom: " << printable(tallyText(tally) + report + "; accept with: " + updateCommand(options))
+            << '\n';
   return ExitCode::kNo;
 }
 

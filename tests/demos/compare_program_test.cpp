@@ -3,6 +3,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "demos/asset_path.h"
 #include "demos/json.h"
@@ -71,6 +72,39 @@ TEST_F(Compare, TwoFilesAreComparedToo) {
   EXPECT_EQ(runCarom({"compare", b.string(), at("golden/a.png").string(), "-q", "--tolerance", "3"}).code, 0);
   EXPECT_EQ(runCarom({"compare", b.string(), at("golden/a.png").string(), "-q", "--allow-pixels", "1"}).code,
             0);
+}
+
+TEST_F(Compare, WhatIsNoFileEndsWith3AtOnceAndTheOthersAreComparedAllTheSame) {
+  for (const char* side : {"actual/", "golden/"}) {
+    fs::create_symlink("self.png", at(std::string(side) + "self.png"));
+    ASSERT_EQ(mkfifo(at(std::string(side) + "pipe.png").c_str(), 0600), 0);
+  }
+  const ProgramEnd end = run();
+  EXPECT_EQ(end.code, 3);
+  EXPECT_NE(end.out.find("1 of 3 pass, 2 unreadable"), std::string::npos) << end.out;
+  expectOneLine(end, "it is a pipe");
+  for (const char* name : {"actual/self.png", "actual/pipe.png"}) {
+    const ProgramEnd alone = runCarom({"compare", at(name).string(), at(name).string(), "-q", "--report",
+                                       "none", "--differences", at("differences").string()});
+    EXPECT_EQ(alone.code, 3);
+    expectOneLine(alone, at(name).string());
+  }
+}
+
+// Names of files and texts of frames come from elsewhere: none of them begins a line or changes a colour.
+TEST_F(Compare, NamesAndTextsWithLineBreaksStayInOneLine) {
+  const std::string name = "b\n\x1b[31m.png";
+  writePng(at("actual/" + name), changed(golden_, 0, 0, 9), {{"Camera", "two\nlines"}});
+  writePng(at("golden/" + name), golden_, {{"Camera", "one"}});
+  const ProgramEnd end = run({"--report", "none"});
+  EXPECT_EQ(end.code, 1);
+  EXPECT_EQ(std::count(end.out.begin(), end.out.end(), '\n'), 2) << end.out;
+  EXPECT_NE(end.out.find("b\\n\\x1b[31m.png  differs"), std::string::npos) << end.out;
+  EXPECT_NE(end.out.find("one became two\\nlines"), std::string::npos) << end.out;
+  fs::remove(at("actual/" + name));
+  const ProgramEnd updated = run({"--report", "none", "--update"});
+  EXPECT_EQ(updated.code, 1);
+  expectOneLine(updated, "has no counterpart and stays");
 }
 
 TEST_F(Compare, MissingExtraAndOtherSizesEndWith1) {
