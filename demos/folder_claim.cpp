@@ -1,10 +1,8 @@
 #include "demos/folder_claim.h"
 
-#include <cerrno>
-#include <cstring>
-
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "demos/content_hash.h"
@@ -20,6 +18,8 @@ namespace fs = std::filesystem;
 // those locks, makes looking and taking one.
 constexpr int kBits = 31;
 constexpr off_t kPlaces = off_t{1} << kBits;
+constexpr int kTurns = 100;  // As often may a folder be removed while it is being opened.
+constexpr off_t kAllPlaces = kPlaces * kPlaces;
 
 off_t cut(std::uint64_t hash) {
   return static_cast<off_t>(hash >> (64 - kBits));
@@ -46,23 +46,41 @@ bool isHeld(int folder, const Range& range) {
   return ::fcntl(folder, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
-int opened(const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) throw CannotWrite("cannot write to " + folder.string() + ": " + failed.message());
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Frames may be written to a folder that may not be read.
-  if (descriptor < 0 && errno != EACCES)
-    throw CannotWrite("cannot write to " + folder.string() + ": " + std::strerror(errno));
-  return descriptor;
+/// The folders of a path that are not there yet, the deepest first.
+std::vector<fs::path> missing(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code unknown;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, unknown) && !unknown; at = at.parent_path())
+    folders.push_back(at);
+  return folders;
+}
+
+/// The folder, with nobody else looking; negative where it cannot be made, opened or locked.
+int openedAlone(const fs::path& folder) {
+  for (int turn = 0; turn < kTurns; ++turn) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return -1;
+    struct stat found {};
+    if (::flock(descriptor, LOCK_EX) == 0 && ::fstat(descriptor, &found) == 0) {
+      if (found.st_nlink > 0) return descriptor;
+      ::close(descriptor);  // who had created it has just removed it
+      continue;
+    }
+    ::close(descriptor);
+    return -1;
+  }
+  return -1;
 }
 
 }  // namespace
 
 FolderClaim::FolderClaim(const Claim& claim) {
   const fs::path folder = claim.folder.empty() ? fs::path(".") : claim.folder;
-  descriptor_ = opened(folder);
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0) return;
+  created_ = missing(folder);
+  descriptor_ = openedAlone(folder);
+  if (descriptor_ < 0) return;
   const off_t begin = cut(ContentHash().add(claim.part).value()) * kPlaces;
   const off_t place = begin + cut(claim.identity);
   const bool is_foreign = isHeld(descriptor_, {begin, place - begin}) ||
@@ -80,7 +98,12 @@ FolderClaim::FolderClaim(const Claim& claim) {
 }
 
 FolderClaim::~FolderClaim() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  std::error_code not_empty;
+  if (!created_.empty() && ::flock(descriptor_, LOCK_EX) == 0 && !isHeld(descriptor_, {0, kAllPlaces}))
+    for (const fs::path& folder : created_)
+      if (!fs::remove(folder, not_empty)) break;
+  ::close(descriptor_);
 }
 
 }  // namespace carom::demos

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace carom::demos {
 
@@ -19,15 +20,18 @@ class FolderClaim {
     std::uint64_t identity = 0;    ///< Of what is made there.
   };
 
-  /// Throws CannotWrite while another process makes something of another identity there, and when there can
-  /// be no such folder. Where the system cannot lock folders (some network file systems) nothing is refused.
+  /// Throws CannotWrite while another process makes something of another identity there. Nothing is refused
+  /// where the system cannot lock folders (some network file systems), nor where there can be no such folder,
+  /// which whoever writes there will find.
   explicit FolderClaim(const Claim& claim);
-  /// Gives the claim up, once workers that were forked meanwhile have ended too.
+  /// Gives the claim up, once workers that were forked meanwhile have ended too; folders that were created
+  /// and are still empty go.
   ~FolderClaim();
   FolderClaim(const FolderClaim&) = delete;
   FolderClaim& operator=(const FolderClaim&) = delete;
 
  private:
+  std::vector<std::filesystem::path> created_;  // The deepest first.
   int descriptor_ = -1;
 };
 

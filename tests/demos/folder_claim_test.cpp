@@ -66,11 +66,19 @@ TEST_F(ClaimedFolder, LastsAsLongAsAWorkerAndEndsWithTheKilled) {
   close(ready[1]);
 }
 
-TEST_F(ClaimedFolder, IsCreatedAndAFileInItsPlaceIsRefused) {
+TEST_F(ClaimedFolder, IsCreatedAndGoesAgainWhenNothingCameIntoIt) {
   const fs::path below = folder.path() / "a/b";
-  { const FolderClaim claim({below, "frames", kThis}); }
-  EXPECT_TRUE(fs::is_directory(below));
-  EXPECT_THROW(FolderClaim({folder.file("file", "text"), "frames", kThis}), CannotWrite);
+  {
+    const FolderClaim claim({below, "frames", kThis});
+    EXPECT_TRUE(fs::is_directory(below));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  {
+    const FolderClaim claim({below, "frames", kThis});
+    folder.file("a/b/frame.png", "a frame");
+  }
+  EXPECT_TRUE(fs::exists(below / "frame.png"));
+  EXPECT_NO_THROW(FolderClaim({below / "frame.png", "frames", kThis}));
 }
 
 }  // namespace
