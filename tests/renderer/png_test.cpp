@@ -180,12 +180,12 @@ std::vector<std::uint8_t> withChunk(const std::vector<std::uint8_t>& file, const
   return longer;
 }
 
-std::string packed(std::size_t zeros) {
-  const std::string bytes(zeros, '\0');
-  uLongf size = compressBound(zeros);
+std::string packed(std::size_t length) {
+  const std::string bytes(length, 'x');
+  uLongf size = compressBound(length);
   std::string result(size, '\0');
   compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-            zeros, 9);
+            length, 9);
   result.resize(size);
   return result;
 }
@@ -199,13 +199,13 @@ long peak_kB() {
 
 // 60 chunks of 8 kB, each of which would become the 8 MB that libpng takes for a chunk.
 TEST_F(PngFile, TextsAndProfilesThatUnpackToAThousandTimesTheirLengthTakeNoMemory) {
-  const std::string zeros = packed(7900000);
+  const std::string text = packed(7900000);
   std::vector<std::uint8_t> file = encodePng(noise(20, 10), {{"Scene", "ramp"}});
   const std::string key("Key\0", 4);
   for (int i = 0; i < 20; ++i) {
-    for (const auto& [kind, data] : {std::pair{"zTXt", key + std::string(1, '\0') + zeros},
-                                     {"iTXt", key + '\1' + std::string(3, '\0') + zeros},
-                                     {"iCCP", key + std::string(1, '\0') + zeros}})
+    for (const auto& [kind, data] : {std::pair{"zTXt", key + std::string(1, '\0') + text},
+                                     {"iTXt", key + '\1' + std::string(3, '\0') + text},
+                                     {"iCCP", key + std::string(1, '\0') + text}})
       file = withChunk(file, kind, data, static_cast<std::uint32_t>(data.size()));
   }
   const fs::path path = write(file);
