@@ -1,7 +1,8 @@
 #pragma once
-// What a world makes of the poses it is given: bodies that overlap are reported, bodies that touch are moved
-// apart by the floor of the collision window, upwards. Internal to the simulation floor. Tested in
-// tests/engine/simulation/start_test.cpp.
+// What a world makes of the poses it is given: bodies that overlap are reported; gaps that lasting contact
+// would have to open, down to bodies that touch, are opened to the rest gap by the least displacements that
+// do it (least_displacements.h), whatever the order of the bodies. What has its gaps is left as it is, to the
+// bit. Internal to the simulation floor. Tested in tests/engine/simulation/start_test.cpp.
 
 #include <vector>
 
@@ -9,8 +10,23 @@
 
 namespace carom {
 
-/// Overlapping pairs, deepest first; empty when every pair of the table was brought to the window's floor.
-std::vector<Overlap> separateTouching(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                      PairTable& table, const Vec3& gravity);
+/// Bodies at their starting poses, with their candidate pairs there.
+struct StartingBodies {
+  std::vector<Body>& bodies;
+  const std::vector<Shape>& shapes;
+  PairTable& table;
+  const WorldSettings& settings;
+};
+
+/// Every pair of bodies that overlaps by more than rounding, where it does so most, deepest first.
+std::vector<Overlap> overlapsAtStart(const StartingBodies& start);
+
+/// For bodies without overlaps: whether some had to be moved. Then their paths are over, and the table holds
+/// the pairs that they could have met on the way, queried where they are now. Bodies that lack the room for
+/// rest gaps share what there is.
+bool openTouching(const StartingBodies& start);
+
+/// The pairs of bodies that found no room, or no more than rounding.
+std::vector<Overlap> stillTouching(const StartingBodies& start);
 
 }  // namespace carom

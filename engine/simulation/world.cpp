@@ -445,7 +445,13 @@ std::vector<Overlap> World::start() {
   w.planner.begin(w.solids, std::move(solid_of));
   w.planFlight(nullptr);
   w.findPairs(nullptr);
-  std::vector<Overlap> overlaps = separateTouching(w.bodies, w.shapes, w.table, w.settings.gravity);
+  const StartingBodies start{w.bodies, w.shapes, w.table, w.settings};
+  std::vector<Overlap> overlaps = overlapsAtStart(start);
+  if (overlaps.empty() && openTouching(start)) {
+    w.planFlight(nullptr);
+    w.findPairs(nullptr);
+    overlaps = stillTouching(start);
+  }
   w.crew = Crew(w.settings.threads);
   w.publish();
   return overlaps;

@@ -70,11 +70,12 @@ struct WorldSettings {
   int threads = 1;  ///< That step crowds together; changes no bit of the outcome.
 };
 
-/// Two bodies that overlap at the start, and by how much.
+/// Two bodies that overlap at the start, by how much and where. 0 deep: they touch and have no room to part.
 struct Overlap {
   int body_a = -1;
   int body_b = -1;
   double depth_m = 0.0;
+  Vec3 p_W = Vec3::Zero();  ///< Halfway between the deepest points.
 };
 
 /// What happened in one step.
@@ -113,8 +114,10 @@ class World {
   int addSolid(Solid solid);
   int addBody(const BodyDescription& description);
 
-  /// Checks the starting poses; must be called once before the first step. The overlapping pairs, deepest
-  /// first; when there are any the world must not be stepped.
+  /// Checks the starting poses; must be called once before the first step. All overlapping pairs of bodies,
+  /// deepest first; when there are any the world must not be stepped. Where gaps are below those that lasting
+  /// contact holds (bodies that touch), bodies are moved, not turned, by as little as opens them; energies
+  /// and all that follows are those of the poses that `states` then has.
   std::vector<Overlap> start();
   /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome. While
   /// few bodies are in contact and move, a step longer than 1/240 s is made in substeps that are not longer.
