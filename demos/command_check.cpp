@@ -12,9 +12,19 @@
 namespace carom::demos {
 namespace {
 
+// Lists all overlaps of a scene that has some.
+SceneWorld checkedWorld(const Scene& scene, const SceneChoice& choice) {
+  try {
+    return makeSceneWorld(scene, choice.mesh);
+  } catch (const OverlapsAtStart& refused) {
+    for (const std::string& pair : refused.pairs) std::cout << pair << '\n';
+    throw;
+  }
+}
+
 void checkScene(const SceneChoice& choice) {
   const Scene scene = chosenScene(choice);
-  const SceneWorld made = makeSceneWorld(scene, choice.mesh);
+  const SceneWorld made = checkedWorld(scene, choice);
   int moving = 0;
   for (const BodyDescription& body : made.world.bodies()) moving += body.is_static ? 0 : 1;
   std::cout << scene.file.string() << ": ok  " << made.world.bodies().size() << " bodies (" << moving

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "demos/asset_path.h"
 #include "demos/body_palette.h"
@@ -104,16 +105,31 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
   }
 }
 
+// What two bodies do, by how much and where.
+std::string describeOverlap(const SceneWorld& made, const Overlap& pair, const char* when) {
+  std::ostringstream text;
+  text << "\"" << made.names[static_cast<std::size_t>(pair.body_a)] << "\" and \""
+       << made.names[static_cast<std::size_t>(pair.body_b)] << "\" ";
+  if (pair.depth_m > 0.0)
+    text << "overlap" << when << " by " << pair.depth_m << " m";
+  else
+    text << "touch" << when << " and have no room to part";
+  const auto nanometres = [](double x) { return std::round(x * 1e9) * 1e-9 + 0.0; };  // and no -0
+  text << " at (" << nanometres(pair.p_W.x()) << ", " << nanometres(pair.p_W.y()) << ", "
+       << nanometres(pair.p_W.z()) << ")";
+  return text.str();
+}
+
 [[noreturn]] void refuseOverlaps(const SceneWorld& made, const Scene& scene,
                                  const std::vector<Overlap>& overlaps) {
-  const Overlap& worst = overlaps.front();
   std::ostringstream message;
-  message << scene.file.string() << ": \"" << made.names[static_cast<std::size_t>(worst.body_a)]
-          << "\" and \"" << made.names[static_cast<std::size_t>(worst.body_b)]
-          << "\" overlap at the start by " << worst.depth_m << " m";
-  if (overlaps.size() > 1) message << " (the deepest of " << overlaps.size() << " pairs)";
+  message << scene.file.string() << ": " << describeOverlap(made, overlaps.front(), " at the start");
+  if (overlaps.size() > 1)
+    message << " (the deepest of " << overlaps.size() << " pairs; carom check lists them all)";
   message << "; accepted: apart, or just touching";
-  throw InputError(message.str());
+  std::vector<std::string> pairs;
+  for (const Overlap& pair : overlaps) pairs.push_back(describeOverlap(made, pair, ""));
+  throw OverlapsAtStart(message.str(), std::move(pairs));
 }
 
 void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {

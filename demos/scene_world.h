@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "demos/scene.h"
+#include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
 #include "renderer/frame_renderer.h"
 
@@ -21,9 +23,16 @@ struct SceneWorld {
   std::vector<SurfaceLook> looks;
 };
 
+/// A scene whose bodies overlap, or that touch and have no room to part.
+class OverlapsAtStart : public InputError {
+ public:
+  OverlapsAtStart(const std::string& line, std::vector<std::string> all)
+      : InputError(line), pairs(std::move(all)) {}
+  std::vector<std::string> pairs;  ///< A line each, deepest first: both names, the depth, where.
+};
+
 /// `threads` step it (WorldSettings). Throws InputError when `mesh` is given and no hull of the scene is
-/// replaceable, when a shape encloses no volume, and when bodies overlap at the start (both named, with the
-/// depth).
+/// replaceable, when a shape encloses no volume, and OverlapsAtStart.
 SceneWorld makeSceneWorld(const Scene& scene, const std::optional<std::filesystem::path>& mesh,
                           int threads = 1);
 

@@ -110,6 +110,24 @@ TEST(Program, BadScenesAndAssetsEndWith3) {
   EXPECT_EQ(runCarom({"simulate", "drop-mesh", "--mesh", "none.obj"}).code, 3);
 }
 
+TEST(Program, CheckListsEveryOverlapWithItsDepthAndPlace) {
+  const TemporaryFolder folder;
+  const fs::path scene = folder.file(
+      "s.json",
+      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, "
+      "\"repeat\": { \"count\": [4, 1, 1], \"step\": [0.75, 0, 0] } },"
+      " { \"name\": \"b\", \"shape\": { \"sphere\": { \"radius\": 1 } }, \"position\": [-1, 0, 0] } ] }");
+  const ProgramEnd end = runCarom({"check", scene.string()});
+  EXPECT_EQ(end.code, 3);
+  EXPECT_EQ(end.out,
+            "\"a[0]\" and \"b\" overlap by 0.5 m at (-0.25, 0, 0)\n"
+            "\"a[0]\" and \"a[1]\" overlap by 0.25 m at (0.375, 0, 0)\n"
+            "\"a[1]\" and \"a[2]\" overlap by 0.25 m at (1.125, 0, 0)\n"
+            "\"a[2]\" and \"a[3]\" overlap by 0.25 m at (1.875, 0, 0)\n");
+  expectOneLine(end,
+                "\"a[0]\" and \"b\" overlap at the start by 0.5 m at (-0.25, 0, 0) (the deepest of 4 pairs");
+}
+
 TEST(Program, UnwritableTargetsEndWith4) {
   const TemporaryFolder folder;
   const fs::path scene = folder.file("ball.json", kBall);

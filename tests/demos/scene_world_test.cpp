@@ -52,16 +52,31 @@ TEST(SceneWorld, PositionIsThatOfTheDescribedFrame) {
   EXPECT_LT((made.world.states()[0].X_WB.position - Vec3(4.75, 5.75, 7.25)).norm(), 1e-12);
 }
 
-TEST(SceneWorld, RefusesAnOverlapWithBothNamesAndTheDepth) {
+TEST(SceneWorld, RefusesAnOverlapWithBothNamesTheDepthAndThePlace) {
   const std::string message = thrownMessage<InputError>([] {
     worldOf(
         "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "
         "true },"
-        "{ \"name\": \"crate\", \"shape\": { \"box\": [1, 1, 1] }, \"position\": [0, 0, 0.25] }");
+        "{ \"name\": \"ball\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, \"position\": [1, -1, 0.25] "
+        "}");
   });
-  EXPECT_EQ(
-      message,
-      "s.json: \"floor\" and \"crate\" overlap at the start by 0.25 m; accepted: apart, or just touching");
+  EXPECT_EQ(message,
+            "s.json: \"floor\" and \"ball\" overlap at the start by 0.25 m at (1, -1, -0.125); accepted: "
+            "apart, or just touching");
+}
+
+TEST(SceneWorld, RefusesBodiesThatTouchAndHaveNoRoomToPart) {
+  const std::string message = thrownMessage<InputError>([] {
+    worldOf(
+        "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "
+        "true },"
+        "{ \"name\": \"ceiling\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, 1.5], \"static\": "
+        "true },"
+        "{ \"name\": \"ball\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, \"position\": [1, -1, 0.5] }");
+  });
+  EXPECT_EQ(message,
+            "s.json: \"floor\" and \"ball\" touch at the start and have no room to part at (1, -1, 0) (the "
+            "deepest of 2 pairs; carom check lists them all); accepted: apart, or just touching");
 }
 
 TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
