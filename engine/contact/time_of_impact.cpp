@@ -269,7 +269,8 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
     if (fast && gap <= search.window.ceiling) found.outcome = TimeOfImpact::Outcome::kImpact;
     return;
   }
-  const bool last = found.time_s + interval >= search.end_s;
+  // Their sum may round to less than the end.
+  const bool last = interval >= search.end_s - found.time_s || found.time_s + interval >= search.end_s;
   found.time_s = last ? search.end_s : found.time_s + interval;
   found.outcome = last ? TimeOfImpact::Outcome::kClear : TimeOfImpact::Outcome::kPending;
 }

@@ -13,10 +13,6 @@ std::size_t at(int i) {
 // Edges that cross at a smaller angle have their direction from the way between them.
 constexpr double kCrossingSine = 1e-3;
 
-bool hasFace(const FeaturePair& features) {
-  return features.a.kind == FeatureKind::kFace || features.b.kind == FeatureKind::kFace;
-}
-
 // One side of a placed pair.
 struct Side {
   int body;
@@ -64,8 +60,10 @@ double heightOver(const Side& side, const Vec3& p_W) {
 bool passes(const Side& passing, const Side& edge, const ShapePair& contact, const Side& held,
             const Side& support, const PlacedPair& other, double dt_s, const std::vector<Body>& bodies) {
   if (support.body != edge.body && !bodies[at(passing.body)].moves()) return false;
-  if (heightOver(support, passing.witness_W) > other.pair.window.manifold) return false;
+  // What is round is held below its core, wherever the edge is.
   const Vec3& up = held.outwards_W;
+  const Vec3 lowest = passing.witness_W + passing.shape.part->radius_m * (passing.outwards_W - up);
+  if (heightOver(support, lowest) > other.pair.window.manifold) return false;
   const double height = -reachAlong(passing, -up) - reachAlong(edge, up);
   const double held_at = (1.0 - tolerance::kRestBand) * other.pair.window.rest;
   const double sinks = std::max(0.0, other.closest.distance_m - held_at);
@@ -81,7 +79,7 @@ bool passes(const Side& passing, const Side& edge, const ShapePair& contact, con
 
 bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
   const FeaturePair& features = contact.closest.features;
-  if (hasFace(features)) return false;
+  if (features.a.kind == FeatureKind::kFace || features.b.kind == FeatureKind::kFace) return false;
   if (features.a.kind != FeatureKind::kEdge || features.b.kind != FeatureKind::kEdge) return true;
   const auto along = [&](int shape, const Pose& X, int edge) {
     return Vec3(X.rotation * shapes[at(shape)].part->core.edge(edge).direction);
@@ -93,7 +91,7 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
 
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  if (!hasFace(other.closest.features)) return false;
+  if (isAtEdges(other, shapes)) return false;
   for (const bool b : {false, true}) {
     const Side passing = sideOf(contact, b, shapes);
     const Side edge = sideOf(contact, !b, shapes);
