@@ -129,7 +129,10 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(number_integer_t value) override { return add(Json(static_cast<double>(value))); }
   bool number_unsigned(number_unsigned_t value) override { return add(Json(static_cast<double>(value))); }
   bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
-  bool string(string_t& value) override { return add(Json(value)); }
+  bool string(string_t& value) override {
+    requireText(value);
+    return add(Json(value));
+  }
   bool binary(binary_t&) override { return false; }
   bool start_array(std::size_t) override { return open(Json::array()); }
   bool start_object(std::size_t) override { return open(Json::object()); }
@@ -137,6 +140,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
 
   bool key(string_t& name) override {
+    requireText(name);
     if (!open_.back().keys.insert(name).second) fail("key \"" + name + "\" is given twice");
     open_.back().key = name;
     return true;
@@ -154,6 +158,10 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  private:
   [[noreturn]] void fail(const std::string& reason) const {
     throw InputError(*origin_ + ":" + std::to_string(*line_) + ": " + reason);
+  }
+  /// No name of a file, and no message, goes on after a zero.
+  void requireText(const std::string& text) const {
+    if (text.find('\0') != std::string::npos) fail("a string holds \\u0000; accepted: text without it");
   }
   Json placed(Json value) {
     // Far beyond any scene of as many bodies as are accepted; each takes some 200 bytes.

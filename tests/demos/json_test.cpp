@@ -64,6 +64,12 @@ TEST(Json, TwoHundredThousandNamesTakeNoMinute) {
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
 }
 
+// What quotes it would end there.
+TEST(Json, RefusesTextThatHoldsAZero) {
+  EXPECT_EQ(refusal("[\"a\\u0000b\"]"), "f.json:1: a string holds \\u0000; accepted: text without it");
+  EXPECT_EQ(refusal("{\"\\u0000\": 1}"), "f.json:1: a string holds \\u0000; accepted: text without it");
+}
+
 TEST(Json, ANameGivenTwiceIsFoundAmongMany) {
   std::string text = manyNames(50000);
   text.back() = ',';
