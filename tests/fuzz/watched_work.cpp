@@ -11,6 +11,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -39,6 +40,7 @@ struct Worker {
   Slate* slate = nullptr;
   std::uint64_t seen = ~0ull;
   Clock::time_point since;
+  double computed_s = 0.0;  ///< Before that input.
   bool has_ended = false;
 };
 
@@ -50,6 +52,24 @@ std::size_t residentBytes(pid_t id) {
   std::ifstream children(process + "/task/" + std::to_string(id) + "/children");
   for (pid_t child = 0; children >> child;) bytes += residentBytes(child);
   return bytes;
+}
+
+/// What a process, its children and those before them have computed.
+double computedSeconds(pid_t id) {
+  const std::string process = "/proc/" + std::to_string(id);
+  std::ifstream in(process + "/stat");
+  const std::string line{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t name_end = line.rfind(')');
+  if (name_end == std::string::npos) return 0.0;
+  std::istringstream fields(line.substr(name_end + 1));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) fields >> skipped;
+  double seconds = 0.0, ticks = 0.0;
+  for (int i = 0; i < 4 && fields >> ticks; ++i)
+    seconds += ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  std::ifstream children(process + "/task/" + std::to_string(id) + "/children");
+  for (pid_t child = 0; children >> child;) seconds += computedSeconds(child);
+  return seconds;
 }
 
 std::filesystem::path logOf(pid_t id) {
@@ -136,6 +156,7 @@ class Watch {
     if (worker.seen != worker.slate->index.load()) {
       worker.seen = worker.slate->index.load();
       worker.since = Clock::now();
+      worker.computed_s = computedSeconds(worker.id);
     }
     siginfo_t ended{};
     if (::waitid(P_PID, static_cast<id_t>(worker.id), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -149,7 +170,8 @@ class Watch {
       std::filesystem::remove(logOf(worker.id));
       return false;
     }
-    if (Clock::now() - worker.since > std::chrono::seconds(work_.bounds.seconds))
+    if (Clock::now() - worker.since > std::chrono::seconds(10 * work_.bounds.seconds) ||
+        computedSeconds(worker.id) - worker.computed_s > work_.bounds.seconds)
       replace(worker, "takes more than " + std::to_string(work_.bounds.seconds) + " s");
     else if (residentBytes(worker.id) > work_.bounds.memory_bytes)
       replace(worker, "takes more than " + std::to_string(work_.bounds.memory_bytes >> 20) + " MB");

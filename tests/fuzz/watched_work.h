@@ -9,7 +9,8 @@
 namespace carom::fuzz {
 
 struct Bounds {
-  int seconds = 20;                                 ///< For one input.
+  int seconds =
+      20;  ///< Of computing, for one input; on the clock ten times that, for others work here as well.
   std::size_t memory_bytes = std::size_t{2} << 30;  ///< Resident, of a process and its children.
 };
 
