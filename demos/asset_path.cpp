@@ -1,6 +1,7 @@
 #include "demos/asset_path.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 
@@ -11,6 +12,9 @@
 namespace carom::demos {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::uintmax_t kLargestText = std::uintmax_t{256}
+                                        << 20;  // kept in memory as a whole, thrice at times
 
 bool isFile(const fs::path& path) {
   std::error_code ignored;
@@ -78,6 +82,11 @@ std::optional<fs::path> findBeside(const fs::path& scene_file, const std::string
 
 std::string readTextFile(const fs::path& path) {
   const std::ifstream file = openInputFile(path);
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  if (!failed && size > kLargestText)
+    throw InputError(path.string() + ": has " + std::to_string(size >> 20) + " MB; accepted: at most " +
+                     std::to_string(kLargestText >> 20));
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

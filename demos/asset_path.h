@@ -23,7 +23,7 @@ std::filesystem::path findScene(const std::string& name_or_path);
 std::optional<std::filesystem::path> findBeside(const std::filesystem::path& scene_file,
                                                 const std::string& name);
 
-/// The bytes of a file; throws InputError when it cannot be read.
+/// The bytes of a file; throws InputError when it cannot be read, or has more than 256 MB.
 std::string readTextFile(const std::filesystem::path& path);
 
 }  // namespace carom::demos

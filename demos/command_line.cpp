@@ -160,7 +160,8 @@ CommandLine::CommandLine() {
   app.set_version_flag("--version", "carom " + programVersion() + " (" + buildName() + ")");
   app.footer(
       "Example: carom render sliding -o out/frame_%04d.png\n"
-      "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset, 4 cannot write,\n"
+      "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset,\n"
+      "            4 cannot write, or no more memory, threads or processes,\n"
       "            5 simulation invalid, 6 no renderer, 7 budget inconclusive,\n"
       "            128+n signal n");
   app.add_flag("--manual-page", wants_manual, "Prints carom(1), as it is installed");

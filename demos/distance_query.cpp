@@ -127,7 +127,7 @@ DistanceQuery readDistanceQuery(const Json& json) {
 
 HullStore::Entry HullStore::load(const std::string& file) {
   try {
-    Entry entry{{meshHull(file), 0.0}, ""};
+    Entry entry{{meshHull(file), 0.0}, std::nullopt};
     for (const Vec3& p : entry.part.core.vertices())
       if (!withinReach(p)) throw InputError(file + ": a vertex is out of range; " + kAcceptedPosition);
     return entry;
@@ -139,7 +139,7 @@ HullStore::Entry HullStore::load(const std::string& file) {
 const ConvexPart& HullStore::hullOf(const std::string& file) {
   auto found = entries_.find(file);
   if (found == entries_.end()) found = entries_.emplace(file, load(file)).first;
-  if (!found->second.refusal.empty()) throw InputError(found->second.refusal);
+  if (found->second.refusal) throw InputError(*found->second.refusal);
   return found->second.part;
 }
 

@@ -5,6 +5,7 @@
 // tests/demos/distance_query_test.cpp.
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "demos/json.h"
@@ -35,7 +36,7 @@ class HullStore {
  private:
   struct Entry {
     ConvexPart part;
-    std::string refusal;  ///< Empty: `part` is the hull.
+    std::optional<std::string> refusal;  ///< None: `part` is the hull.
   };
   static Entry load(const std::string& file);
   std::map<std::string, Entry> entries_;

@@ -1,7 +1,10 @@
 #include "demos/exit_code.h"
 
 #include <csignal>
+#include <new>
+#include <system_error>
 
+#include "demos/printable.h"
 #include "engine/foundation/contract.h"
 #include "renderer/frame_renderer.h"
 
@@ -9,7 +12,17 @@ namespace carom::demos {
 namespace {
 
 Failure failure(ExitCode code, const std::string& line) {
-  return {static_cast<int>(code), line, false};
+  return {static_cast<int>(code), printable(line), false};
+}
+
+Failure bug(const std::string& line) {
+  return {static_cast<int>(ExitCode::kSignal) + SIGABRT, printable(line), true};
+}
+
+/// What the standard library throws where a thread or another resource of the system is refused.
+bool isRefusal(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
 }
 
 }  // namespace
@@ -23,6 +36,10 @@ Failure failureOf(const std::exception_ptr& thrown) {
     return failure(ExitCode::kBadInput, error.what());
   } catch (const CannotWrite& error) {
     return failure(ExitCode::kCannotWrite, error.what());
+  } catch (const OutOfResources& error) {
+    return failure(ExitCode::kCannotWrite, error.what());
+  } catch (const std::bad_alloc&) {
+    return failure(ExitCode::kCannotWrite, "out of memory: the system gives no more");
   } catch (const SimulationInvalid& error) {
     return failure(ExitCode::kInvalid, error.what());
   } catch (const renderer::NoRenderer& error) {
@@ -34,8 +51,11 @@ Failure failureOf(const std::exception_ptr& thrown) {
   } catch (const Interrupted& interrupted) {
     return {static_cast<int>(ExitCode::kSignal) + interrupted.signal,
             "interrupted; what has been written is whole", false};
+  } catch (const std::system_error& error) {
+    if (!isRefusal(error)) return bug(error.what());
+    return failure(ExitCode::kCannotWrite, std::string("the system gives no more threads: ") + error.what());
   } catch (const std::exception& error) {
-    return {static_cast<int>(ExitCode::kSignal) + SIGABRT, error.what(), true};
+    return bug(error.what());
   }
 }
 

@@ -11,11 +11,11 @@ namespace carom::demos {
 
 enum class ExitCode {
   kOk = 0,
-  kNo = 1,        ///< The question has been answered: no.
-  kUsage = 2,     ///< Unknown command or option, or a value out of range.
-  kBadInput = 3,  ///< Bad scene or asset.
-  kCannotWrite = 4,
-  kInvalid = 5,  ///< The simulation left what it guarantees.
+  kNo = 1,           ///< The question has been answered: no.
+  kUsage = 2,        ///< Unknown command or option, or a value out of range.
+  kBadInput = 3,     ///< Bad scene or asset.
+  kCannotWrite = 4,  ///< Or the system gives no more memory, threads or processes.
+  kInvalid = 5,      ///< The simulation left what it guarantees.
   kNoRenderer = 6,
   kInconclusive = 7,  ///< Too much noise to judge a time.
   kSignal = 128       ///< Plus the signal's number.
@@ -29,6 +29,12 @@ class UsageError : public std::runtime_error {
 
 /// A file or folder that cannot be written; says which and why.
 class CannotWrite : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The system gives no more memory, threads or processes; says which.
+class OutOfResources : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -52,7 +58,7 @@ class Interrupted : public std::runtime_error {
   int signal;
 };
 
-/// How the program ends after an exception.
+/// How the program ends after an exception. The line is one, whatever the names in the message hold.
 struct Failure {
   int code = 0;
   std::string line;     ///< What to print.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -95,19 +96,43 @@ nlohmann::ordered_json toLibrary(const Json& value) {
   return nullptr;
 }
 
+/// As much of a value as `budget` values and letters allow; for what is cut off after fewer letters.
+Json abridged(const Json& value, std::size_t& budget) {
+  if (budget > 0) --budget;
+  Json part = value.kind() == Json::Kind::kObject ? Json::object() : Json::array();
+  switch (value.kind()) {
+    case Json::Kind::kString:
+      return value.asString().substr(0, 4 * budget + 4);  // whole characters take up to four bytes
+    case Json::Kind::kArray:
+      for (std::size_t i = 0; i < value.items().size() && budget > 0; ++i)
+        part.push(abridged(value.items()[i], budget));
+      return part;
+    case Json::Kind::kObject:
+      for (std::size_t i = 0; i < value.members().size() && budget > 0; ++i)
+        part.set(value.members()[i].first, abridged(value.members()[i].second, budget));
+      return part;
+    default:
+      return value;
+  }
+}
+
 }  // namespace
 
 /// Receives the parser's events and builds the tree.
 class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  JsonBuilder(std::string origin, const int* line) : origin_(std::move(origin)), line_(line) {}
+  JsonBuilder(const std::string& origin, const int* line)
+      : origin_(std::make_shared<const std::string>(origin)), line_(line) {}
 
   bool null() override { return add(Json()); }
   bool boolean(bool value) override { return add(Json(value)); }
   bool number_integer(number_integer_t value) override { return add(Json(static_cast<double>(value))); }
   bool number_unsigned(number_unsigned_t value) override { return add(Json(static_cast<double>(value))); }
   bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
-  bool string(string_t& value) override { return add(Json(value)); }
+  bool string(string_t& value) override {
+    requireText(value);
+    return add(Json(value));
+  }
   bool binary(binary_t&) override { return false; }
   bool start_array(std::size_t) override { return open(Json::array()); }
   bool start_object(std::size_t) override { return open(Json::object()); }
@@ -115,9 +140,9 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
 
   bool key(string_t& name) override {
-    const Json& object = open_.back().first;
-    if (object.find(name) != nullptr) fail("key \"" + name + "\" is given twice");
-    open_.back().second = name;
+    requireText(name);
+    if (!open_.back().keys.insert(name).second) fail("key \"" + name + "\" is given twice");
+    open_.back().key = name;
     return true;
   }
 
@@ -132,9 +157,16 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InputError(origin_ + ":" + std::to_string(*line_) + ": " + reason);
+    throw InputError(*origin_ + ":" + std::to_string(*line_) + ": " + reason);
   }
-  Json placed(Json value) const {
+  /// No name of a file, and no message, goes on after a zero.
+  void requireText(const std::string& text) const {
+    if (text.find('\0') != std::string::npos) fail("a string holds \\u0000; accepted: text without it");
+  }
+  Json placed(Json value) {
+    // Far beyond any scene of as many bodies as are accepted; each takes some 200 bytes.
+    constexpr int kMostValues = 3000000;
+    if (++values_ > kMostValues) fail("more than " + std::to_string(kMostValues) + " values");
     value.line_ = *line_;
     value.origin_ = origin_;
     return value;
@@ -143,11 +175,11 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     constexpr std::size_t kDeepest =
         64;  // far beyond any scene; keeps hostile files from exhausting the stack
     if (open_.size() >= kDeepest) fail("nested deeper than " + std::to_string(kDeepest) + " levels");
-    open_.emplace_back(placed(std::move(container)), "");
+    open_.push_back({placed(std::move(container)), {}, {}});
     return true;
   }
   bool close() {
-    Json done = std::move(open_.back().first);
+    Json done = std::move(open_.back().container);
     open_.pop_back();
     return insert(std::move(done));
   }
@@ -155,7 +187,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool insert(Json value) {
     if (open_.empty()) {
       root_ = std::move(value);
-    } else if (auto& [container, key] = open_.back(); container.kind() == Json::Kind::kArray) {
+    } else if (auto& [container, key, keys] = open_.back(); container.kind() == Json::Kind::kArray) {
       container.push(std::move(value));
     } else {
       container.set(key, std::move(value));
@@ -163,10 +195,16 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  std::string origin_;
+  struct Open {
+    Json container;
+    std::string key;             // pending
+    std::set<std::string> keys;  // of an object, so far
+  };
+  std::shared_ptr<const std::string> origin_;
   const int* line_;
+  int values_ = 0;
   Json root_;
-  std::vector<std::pair<Json, std::string>> open_;  // containers not closed yet, each with its pending key
+  std::vector<Open> open_;  // containers not closed yet
 };
 
 Json Json::array(std::vector<Json> items) {
@@ -198,15 +236,20 @@ void Json::place(const std::string& path) {
 }
 
 void Json::fail(const std::string& message) const {
-  std::string where = origin_.empty() ? "" : origin_ + ":" + std::to_string(line_) + ": ";
+  std::string where =
+      origin_ == nullptr || origin_->empty() ? "" : *origin_ + ":" + std::to_string(line_) + ": ";
   if (!path_.empty()) where += path_ + ": ";
   throw InputError(where + message);
 }
 
 std::string Json::shown() const {
   constexpr std::size_t kLongest = 60;
-  const std::string whole = text();
-  return whole.size() <= kLongest ? whole : whole.substr(0, kLongest) + "...";
+  std::size_t budget = kLongest;  // a value takes a letter at least
+  const std::string whole = abridged(*this, budget).text();
+  if (whole.size() <= kLongest) return whole;
+  std::size_t end = kLongest;  // not within a character
+  while (end > 0 && (static_cast<unsigned char>(whole[end]) & 0xc0) == 0x80) --end;
+  return whole.substr(0, end) + "...";
 }
 
 bool Json::asBoolean() const {

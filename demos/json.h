@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,7 +28,7 @@ class Json {
   static Json object(std::initializer_list<Member> members = {});
 
   /// Parses a text; `origin` stands for the file's name in messages, `first_line` for where in it the text
-  /// begins.
+  /// begins. Throws InputError for what is no JSON, nested too deeply, or of too many values.
   static Json parse(std::string_view text, const std::string& origin, int first_line = 1);
 
   Kind kind() const { return kind_; }
@@ -71,7 +72,7 @@ class Json {
   std::vector<Member> members_;
   int line_ = 0;
   std::string path_;
-  std::string origin_;
+  std::shared_ptr<const std::string> origin_;  ///< One for all values of a text.
 };
 
 }  // namespace carom::demos

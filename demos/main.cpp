@@ -10,6 +10,7 @@
 
 #include "demos/command_line.h"
 #include "demos/exit_code.h"
+#include "demos/limited_memory.h"
 
 namespace {
 
@@ -52,13 +53,14 @@ void tell(const std::string& message) {
 
 int main(int argc, char** argv) {
   occupyStandardDescriptors();
+  tellCrashesOfLimitedMemory();
   keepFreedMemory();
   try {
     return run(argc, argv);
   } catch (...) {
     const Failure failure = failureOf(std::current_exception());
     tell(failure.line);
-    if (failure.is_bug) std::abort();
+    if (failure.is_bug) abortAsBug();
     return failure.code;
   }
 }

@@ -7,6 +7,10 @@
 namespace carom::demos {
 namespace {
 
+// What is longer is no slip of a name, and its table of distances grows with the square.
+constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kMostListed = 60;
+
 bool sameLetter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
@@ -34,9 +38,13 @@ int editDistance(std::string_view a, std::string_view b) {
 std::string nearestName(std::string_view name, std::span<const std::string> candidates) {
   std::string best;
   int best_distance = 0;
+  if (name.size() > kLongestName) return best;
   for (const std::string& candidate : candidates) {
+    const std::size_t shorter = std::min(name.size(), candidate.size());
+    const std::size_t longer = std::max(name.size(), candidate.size());
     // More than a third of the letters wrong is another word, not a slip.
-    const int allowed = std::max(1, static_cast<int>(std::max(name.size(), candidate.size())) / 3);
+    const int allowed = std::max(1, static_cast<int>(longer) / 3);
+    if (longer - shorter > static_cast<std::size_t>(allowed)) continue;
     const int distance = editDistance(name, candidate);
     if (distance > allowed || (!best.empty() && distance >= best_distance)) continue;
     best = candidate;
@@ -49,7 +57,9 @@ std::string acceptedNames(std::string_view name, std::span<const std::string> ca
   const std::string nearest = nearestName(name, candidates);
   std::string text = nearest.empty() ? "; " : "; did you mean \"" + nearest + "\"? ";
   text += "accepted: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) text += (i > 0 ? ", " : "") + candidates[i];
+  const std::size_t listed = std::min(candidates.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i) text += (i > 0 ? ", " : "") + candidates[i];
+  if (listed < candidates.size()) text += " and " + std::to_string(candidates.size() - listed) + " more";
   if (candidates.empty()) text += "none";
   return text;
 }

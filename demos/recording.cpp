@@ -5,6 +5,7 @@
 
 #include "demos/exit_code.h"
 #include "demos/json.h"
+#include "demos/scene.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
 
@@ -15,6 +16,13 @@ constexpr char kMagic[] = "CAROMREC";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kSumSize = 8;
+constexpr std::size_t kBlockHead = 5;            // its kind and its payload's size
+constexpr std::size_t kLongestHeader = 1 << 16;  // two paths of the longest kind, several times over
+constexpr std::size_t kFrameHead = 16;           // the frame's number, the step's, the state's hash
+constexpr std::size_t kLargestBody = 1 + 7 * 8 + 6 * 8;
+// What `simulate` takes.
+constexpr int kHighestRate = 100000, kHighestFps = 1000, kLongest_s = 3600;
+constexpr int kMostFrames = kHighestFps * kLongest_s;
 constexpr unsigned kModeBits = 0x0f;
 constexpr unsigned kPoseFollows = 0x10;
 constexpr unsigned kVelocitiesFollow = 0x20;
@@ -77,6 +85,13 @@ struct PayloadCursor {
   }
 };
 
+/// What a body can be in, but for rounding in the length of the quaternion.
+bool isState(const BodyState& state) {
+  constexpr double kUnitTolerance = 1e-6;
+  return state.X_WB.position.allFinite() && std::abs(state.X_WB.rotation.norm() - 1.0) < kUnitTolerance &&
+         state.linear_velocity.allFinite() && state.angular_velocity.allFinite();
+}
+
 void takeBody(PayloadCursor& cursor, BodyState& state) {
   const auto flags = static_cast<unsigned>(cursor.take(1));
   const unsigned mode = flags & kModeBits;
@@ -108,10 +123,18 @@ std::string headerText(const RecordingHeader& header) {
       .text();
 }
 
-int count(const Json& json) {
+int count(const Json& json, int most) {
   const double value = json.asNumber();
-  if (!(value >= 0.0 && value <= 1e9)) json.fail("no count: " + json.shown());
+  if (!(value >= 0.0 && value <= most) || value != std::floor(value))
+    json.fail(json.shown() + " is out of range; accepted: a whole number from 0 to " + std::to_string(most));
   return static_cast<int>(value);
+}
+
+double positive(const Json& json, int most) {
+  const double value = json.asNumber();
+  if (!(value > 0.0 && value <= most))
+    json.fail(json.shown() + " is out of range; accepted: above 0 to " + std::to_string(most));
+  return value;
 }
 
 RecordingHeader readHeader(const std::string& text, const std::string& origin) {
@@ -121,11 +144,11 @@ RecordingHeader readHeader(const std::string& text, const std::string& origin) {
   header.mesh = json.at("mesh").asString();
   header.scene_hash = std::strtoull(json.at("sceneHash").asString().c_str(), nullptr, 16);
   header.seed = std::strtoull(json.at("seed").asString().c_str(), nullptr, 10);
-  header.rate_hz = json.at("stepsPerSecond").asNumber();
-  header.fps = json.at("fps").asNumber();
-  header.duration_s = json.at("duration_s").asNumber();
-  header.bodies = count(json.at("bodies"));
-  header.frames = count(json.at("frames"));
+  header.rate_hz = positive(json.at("stepsPerSecond"), kHighestRate);
+  header.fps = positive(json.at("fps"), kHighestFps);
+  header.duration_s = positive(json.at("duration_s"), kLongest_s);
+  header.bodies = count(json.at("bodies"), kMostBodies);
+  header.frames = count(json.at("frames"), kMostFrames);
   return header;
 }
 
@@ -214,20 +237,29 @@ void RecordingReader::start() {
   if (version != kVersion)
     fail("a recording of version " + std::to_string(version) + ": accepted: version " +
          std::to_string(kVersion));
-  const Block header = nextBlock();
+  const Block header = nextBlock(kLongestHeader);
   if (header.kind != 'H') fail("the recording is damaged");
   header_ = readHeader(header.payload, path_.string());
-  if (static_cast<std::uintmax_t>(header_.bodies) > left_ && header_.frames > 0)
-    fail("the recording is truncated");  // a body takes at least a byte
+  // A body takes at least a byte in every frame.
+  const std::uintmax_t least =
+      kBlockHead + kFrameHead + static_cast<std::uintmax_t>(header_.bodies) + kSumSize;
+  if (static_cast<std::uintmax_t>(header_.frames) > left_ / least) fail("the recording is truncated");
   states_.assign(static_cast<std::size_t>(header_.bodies), BodyState{});
 }
 
-RecordingReader::Block RecordingReader::nextBlock() {
-  const std::string head = take(5);
-  const std::string payload = take(static_cast<std::size_t>(word(head.substr(1))));
+RecordingReader::Block RecordingReader::nextBlock(std::size_t longest) {
+  const std::string head = take(kBlockHead);
+  const auto size = static_cast<std::size_t>(word(head.substr(1)));
+  if (size > left_) fail("the recording is truncated");
+  if (size > longest) fail("the recording is damaged");
+  const std::string payload = take(size);
   sum_.add(head + payload);
   if (word(take(kSumSize)) != sum_.value()) fail("the recording is damaged");
   return {head[0], payload};
+}
+
+std::size_t RecordingReader::longestFrame() const {
+  return kFrameHead + kLargestBody * states_.size();
 }
 
 void RecordingReader::readFrame(const std::string& payload) {
@@ -235,24 +267,29 @@ void RecordingReader::readFrame(const std::string& payload) {
   const auto frame = static_cast<int>(cursor.take(4));
   step_ = static_cast<int>(cursor.take(4));
   state_hash_ = cursor.take(8);
-  for (BodyState& state : states_) takeBody(cursor, state);
-  if (!cursor.whole || cursor.at != payload.size() || frame != frame_ + 1) fail("the recording is damaged");
+  bool sound = true;
+  for (BodyState& state : states_) {
+    takeBody(cursor, state);
+    sound = sound && isState(state);
+  }
+  if (!sound || step_ < 0 || !cursor.whole || cursor.at != payload.size() || frame != frame_ + 1)
+    fail("the recording is damaged");
   frame_ = frame;
 }
 
 void RecordingReader::check() {
   for (int k = 0; k < header_.frames; ++k) {
-    const Block block = nextBlock();
+    const Block block = nextBlock(longestFrame());
     if (block.kind != 'F') fail("the recording is damaged");
     readFrame(block.payload);
   }
-  const Block end = nextBlock();
+  const Block end = nextBlock(longestFrame());
   if (end.kind != 'E' || left_ != 0) fail("the recording is damaged");
 }
 
 FrameState RecordingReader::advanceTo(int frame) {
   REQUIRE(frame >= frame_ && frame < header_.frames, frame, frame_, header_.frames);
-  while (frame_ < frame) readFrame(nextBlock().payload);
+  while (frame_ < frame) readFrame(nextBlock(longestFrame()).payload);
   return {states_, step_, state_hash_};
 }
 

@@ -74,7 +74,9 @@ class RecordingReader {
     std::string payload;
   };
   void start();
-  Block nextBlock();
+  /// Whose payload is at most so long.
+  Block nextBlock(std::size_t longest);
+  std::size_t longestFrame() const;
   void check();
   void readFrame(const std::string& payload);
   std::string take(std::size_t count);

@@ -17,6 +17,18 @@
 
 namespace carom::demos {
 
+// What a scene may hold, so that all that is reckoned with it stays far from the ends of a double (1e-308 to
+// 1e308), and every length far from the rounding of the places. A hull is at least 1e-7 of its size wide and
+// thick, so volumes are 1e-26 to 1e15 m^3 and, with the densities, masses 1e-32 to 1e21 kg and moments of
+// inertia 1e-54 to 1e31 kg m^2. The farthest that arithmetic takes them are the square of a determinant of
+// three moments, of which two are those across the length (1e-268 to 1e186), and its inverse.
+inline constexpr double kSmallestLength_m = 1e-4;
+inline constexpr double kLargestLength_m = 1e5;
+inline constexpr double kSmallestDensity_kgpm3 = 1e-6;
+inline constexpr double kLargestDensity_kgpm3 = 1e6;
+inline constexpr int kMostBodies = 20000;
+inline constexpr int kMostParts = 200000;  ///< Convex parts of all bodies.
+
 /// "file:line: json.path" of a value.
 using Place = std::string;
 

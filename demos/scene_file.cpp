@@ -16,11 +16,7 @@
 namespace carom::demos {
 namespace {
 
-// What a scene may hold. The sizes keep every length far from the rounding of the others.
-constexpr double kSmallestLength_m = 1e-4;
-constexpr double kLargestLength_m = 1e5;
 constexpr double kLargestSpeed = 1e5;  // m/s and rad/s
-constexpr int kMostBodies = 20000;
 constexpr double kUnitTolerance =
     1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
 constexpr double kPi = 3.14159265358979323846;
@@ -33,6 +29,7 @@ struct Range {
 };
 constexpr Range kLength{kSmallestLength_m, kLargestLength_m};
 constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
+constexpr Range kDensity{kSmallestDensity_kgpm3, kLargestDensity_kgpm3};
 constexpr Range kFactor{0.0, 1000.0};
 constexpr Range kResistance{0.0, 100.0};  // metres
 constexpr Range kSpeed{-kLargestSpeed, kLargestSpeed};
@@ -161,7 +158,8 @@ NamedMaterial readMaterial(const Json& json) {
   if (const Json* value = json.find("spinningResistance"))
     m.spinning_resistance_m = readNumber(*value, kResistance);
   if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
-  if (const Json* value = json.find("density")) m.density_kgpm3 = readNumber(*value, {0.0, 1e6});
+  if (const Json* value = json.find("density"))
+    m.density_kgpm3 = readNumber(*value, {0.0, kLargestDensity_kgpm3});
   if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);
   if (const Json* value = json.find("color")) {
     material.look.color = readColor(*value);
@@ -221,6 +219,9 @@ Shape readShape(const Json& json, const std::filesystem::path& file, bool inside
 
 CompoundShape readCompound(const Json& json, const std::filesystem::path& file) {
   CompoundShape compound;
+  if (json.items().size() > kMostParts)
+    json.fail(std::to_string(json.items().size()) + " parts; accepted: at most " +
+              std::to_string(kMostParts));
   for (const Json& item : json.items()) {
     item.onlyKeys({"shape", "position", "rotation"});
     compound.parts.push_back({readShape(item.at("shape"), file, true), readPose(item)});
@@ -277,6 +278,19 @@ Repeat readRepeat(const Json& json) {
   return repeat;
 }
 
+/// The farthest copy must be as near as any other body.
+void requireWithinReach(const Json& json, const Body& body) {
+  const Repeat& repeat = body.repeat;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double last_m = body.X_WS.position[axis] + (repeat.count[axis] - 1) * repeat.step_m[axis];
+    const double farthest_m =
+        std::max(std::abs(last_m), std::abs(body.X_WS.position[axis])) + repeat.jitter_m;
+    if (farthest_m > kLargestLength_m)
+      json.fail("the copies reach to " + plainNumber(farthest_m) + " m along " + "xyz"[axis] +
+                "; accepted: " + shown(kCoordinate));
+  }
+}
+
 Body readBody(const Json& json, const Materials& materials, const std::filesystem::path& file) {
   json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
                  "dragCoefficient", "color", "static", "repeat"});
@@ -294,14 +308,17 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
     const NamedMaterial chosen = chooseMaterial(*material, materials);
     body.material = chosen.physical;
     body.look = chosen.look;
-    if (!body.is_static && !(body.material.density_kgpm3 > 0.0))
+    if (!body.is_static && !(body.material.density_kgpm3 >= kDensity.low))
       material->fail("density " + plainNumber(body.material.density_kgpm3) +
-                     " for a body that moves; accepted: above 0");
+                     " for a body that moves; accepted: " + shown(kDensity));
   }
   if (const Json* value = json.find("dragCoefficient"))
     body.material.drag_coefficient = readNumber(*value, kFactor);
   if (const Json* color = json.find("color")) body.colors = readColors(*color);
-  if (const Json* repeat = json.find("repeat")) body.repeat = readRepeat(*repeat);
+  if (const Json* repeat = json.find("repeat")) {
+    body.repeat = readRepeat(*repeat);
+    requireWithinReach(*repeat, body);
+  }
   if (body.is_static && (!body.linear_velocity.isZero(0.0) || !body.angular_velocity.isZero(0.0)))
     json.fail("a static body has no velocity; accepted: leave out linearVelocity and angularVelocity");
   return body;
@@ -383,7 +400,7 @@ NamedFluid readFluid(const Json& json, const std::filesystem::path& file) {
   if (named.name.empty()) json.at("name").fail("a fluid needs a name");
   Fluid& fluid = named.fluid;
   readFluidSpace(json, fluid);
-  if (const Json* value = json.find("density")) fluid.density_kgpm3 = readNumber(*value, {0.0, 1e6, true});
+  if (const Json* value = json.find("density")) fluid.density_kgpm3 = readNumber(*value, kDensity);
   if (const Json* value = json.find("drag")) fluid.drag = readNumber(*value, kFactor);
   if (const Json* value = json.find("linearDrag")) fluid.linear_drag_mps = readNumber(*value, kFactor);
   if (const Json* value = json.find("flow")) fluid.flow = readVec3(*value, kSpeed);
@@ -429,19 +446,23 @@ void readFitCamera(const Json& json, SceneCamera& camera) {
   camera.motion = fit;
 }
 
-std::vector<std::string> bodyNames(const std::vector<Body>& bodies) {
-  std::vector<std::string> names;
-  for (const Body& body : bodies)
-    for (int copy = 0; copy < body.repeat.total(); ++copy) names.push_back(nameOfCopy(body, copy));
-  return names;
-}
+/// The names of all copies, in the order of the scene and sorted.
+struct BodyNames {
+  explicit BodyNames(const std::vector<Body>& bodies) {
+    for (const Body& body : bodies)
+      for (int copy = 0; copy < body.repeat.total(); ++copy) in_order.push_back(nameOfCopy(body, copy));
+    sorted = in_order;
+    std::sort(sorted.begin(), sorted.end());
+  }
+  std::vector<std::string> in_order, sorted;
+};
 
-void readFollowCamera(const Json& json, const std::vector<Body>& bodies, SceneCamera& camera) {
+void readFollowCamera(const Json& json, const BodyNames& names, SceneCamera& camera) {
   json.onlyKeys({"follow", "offset", "fovDegrees"});
   FollowBody follow{json.at("follow").asString(), {}};
-  const std::vector<std::string> names = bodyNames(bodies);
-  if (std::find(names.begin(), names.end(), follow.body) == names.end())
-    json.at("follow").fail("unknown body " + json.at("follow").shown() + acceptedNames(follow.body, names));
+  if (!std::binary_search(names.sorted.begin(), names.sorted.end(), follow.body))
+    json.at("follow").fail("unknown body " + json.at("follow").shown() +
+                           acceptedNames(follow.body, names.in_order));
   if (const Json* offset = json.find("offset")) follow.offset_m = readOffset(*offset);
   camera.motion = follow;
 }
@@ -461,13 +482,13 @@ void readOrbitCamera(const Json& json, SceneCamera& camera) {
   camera.motion = orbit;
 }
 
-SceneCamera readCamera(const Json& json, const std::vector<Body>& bodies) {
+SceneCamera readCamera(const Json& json, const BodyNames& names) {
   json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit"});
   SceneCamera camera;
   if (json.find("fit") != nullptr)
     readFitCamera(json, camera);
   else if (json.find("follow") != nullptr)
-    readFollowCamera(json, bodies, camera);
+    readFollowCamera(json, names, camera);
   else if (json.find("orbit") != nullptr)
     readOrbitCamera(json, camera);
   else
@@ -502,9 +523,10 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);
   scene.bodies = readBodies(json.at("bodies"), materials, path);
-  if (const Json* value = json.find("cameras"))
-    for (const auto& [name, camera] : value->members())
-      scene.cameras[name] = readCamera(camera, scene.bodies);
+  if (const Json* value = json.find("cameras")) {
+    const BodyNames names(scene.bodies);
+    for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera, names);
+  }
   if (scene.cameras.empty()) scene.cameras["main"] = SceneCamera();
   return scene;
 }

@@ -8,6 +8,7 @@
 #include "demos/body_palette.h"
 #include "demos/content_hash.h"
 #include "demos/shape_solid.h"
+#include "engine/broad_phase/candidate_pairs.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
 
@@ -120,6 +121,24 @@ std::string describeOverlap(const SceneWorld& made, const Overlap& pair, const c
   return text.str();
 }
 
+void requireFewParts(const SceneWorld& made, const Scene& scene) {
+  std::size_t parts = 0;
+  for (const BodyDescription& body : made.world.bodies())
+    parts += made.world.solids()[static_cast<std::size_t>(body.solid)].parts().size();
+  if (parts > kMostParts)
+    throw InputError(scene.file.string() + ": the bodies have " + std::to_string(parts) +
+                     " convex parts; accepted: at most " + std::to_string(kMostParts));
+}
+
+/// The overlaps of the world as it starts.
+std::vector<Overlap> startedWith(SceneWorld& made, const Scene& scene) {
+  try {
+    return made.world.start();
+  } catch (const TooManyPairs& error) {
+    throw InputError(scene.file.string() + ": " + error.what());
+  }
+}
+
 [[noreturn]] void refuseOverlaps(const SceneWorld& made, const Scene& scene,
                                  const std::vector<Overlap>& overlaps) {
   std::ostringstream message;
@@ -152,7 +171,8 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
   SceneWorld made{World(settings), {}, {}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);
-  const std::vector<Overlap> overlaps = made.world.start();
+  requireFewParts(made, scene);
+  const std::vector<Overlap> overlaps = startedWith(made, scene);
   if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);
   return made;
 }

@@ -1,5 +1,7 @@
 #include "demos/shape_solid.h"
 
+#include <sstream>
+
 #include <Eigen/Geometry>
 
 #include "demos/mesh_import.h"
@@ -22,6 +24,23 @@ double fitInto(std::vector<std::vector<Vec3>>& parts, double longest_m) {
   for (std::vector<Vec3>& part : parts)
     for (Vec3& p : part) p = (p - middle) * (longest_m / longest);
   return longest_m / longest;
+}
+
+/// A hull of a body has the size of any other shape, and lies as near.
+void requireLengths(const std::vector<ConvexPart>& parts) {
+  Eigen::AlignedBox3d bounds;
+  for (const ConvexPart& part : parts)
+    for (const Vec3& p : part.core.vertices()) bounds.extend(p);
+  const double longest_m = bounds.sizes().maxCoeff();
+  const double farthest_m = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
+  std::ostringstream message;
+  if (!(longest_m >= kSmallestLength_m && longest_m <= kLargestLength_m))
+    message << "the hull's longest side is " << longest_m << " m; accepted: " << kSmallestLength_m << " to "
+            << kLargestLength_m << ", see \"scale\" and \"fit\"";
+  else if (farthest_m > kLargestLength_m)
+    message << "the hull reaches to " << farthest_m << " m; accepted: " << -kLargestLength_m << " to "
+            << kLargestLength_m << ", see \"fit\"";
+  if (message.tellp() > 0) throw InputError(message.str());
 }
 
 /// The same part moved; its frame S was P before.
@@ -53,12 +72,17 @@ std::vector<ConvexPart> partsOf(const CapsuleShape& capsule, const Mesh&) {
 }
 
 std::vector<ConvexPart> partsOf(const HullShape& hull, const Mesh& mesh) {
-  if (!hull.file.empty())
-    return meshParts(hull.replaceable && mesh ? *mesh : hull.file, hull.scale, hull.fit_m).parts;
-  std::vector<std::vector<Vec3>> parts{hull.points};
-  for (Vec3& p : parts[0]) p *= hull.scale;
-  if (hull.fit_m) fitInto(parts, *hull.fit_m);
-  return {{convexHull(parts[0]).polyhedron, 0.0}};
+  std::vector<ConvexPart> parts;
+  if (!hull.file.empty()) {
+    parts = meshParts(hull.replaceable && mesh ? *mesh : hull.file, hull.scale, hull.fit_m).parts;
+  } else {
+    std::vector<std::vector<Vec3>> points{hull.points};
+    for (Vec3& p : points[0]) p *= hull.scale;
+    if (hull.fit_m) fitInto(points, *hull.fit_m);
+    parts.push_back({convexHull(points[0]).polyhedron, 0.0});
+  }
+  requireLengths(parts);
+  return parts;
 }
 
 std::vector<ConvexPart> partsOf(const CompoundShape& compound, const Mesh& mesh) {

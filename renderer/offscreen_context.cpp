@@ -1,7 +1,10 @@
 #include "renderer/offscreen_context.h"
 
+#include <atomic>
 #include <cstdlib>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "engine/foundation/contract.h"
 #include "renderer/shader_cache.h"
@@ -37,6 +40,25 @@ void placeShaderCache(PixelPolicy policy) {
     setenv("MESA_SHADER_CACHE_DIR", folder->c_str(), 1);
   else
     setUnlessSet("MESA_SHADER_CACHE_DISABLE", "true");
+}
+
+// llvmpipe and Mesa's queues start threads and do not look whether they got them: without, they wait for
+// ever. So as many are started first; where the system refuses one, its std::system_error says so.
+void requireThreads(int threads) {
+  constexpr unsigned kQueues = 4;  // the shader cache has the most
+  const unsigned draw = threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency();
+  std::atomic<bool> all_started = false;
+  std::vector<std::jthread> started;
+  try {
+    for (unsigned i = 0; i < draw + kQueues; ++i)
+      started.emplace_back([&all_started] { all_started.wait(false); });
+  } catch (...) {
+    all_started = true;
+    all_started.notify_all();
+    throw;
+  }
+  all_started = true;
+  all_started.notify_all();
 }
 
 // A GPU draws other pixels, so EGL is told not to look for one.
@@ -93,6 +115,7 @@ void OffscreenContext::examine(const std::string& maker, FindFunction find) {
 
 std::unique_ptr<OffscreenContext> createOffscreenContext(PixelPolicy policy, GlBackend backend, int threads) {
   setMesaEnvironment(policy, threads);
+  requireThreads(threads);
   return backend == GlBackend::kEgl ? createEglContext() : createOsmesaContext();
 }
 

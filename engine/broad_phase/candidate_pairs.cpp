@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace carom {
 namespace {
 
-constexpr double kRoom = 0.1;       // of the smallest width, on every side of what moves
+constexpr double kRoom = 0.1;                      // of the smallest width, on every side of what moves
+constexpr std::size_t kMostNear = 4 * kMostPairs;  // with room: eight bytes each
 constexpr std::size_t kFewIn = 50;  // one in so many, or fewer, are paired anew with each of the others
 
 // The axis along which the proxies' centres are spread most: it separates best.
@@ -35,9 +37,19 @@ bool hasLeft(const Proxy& proxy, const Proxy& roomy) {
   return proxy.group != roomy.group || proxy.moves != roomy.moves || !roomy.bounds.contains(proxy.bounds);
 }
 
+void add(std::vector<IndexPair>& pairs, const IndexPair& pair, std::size_t most) {
+  if (pairs.size() >= most) throw TooManyPairs();
+  pairs.push_back(pair);
+}
+
 }  // namespace
 
-std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies) {
+TooManyPairs::TooManyPairs()
+    : InputError("more than " + std::to_string(kMostPairs) +
+                 " pairs of bodies overlap or come near each other within a step; accepted: fewer, slower or "
+                 "farther apart bodies, or more steps a second") {}
+
+std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_t most) {
   const Eigen::Index axis = sweepAxis(proxies);
   std::vector<int> order(proxies.size());
   std::iota(order.begin(), order.end(), 0);
@@ -55,7 +67,7 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies) {
     const double end = sorted[i].bounds.high[axis];
     for (std::size_t j = i + 1; j < sorted.size() && sorted[j].bounds.low[axis] <= end; ++j)
       if (canPair(sorted[i], sorted[j]))
-        pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
+        add(pairs, {std::min(order[i], order[j]), std::max(order[i], order[j])}, most);
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -64,7 +76,7 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies) {
 void PairFinder::startAgain(std::span<const Proxy> proxies) {
   roomy_.clear();
   for (const Proxy& proxy : proxies) roomy_.push_back(withRoom(proxy));
-  near_ = candidatePairs(roomy_);
+  near_ = candidatePairs(roomy_, kMostNear);
 }
 
 void PairFinder::pairAnew(std::span<const Proxy> proxies, std::span<const std::size_t> left) {
@@ -80,7 +92,7 @@ void PairFinder::pairAnew(std::span<const Proxy> proxies, std::span<const std::s
     for (std::size_t j = 0; j < roomy_.size(); ++j) {
       const bool once = is_new[j] == 0 || i < j;
       if (once && canPair(roomy_[i], roomy_[j]))
-        near_.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))});
+        add(near_, {static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))}, kMostNear);
     }
   std::sort(near_.begin() + known, near_.end());
   std::inplace_merge(near_.begin(), near_.begin() + known, near_.end());
@@ -98,7 +110,7 @@ std::vector<IndexPair> PairFinder::find(std::span<const Proxy> proxies) {
   std::vector<IndexPair> pairs;
   for (const IndexPair& pair : near_)
     if (canPair(proxies[static_cast<std::size_t>(pair.a)], proxies[static_cast<std::size_t>(pair.b)]))
-      pairs.push_back(pair);
+      add(pairs, pair, kMostPairs);
   return pairs;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/foundation/contract.h"
 #include "engine/foundation/frames.h"
 
 namespace carom {
@@ -43,14 +44,26 @@ struct IndexPair {
   friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-/// All overlapping pairs in ascending order. Cost O(n log n + overlaps along the sweep axis).
-std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies);
+/// What is kept of so many pairs takes half a gigabyte. Heaps have some ten a body; only bodies that lie
+/// within each other, or fly through half of the others in one step, come near it.
+inline constexpr std::size_t kMostPairs = 1000000;
+
+/// More than `kMostPairs` things could meet within one step: no step of such a world is made.
+class TooManyPairs : public InputError {
+ public:
+  TooManyPairs();
+};
+
+/// All overlapping pairs in ascending order; throws TooManyPairs, at the latest when `most` have been found.
+/// Cost O(n log n + overlaps along the sweep axis).
+std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_t most = kMostPairs);
 inline bool canPair(const Proxy& p, const Proxy& q) {
   return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
 }
 
 /// The same for proxies that come again with every step: what has left the room that it was given is paired
 /// anew, with room; of the pairs that overlap with theirs, those that overlap without are the candidates.
+/// Throws TooManyPairs.
 class PairFinder {
  public:
   std::vector<IndexPair> find(std::span<const Proxy> proxies);

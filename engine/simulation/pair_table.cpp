@@ -183,6 +183,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
             return pairs_[at(p)].shapes == IndexPair{low, high};
           }))
         continue;
+      if (pairs_.size() >= kMostPairs) throw TooManyPairs();
       ShapePair pair = makePair({low, high}, bodies, shapes, settings);
       const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =

@@ -56,6 +56,10 @@ void requireEnvironment(const WorldSettings& settings) {
   }
 }
 
+BodyState stateOf(const Body& body) {
+  return {body.X_WB, body.velocity.linear, body.velocity.angular, body.mode};
+}
+
 }  // namespace
 
 const char* modeName(Mode mode) {
@@ -391,9 +395,7 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
 }
 
 void World::Impl::publish() {
-  states.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    states[i] = {bodies[i].X_WB, bodies[i].velocity.linear, bodies[i].velocity.angular, bodies[i].mode};
+  for (std::size_t i = 0; i < bodies.size(); ++i) states[i] = stateOf(bodies[i]);
 }
 
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
@@ -431,7 +433,7 @@ int World::addBody(const BodyDescription& description) {
   if (!body.is_static) body.velocity = {description.linear_velocity, description.angular_velocity};
   impl_->bodies.push_back(body);
   impl_->descriptions.push_back(description);
-  impl_->publish();
+  impl_->states.push_back(stateOf(body));
   return static_cast<int>(impl_->bodies.size()) - 1;
 }
 

@@ -24,6 +24,15 @@ TEST(AssetPath, NamesTheNearestScene) {
   EXPECT_EQ(thrownMessage<InputError>([] { findScene("no/such.json"); }), "no/such.json: no such scene file");
 }
 
+// A file of holes, which takes no room on the disk.
+TEST(AssetPath, AFileTooLargeForTheMemoryIsNotRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("holes.json", "{}");
+  std::filesystem::resize_file(file, std::uintmax_t{3} << 30);
+  EXPECT_EQ(thrownMessage<InputError>([&file] { readTextFile(file); }),
+            file.string() + ": has 3072 MB; accepted: at most 256");
+}
+
 TEST(AssetPath, TheEnvironmentHasTheFirstWord) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "scenes");

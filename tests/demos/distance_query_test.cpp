@@ -396,6 +396,13 @@ TEST(DistanceCommand, RefusesInOneLineWithTheExitCodeOfItsKind) {
   }
 }
 
+// The reason why there is no hull was empty, as an exception tells it, and so taken for none: a crash.
+TEST(DistanceQuery, AMeshWhoseNameEndsAtOnceIsRefusedEachTime) {
+  HullStore store;
+  for (int turn = 0; turn < 2; ++turn)
+    EXPECT_THROW(store.hullOf(std::string("\0", 1)), InputError) << "turn " << turn;
+}
+
 TEST(DistanceCommand, HelpShowsAnExampleOfEachForm) {
   const ProgramEnd end = runCarom({"distance", "--help"});
   EXPECT_EQ(end.code, 0);

@@ -1,6 +1,8 @@
 #include "demos/exit_code.h"
 
 #include <csignal>
+#include <new>
+#include <system_error>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +34,19 @@ TEST(ExitCode, ABrokenContractIsABugOfOurs) {
   EXPECT_TRUE(failure.is_bug);
   EXPECT_EQ(failure.line, "bug: x");
   EXPECT_EQ(failure.code, 128 + SIGABRT);
+}
+
+TEST(ExitCode, NoMoreMemoryThreadsOrProcessesIs4AndNoBug) {
+  const auto again = std::make_error_code(std::errc::resource_unavailable_try_again);
+  EXPECT_EQ(failureOfThrown(std::bad_alloc()).code, 4);
+  EXPECT_EQ(failureOfThrown(std::system_error(again)).code, 4);
+  EXPECT_EQ(failureOfThrown(OutOfResources("x")).code, 4);
+  EXPECT_FALSE(failureOfThrown(std::bad_alloc()).is_bug);
+  EXPECT_TRUE(failureOfThrown(std::system_error(std::make_error_code(std::errc::bad_address))).is_bug);
+}
+
+TEST(ExitCode, WhateverAMessageQuotesItIsOneLineWithoutControlCharacters) {
+  EXPECT_EQ(failureOfThrown(InputError("a\nb\x1b[31m")).line, "a\\nb\\x1b[31m");
 }
 
 }  // namespace

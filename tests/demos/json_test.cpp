@@ -1,5 +1,7 @@
 #include "demos/json.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
@@ -43,6 +45,41 @@ TEST(Json, RefusesInOneLineWithFileAndLine) {
 
 TEST(Json, RefusesNestingThatWouldExhaustTheStack) {
   EXPECT_NE(refusal(std::string(100000, '[')).find("nested deeper"), std::string::npos);
+}
+
+std::string manyNames(int count) {
+  std::string text = "{";
+  for (int i = 0; i < count; ++i) text += (i > 0 ? ",\"n" : "\"n") + std::to_string(i) + "\":0";
+  return text + "}";
+}
+
+// Each name was compared with all before it: 2 x 10^10 comparisons.
+TEST(Json, TwoHundredThousandNamesTakeNoMinute) {
+  const auto began = std::chrono::steady_clock::now();
+  const Json json = Json::parse(manyNames(200000), "f.json");
+  EXPECT_EQ(json.members().size(), 200000u);
+  EXPECT_NE(thrownMessage<InputError>([&] { json.onlyKeys({"n7"}); }).find("unknown key \"n0\""),
+            std::string::npos);
+  EXPECT_EQ(thrownMessage<InputError>([&] { json.asNumber(); }).rfind("f.json:1: {\"n0\":0,\"n1\":0", 0), 0u);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
+}
+
+// What quotes it would end there.
+TEST(Json, RefusesTextThatHoldsAZero) {
+  EXPECT_EQ(refusal("[\"a\\u0000b\"]"), "f.json:1: a string holds \\u0000; accepted: text without it");
+  EXPECT_EQ(refusal("{\"\\u0000\": 1}"), "f.json:1: a string holds \\u0000; accepted: text without it");
+}
+
+TEST(Json, ANameGivenTwiceIsFoundAmongMany) {
+  std::string text = manyNames(50000);
+  text.back() = ',';
+  EXPECT_NE(refusal(text + "\"n31\":1}").find("key \"n31\" is given twice"), std::string::npos);
+}
+
+TEST(Json, MoreValuesThanFitInMemoryAreRefused) {
+  std::string text = "[";
+  for (int i = 0; i < 3000001; ++i) text += "0,";
+  EXPECT_NE(refusal(text + "0]").find("more than 3000000 values"), std::string::npos);
 }
 
 TEST(Json, ComplainsWithPlaceAboutAValueOfAnotherKind) {

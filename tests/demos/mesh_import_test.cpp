@@ -1,5 +1,6 @@
 #include "demos/mesh_import.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -133,6 +134,32 @@ TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
   std::memcpy(stl.data() + 84 + 12 + 8, &nan, sizeof nan);  // header, normal, x, y: the first corner's z
   EXPECT_NE(refusal(folder.file("nan.stl", stl)).find("is not finite; accepted: finite coordinates"),
             std::string::npos);
+}
+
+// assimp's reader of RAW files leaves the nodes of a file of several groups unmade: the tree has wild
+// pointers.
+TEST(MeshImport, AReaderThatCrashesIsABadFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("wild.raw", "a\n0 0 0 1 0 0 0 1 0\nb\n0 0 0 1 0 0 0 1 0\n");
+  EXPECT_EQ(refusal(file).rfind("cannot be read as a mesh: its reader crashed (", 0), 0u);
+}
+
+// By the word of the head, of a face, and by an end of the head that is none.
+TEST(MeshImport, ASmallFileThatClaimsToBeLargeTakesNeitherMemoryNorTime) {
+  const TemporaryFolder folder;
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_EQ(refusal(folder.file("claims.off", "OFF # many\n# comment\n1000000000 1 0\n0 0 0\n")),
+            "cannot be read as a mesh: it claims 1000000000 vertices and 1 faces, but has 42 bytes");
+  EXPECT_EQ(refusal(folder.file("claims.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                                "end_header\n0\n")),
+            "cannot be read as a mesh: it claims element vertex 4000000000, but has 77 bytes");
+  EXPECT_EQ(refusal(folder.file("header.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                                "end_headers\n0\n")),
+            "cannot be read as a mesh: the PLY header has no end_header");
+  refusal(folder.file("face.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n"));
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
 }
 
 TEST(MeshImport, LeavesOutFlatMeshesBesideSolidOnes) {

@@ -30,5 +30,21 @@ TEST(NearestName, SaysNothingWhenNoneIsNear) {
             "; did you mean \"resting\"? accepted: sliding, resting, multi-contact, bouncing-ball");
 }
 
+TEST(NearestName, OfManyCandidatesOnlySomeAreListed) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 200000; ++i) names.push_back(std::string("n").append(std::to_string(i)));
+  const std::string text = acceptedNames("m12045", names);
+  EXPECT_EQ(text.rfind("; did you mean \"n12045\"? accepted: n0, n1, ", 0), 0u) << text;
+  EXPECT_NE(text.find(" and 199940 more"), std::string::npos) << text;
+  EXPECT_LT(text.size(), 1000u);
+}
+
+// The table of distances of two names this long would have 10^12 entries.
+TEST(NearestName, ANameOfAMillionLettersIsNoSlip) {
+  const std::vector<std::string> names{std::string(1000000, 'a')};
+  EXPECT_EQ(nearestName(std::string(1000001, 'a'), names), "");
+  EXPECT_EQ(nearestName("a", names), "");
+}
+
 }  // namespace
 }  // namespace carom::demos

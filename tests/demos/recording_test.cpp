@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
+#include "demos/content_hash.h"
 #include "engine/foundation/contract.h"
 #include "temporary_folder.h"
 #include "thrown_message.h"
@@ -23,7 +24,7 @@ std::vector<BodyState> statesAt(int frame) {
   states[0].X_WB.position = Vec3(-0.0, 0.1, 5e-324);
   states[1].mode = Mode::kColliding;
   states[1].X_WB.position = Vec3(0.1 * frame, std::numeric_limits<double>::max(), -1.0 / 3.0);
-  states[1].X_WB.rotation = Quat(0.5, 0.1 * frame, -0.0, -0.3);
+  states[1].X_WB.rotation = Quat(0.5, 0.1 * frame, -0.0, -0.3).normalized();
   states[1].linear_velocity = Vec3(0.0, -0.0, 1.0 / 7.0);
   states[2].X_WB.position = Vec3(std::min(frame, 2), 0, 0);
   states[2].angular_velocity = Vec3(0.0, frame < 2 ? 1.0 : -0.0, 0.0);
@@ -132,6 +133,59 @@ TEST(Recording, EveryFlippedBitIsNoticed) {
     EXPECT_THROW(RecordingReader reader(file), InputError) << at;
   }
   EXPECT_THROW(RecordingReader reader(folder.file("long.carom", whole + "x")), InputError);
+}
+
+/// A recording of a header and no frame, each block with the checksum it should have.
+std::string emptyRecording(const std::string& header) {
+  ContentHash sum;
+  const auto block = [&sum](char kind, const std::string& payload) {
+    const auto bytesOf = [](std::uint64_t value, std::size_t count) {
+      return std::string(reinterpret_cast<const char*>(&value), count);
+    };
+    const std::string bytes = kind + bytesOf(payload.size(), 4) + payload;
+    sum.add(bytes);
+    return bytes + bytesOf(sum.value(), 8);
+  };
+  const std::string start = std::string("CAROMREC\1\0\0\0", 12) + block('H', header);
+  return start + block('E', std::string(4, '\0'));
+}
+
+std::string headerOf(const std::string& bodies, const std::string& frames, const std::string& fps = "30") {
+  return "{\"scene\": \"sliding\", \"mesh\": \"\", \"sceneHash\": \"0\", \"seed\": \"1\", "
+         "\"stepsPerSecond\": 240, \"fps\": " +
+         fps + ", \"duration_s\": 0.1, \"bodies\": " + bodies + ", \"frames\": " + frames + "}";
+}
+
+// By its word for the bodies a file of 208 bytes took 3 GB, or the program down.
+TEST(Recording, CountsOfTheHeaderAreHeldAgainstTheFileBeforeAnythingIsKept) {
+  const TemporaryFolder folder;
+  const auto messageOf = [&](const std::string& header) {
+    const auto file = folder.file("counts.carom", emptyRecording(header));
+    return thrownMessage<InputError>([&] { RecordingReader reader(file); });
+  };
+  EXPECT_NO_THROW(RecordingReader reader(folder.file("none.carom", emptyRecording(headerOf("2", "0")))));
+  for (const char* bodies : {"20001", "100000000", "1000000000", "-1", "1.5"})
+    EXPECT_NE(messageOf(headerOf(bodies, "0")).find("accepted: a whole number from 0 to 20000"),
+              std::string::npos);
+  EXPECT_NE(messageOf(headerOf("20000", "1")).find("truncated"), std::string::npos);
+  EXPECT_NE(messageOf(headerOf("0", "3600000")).find("truncated"), std::string::npos);
+  EXPECT_NE(messageOf(headerOf("2", "0", "0")).find("fps: 0 is out of range; accepted: above 0 to 1000"),
+            std::string::npos);
+  EXPECT_NE(messageOf(std::string(70000, ' ') + headerOf("2", "0")).find("damaged"), std::string::npos);
+}
+
+TEST(Recording, AStateThatNoBodyCanBeInIsDamage) {
+  const TemporaryFolder folder;
+  for (const double w : {0.0, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    RecordingHeader header = someHeader();
+    header.bodies = header.frames = 1;
+    RecordingWriter writer(folder.path() / "state.carom", header);
+    std::vector<BodyState> states(1);
+    states[0].X_WB.rotation = Quat(w, 0.0, 0.0, 0.0);
+    writer.add({states, 0, 0});
+    writer.commit();
+    EXPECT_THROW(RecordingReader reader(folder.path() / "state.carom"), InputError) << w;
+  }
 }
 
 TEST(Recording, ForeignFilesAndOtherVersionsAreNamedAsSuch) {

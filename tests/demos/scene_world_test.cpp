@@ -87,6 +87,63 @@ TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
   EXPECT_EQ(made.world.bodies().size(), 2u);
 }
 
+// 200 million pairs: 3.4 GB before one was looked at.
+TEST(SceneWorld, TwentyThousandBodiesInOnePlaceAreRefusedInOneLine) {
+  const std::string message = thrownMessage<InputError>([] {
+    worldOf(
+        "{ \"name\": \"b\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, "
+        "\"repeat\": { \"count\": [20000, 1, 1], \"step\": [0, 0, 0] } }");
+  });
+  EXPECT_EQ(
+      message,
+      "s.json: more than 1000000 pairs of bodies overlap or come near each other within a step; accepted: "
+      "fewer, slower or farther apart bodies, or more steps a second");
+}
+
+TEST(SceneWorld, BodiesThatFlyThroughAllOthersInAStepAreRefusedLikewise) {
+  const std::string message = thrownMessage<InputError>([] {
+    Scene scene = parseScene(
+        "{ \"format\": 1, \"rate\": 10, \"bodies\": [ { \"name\": \"b\", \"shape\": { \"box\": [1, 1, 1] }, "
+        "\"linearVelocity\": [1e5, 0, 0], \"repeat\": { \"count\": [20000, 1, 1], \"step\": [2, 0, 0] } } ] "
+        "}",
+        "s.json");
+    makeSceneWorld(scene, std::nullopt);
+  });
+  EXPECT_NE(message.find("more steps a second"), std::string::npos) << message;
+}
+
+TEST(SceneWorld, MorePartsThanCanBeKeptAreRefused) {
+  std::string parts;
+  for (int i = 0; i < 20; ++i)
+    parts += std::string(i > 0 ? "," : "") +
+             "{ \"shape\": { \"sphere\": { \"radius\": 0.1 } }, \"position\": [0, 0, " + std::to_string(i) +
+             "] }";
+  const std::string message = thrownMessage<InputError>([&parts] {
+    worldOf("{ \"name\": \"b\", \"shape\": { \"compound\": [" + parts +
+            "] }, \"repeat\": { \"count\": [10001, 1, 1], \"step\": [1, 0, 0] } }");
+  });
+  EXPECT_EQ(message, "s.json: the bodies have 200020 convex parts; accepted: at most 200000");
+}
+
+TEST(SceneWorld, AHullHasTheLengthsOfAnyOtherShape) {
+  const auto messageOf = [](const std::string& hull) {
+    return thrownMessage<InputError>([&hull] {
+      worldOf("{ \"name\": \"t\", \"shape\": { \"hull\": { \"points\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], " +
+              hull + " } } }");
+    });
+  };
+  EXPECT_NE(
+      messageOf("\"scale\": 1e9").find("the hull's longest side is 1e+09 m; accepted: 0.0001 to 100000"),
+      std::string::npos);
+  EXPECT_NE(messageOf("\"scale\": 1e-9").find("the hull's longest side is 1e-09 m"), std::string::npos);
+  EXPECT_NE(thrownMessage<InputError>([] {
+              worldOf(
+                  "{ \"name\": \"t\", \"shape\": { \"hull\": { \"points\": "
+                  "[[9,0,0],[10,0,0],[9,1,0],[9,0,1]], \"scale\": 20000 } } }");
+            }).find("the hull reaches to 200000 m; accepted: -100000 to 100000"),
+            std::string::npos);
+}
+
 TEST(SceneWorld, TakesAMeshOnlyWhereOneCanBeReplaced) {
   const Scene scene = parseScene(
       "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ] }", "s.json");

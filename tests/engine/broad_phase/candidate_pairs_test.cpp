@@ -121,6 +121,17 @@ TEST(PairFinder, FindsInEveryStepWhatStartingAgainFinds) {
   }
 }
 
+// Two hundred million pairs would take gigabytes before anything is known about them.
+TEST(CandidatePairs, MoreThanCanBeKeptAreRefusedBeforeTheyAreCollected) {
+  std::vector<Proxy> proxies(20000);
+  for (std::size_t i = 0; i < proxies.size(); ++i)
+    proxies[i] = {{Vec3::Zero(), Vec3::Ones()}, static_cast<int>(i), true};
+  EXPECT_THROW(candidatePairs(proxies), TooManyPairs);
+  EXPECT_THROW(PairFinder().find(proxies), TooManyPairs);
+  proxies.resize(1414);  // the most whose pairs, 998 991, are fewer than a million
+  EXPECT_EQ(PairFinder().find(proxies).size(), 1414u * 1413u / 2u);
+}
+
 TEST(Bounds, ContainThemselvesAndWhatLiesWithin) {
   const Bounds outer{Vec3(-1, -2, -3), Vec3(1, 2, 3)};
   EXPECT_TRUE(outer.contains(outer));

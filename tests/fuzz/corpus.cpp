@@ -1,0 +1,125 @@
+#include "corpus.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include "demos/json.h"
+#include "demos/recording.h"
+#include "demos/scene_file.h"
+#include "demos/scene_world.h"
+#include "mutation.h"
+
+namespace carom::fuzz {
+namespace fs = std::filesystem;
+namespace {
+
+// Of files that are changed: larger ones are slow to read and no stranger inside.
+constexpr std::uintmax_t kLargest = 200000;
+// Of twenty inputs.
+constexpr Kind kTurns[20] = {Kind::kScene,     Kind::kScene, Kind::kScene,     Kind::kScene,
+                             Kind::kScene,     Kind::kScene, Kind::kScene,     Kind::kScene,
+                             Kind::kScene,     Kind::kScene, Kind::kRecording, Kind::kRecording,
+                             Kind::kRecording, Kind::kMesh,  Kind::kMesh,      Kind::kMesh,
+                             Kind::kPng,       Kind::kPng,   Kind::kQueries,   Kind::kQueries};
+
+std::string bytesOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Sorted, so that an index means the same file everywhere.
+std::vector<fs::path> filesBelow(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string recordingOf(const fs::path& scene_file, int frames) {
+  const demos::Scene scene = demos::readSceneFile(scene_file);
+  demos::SceneWorld made = demos::makeSceneWorld(scene, std::nullopt);
+  demos::RecordingHeader header;
+  header.scene = scene.name;
+  header.scene_hash = demos::sceneHash(scene, std::nullopt);
+  header.seed = scene.seed;
+  header.rate_hz = scene.rate_hz;
+  header.fps = scene.rate_hz / 8.0;
+  header.duration_s = frames / header.fps;
+  header.bodies = static_cast<int>(made.world.bodies().size());
+  header.frames = frames;
+  const fs::path file = fs::temp_directory_path() / ("carom-fuzz-" + std::to_string(::getpid()) + ".carom");
+  demos::RecordingWriter writer(file, header);
+  for (int frame = 0; frame < frames; ++frame) {
+    writer.add({made.world.states(), made.world.stepCount(), made.world.stateHash()});
+    for (int step = 0; step < 8; ++step) made.world.step();
+  }
+  writer.commit();
+  const std::string bytes = bytesOf(file);
+  fs::remove(file);
+  return bytes;
+}
+
+std::vector<Input> queryFiles(const fs::path& meshes) {
+  std::string lines;
+  const auto mesh = [&meshes](const char* name) { return demos::Json((meshes / name).string()).text(); };
+  for (const char* other : {"dodecahedron.ply", "wedge.stl", "prism.ply"})
+    lines += "{\"a\": " + mesh("gem.obj") + ", \"b\": " + mesh(other) +
+             ", \"poseA\": {\"position\": [0.1, 0.2, 0.3]}, \"poseB\": {\"position\": [1.5, 0, 0], "
+             "\"rotation\": [0.5, 0.5, 0.5, 0.5]}}\n";
+  return {{Kind::kQueries, "queries.jsonl", lines}};
+}
+
+}  // namespace
+
+const char* nameOf(Kind kind) {
+  constexpr const char* kNames[kKinds] = {"scene", "recording", "mesh", "png", "queries"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Corpus::Corpus(const fs::path& models) {
+  const fs::path source = CAROM_SOURCE_DIR;
+  const auto add = [this](Kind kind, const fs::path& file) {
+    if (fs::file_size(file) <= kLargest)
+      sound_[static_cast<int>(kind)].push_back({kind, file.filename().string(), bytesOf(file)});
+  };
+  for (const fs::path& file : filesBelow(source / "assets/scenes"))
+    if (file.extension() == ".json") add(Kind::kScene, file);
+  for (const fs::path& file : filesBelow(source / "assets/meshes")) add(Kind::kMesh, file);
+  for (const fs::path& file : filesBelow(source / "tests/golden"))
+    if (file.filename() == "frame_0000.png") add(Kind::kPng, file);
+  for (const char* scene : {"cradle", "sliding", "rolling-race"})
+    sound_[static_cast<int>(Kind::kRecording)].push_back(
+        {Kind::kRecording, "run.carom",
+         recordingOf(source / "assets/scenes" / (scene + std::string(".json")), 4)});
+  sound_[static_cast<int>(Kind::kQueries)] = queryFiles(source / "assets/meshes");
+  if (!models.empty()) models_ = filesBelow(models);
+  for (const fs::path& file : models_) add(Kind::kMesh, file);
+  for (const std::vector<Input>& of_kind : sound_)
+    if (of_kind.empty()) throw std::runtime_error("no sound files to change");
+}
+
+Input Corpus::unchanged(std::size_t index) const {
+  return {Kind::kMesh, models_[index].filename().string(), bytesOf(models_[index])};
+}
+
+Input Corpus::mutated(std::uint64_t index, std::uint64_t seed) const {
+  Random random(seed * 1000003 + index);
+  const Kind kind = kTurns[index % std::size(kTurns)];
+  const std::vector<Input>& sound = sound_[static_cast<int>(kind)];
+  Input input = sound[random.below(sound.size())];
+  const std::string& other = sound[random.below(sound.size())].bytes;
+  if (kind == Kind::kRecording)
+    input.bytes = mutatedRecording(input.bytes, other, random);
+  else if (kind == Kind::kPng || (kind == Kind::kMesh && random.oneIn(2)))
+    input.bytes = mutatedBytes(input.bytes, other, random);
+  else
+    input.bytes = mutatedText(input.bytes, other, random);
+  return input;
+}
+
+}  // namespace carom::fuzz
