@@ -1,7 +1,7 @@
 #pragma once
 // Writes a scene as the JSON that scene_file.h reads, number for number: a scene that the explorer made or
 // shrank is run from its own text, so the file it leaves repeats it with `carom simulate`. Cameras and looks
-// are left out. Tested in tests/explore/scene_text_test.cpp.
+// are left out. Tested in tests/explore/random_world_test.cpp.
 
 #include <string>
 
