@@ -205,7 +205,7 @@ class Explorer {
     if (failure.family.starts_with("case:")) return;  // is small already
     const Trial trial = [&](const demos::Scene& scene) -> std::optional<Finding> {
       const bool bits = kind == "replay" || kind == "threads";
-      for (const Finding& finding : guardedScene(scene, "", bits).outcome.findings)
+      for (const Finding& finding : guardedScene(readBack(scene), "", bits).outcome.findings)
         if (finding.kind == kind) return finding;
       return std::nullopt;
     };

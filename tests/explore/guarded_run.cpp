@@ -155,7 +155,8 @@ class Worker {
       settings.before_step = [&] {
         ++progress_->step;
         const double left_s = limits.seed_cpu_s - (cpuTime() - begin_s);
-        armClock(std::max(1e-3, std::min(limits.step_cpu_s, left_s)));
+        if (!(left_s > 0.0)) raise(SIGPROF);
+        armClock(std::min(limits.step_cpu_s, left_s) + 1e-3);
       };
       SeedReport report;
       try {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "demos/json.h"
+#include "demos/scene_file.h"
 
 namespace carom::explore {
 namespace {
@@ -110,6 +111,10 @@ std::string sceneText(const demos::Scene& scene) {
   for (const demos::Body& body : scene.bodies) bodies.push(bodyJson(body));
   json.set("bodies", std::move(bodies));
   return json.text(1);
+}
+
+demos::Scene readBack(const demos::Scene& scene) {
+  return demos::parseScene(sceneText(scene), "explored.json");
 }
 
 }  // namespace carom::explore

@@ -10,5 +10,7 @@
 namespace carom::explore {
 
 std::string sceneText(const demos::Scene& scene);
+/// The scene as its text is read: rotations are made unit once more.
+demos::Scene readBack(const demos::Scene& scene);
 
 }  // namespace carom::explore

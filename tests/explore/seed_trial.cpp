@@ -1,6 +1,7 @@
 #include "tests/explore/seed_trial.h"
 
 #include "tests/explore/query_trial.h"
+#include "tests/explore/scene_text.h"
 
 namespace carom::explore {
 
@@ -21,7 +22,7 @@ SeedReport trySeed(std::uint64_t seed, const TrialSettings& settings) {
   with.replays = seed % 10 == 0;
   with.threads = seed % 20 == 0;
   report.family = world.family;
-  report.outcome = tryWorld(world.scene, with);
+  report.outcome = tryWorld(readBack(world.scene), with);
   return report;
 }
 

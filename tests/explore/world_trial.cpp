@@ -1,18 +1,15 @@
 #include "tests/explore/world_trial.h"
 
-#include "demos/scene_file.h"
 #include "demos/scene_world.h"
 #include "demos/shape_solid.h"
 #include "engine/foundation/contract.h"
-#include "tests/explore/scene_text.h"
 
 namespace carom::explore {
 namespace {
 
 class WorldTrial {
  public:
-  WorldTrial(const demos::Scene& scene, const TrialSettings& settings)
-      : scene_(demos::parseScene(sceneText(scene), "explored.json")), settings_(settings) {}
+  WorldTrial(const demos::Scene& scene, const TrialSettings& settings) : scene_(scene), settings_(settings) {}
 
   TrialOutcome run() {
     try {
@@ -67,7 +64,7 @@ class WorldTrial {
     if (!overlapOfStart(scene_)) outcome_.findings.push_back({"refused", 1.0, 0, message});
   }
 
-  demos::Scene scene_;
+  const demos::Scene& scene_;
   const TrialSettings& settings_;
   TrialOutcome outcome_;
   int step_ = 0;

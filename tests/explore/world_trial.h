@@ -1,5 +1,5 @@
 #pragma once
-// Runs a scene from its own text and has every step judged; now and then also that a replay, and two and
+// Runs a scene and has every step judged; now and then also that a replay, and two and
 // three threads, give the same bits. A start that is refused is looked at afresh. Tested in
 // tests/explore/world_trial_test.cpp.
 
