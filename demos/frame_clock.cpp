@@ -35,9 +35,4 @@ StepInstant FrameClock::instant(int frame) const {
   return {static_cast<int>(std::lround((numerator - remainder) / rates_.fps)), remainder / rates_.fps};
 }
 
-Pose interpolated(const Pose& a, const Pose& b, double fraction) {
-  if (fraction == 0.0) return a;
-  return {a.rotation.slerp(fraction, b.rotation), a.position + fraction * (b.position - a.position)};
-}
-
 }  // namespace carom::demos

@@ -1,13 +1,10 @@
 #pragma once
 // Which instant a frame shows: frame k shows exactly t = k / fps, whatever the step of the simulation, and a
 // duration holds round(duration x fps) frames. Where the step does not divide the frame, the instant lies
-// between two steps and the drawn pose is interpolated. Exact: frame, rate and fps stay whole as long as they
-// were given whole. Slow motion is a clock of more frames a second of the scene's time. Tested in
-// tests/demos/frame_clock_test.cpp.
+// between two steps. Exact: frame, rate and fps stay whole as long as they were given whole. Slow motion is a
+// clock of more frames a second of the scene's time. Tested in tests/demos/frame_clock_test.cpp.
 
 #include <optional>
-
-#include "engine/foundation/frames.h"
 
 namespace carom::demos {
 
@@ -40,8 +37,5 @@ class FrameClock {
   Rates rates_;
   std::optional<double> still_s_;
 };
-
-/// The pose a fraction of the way from a to b: position along the line, rotation along the shortest arc.
-Pose interpolated(const Pose& a, const Pose& b, double fraction);
 
 }  // namespace carom::demos

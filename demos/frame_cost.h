@@ -21,7 +21,7 @@ enum class FramePhase : std::uint8_t {
   kDraw,
   kReadback,  ///< Out of GL, with the smoothing of edges.
   kEncode,    ///< PNG, in memory.
-  kOther      ///< What is left: interpolation, the audit, the list of what to draw.
+  kOther      ///< What is left: poses between steps, the audit, the list of what to draw.
 };
 inline constexpr std::size_t kFramePhases = 10;
 inline constexpr std::array<const char*, kFramePhases> kFramePhaseNames = {

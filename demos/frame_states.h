@@ -1,7 +1,7 @@
 #pragma once
-// Steps a world to the instant of each frame in turn and gives the bodies' states there. The step before is
-// kept, so that a frame between two steps is interpolated and the world never steps for a picture's sake.
-// Tested in tests/demos/frame_states_test.cpp.
+// Steps a world to the instant of each frame in turn and gives the bodies' states there. A frame between two
+// steps shows the bodies on the paths that the world has proven to be apart; the world never steps for a
+// picture's sake. Tested in tests/demos/frame_states_test.cpp.
 
 #include <functional>
 #include <span>
@@ -23,7 +23,7 @@ class FrameStates {
   /// valid until the next call.
   std::span<const BodyState> advanceTo(int frame);
 
-  /// Steps on to the end of `step`.
+  /// Steps on to the end of `step`; frames before that cannot be asked for any more.
   void stepTo(int step);
 
  private:
@@ -31,8 +31,7 @@ class FrameStates {
   const FrameClock& clock_;
   AfterStep after_step_;
   PhaseClock* phases_;
-  std::vector<BodyState> before_;  // states one step before the world's
-  std::vector<BodyState> shown_;
+  std::vector<BodyState> shown_;  // between two steps
 };
 
 }  // namespace carom::demos

@@ -15,6 +15,7 @@ constexpr int kDoublings = 24;           // Of that distance, until a pair is fo
 struct PlacedPart {
   int body = -1;
   const ConvexPart* part = nullptr;
+  double width_m = 0.0;  // of the body, as the collision window takes it
 };
 
 Bounds boundsOf(const ConvexPart& part, const Pose& X_WB, double margin) {
@@ -38,7 +39,7 @@ NearPair asked(const PlacedPart& a, const PlacedPart& b, std::span<const BodySta
                 states[static_cast<std::size_t>(a.body)].X_WB,
                 states[static_cast<std::size_t>(b.body)].X_WB,
                 {},
-                collisionWindow(*a.part, *b.part)};
+                collisionWindow(std::min(a.width_m, b.width_m))};
   FeaturePair cold;
   pair.closest = closestFeatures(*a.part, pair.X_WA, *b.part, pair.X_WB, cold);
   return pair;
@@ -75,7 +76,8 @@ std::vector<NearPair> nearPairs(const World& world, std::span<const BodyState> s
     const BodyDescription& body = world.bodies()[i];
     const Solid& solid = world.solids()[static_cast<std::size_t>(body.solid)];
     if (!body.is_static) smallest = std::min(smallest, solid.radius());
-    for (const ConvexPart& part : solid.parts()) parts.push_back({static_cast<int>(i), &part});
+    const double width = body.is_static ? std::numeric_limits<double>::infinity() : solid.width();
+    for (const ConvexPart& part : solid.parts()) parts.push_back({static_cast<int>(i), &part, width});
   }
   std::vector<NearPair> pairs;
   double reach = kNearOverRadius * smallest;

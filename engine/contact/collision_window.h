@@ -19,10 +19,16 @@ struct CollisionWindow {
   double manifold = 0.0;  ///< The distance k of §2.4.
 };
 
-inline CollisionWindow collisionWindow(const ConvexPart& a, const ConvexPart& b) {
-  const double scale = std::min({a.width(), b.width(), tolerance::kWindowLargestScale});
+/// Of a pair whose smaller body that can move is so wide (Solid::width). What cannot move does not count: a
+/// floor of tiles is one floor, however small the tiles are.
+inline CollisionWindow collisionWindow(double width_m) {
+  const double scale = std::min(width_m, tolerance::kWindowLargestScale);
   return {scale * tolerance::kWindowFloor, scale * tolerance::kRestGap, scale * tolerance::kLandingGap,
           scale * tolerance::kWindowCeiling, scale * tolerance::kManifoldHeight};
+}
+/// Of two bodies of one part, both of which can move.
+inline CollisionWindow collisionWindow(const ConvexPart& a, const ConvexPart& b) {
+  return collisionWindow(std::min(a.width(), b.width()));
 }
 
 }  // namespace carom

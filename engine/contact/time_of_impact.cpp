@@ -20,7 +20,8 @@ constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an im
 // height of that point, and what is in the window already comes down to this share in one look.
 constexpr double kStruckShare = 0.9;
 constexpr double kNextShare = 0.25;
-constexpr double kFloorSlack = 0.02;  // of the floor: a slow approach is stopped this near to it
+constexpr double kFloorSlack = 0.02;  // of the floor: this near to it, an approach has come to it
+constexpr int kFollowed = 16;         // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
 // derivative is at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
@@ -53,8 +54,35 @@ class Look {
     return c.n_W.dot(vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
   }
 
-  // The longest interval from `begin`, among those Newton proposes, over which the gap stays >= floor.
-  double provenInterval(double begin, const ClosestFeatures& c, double speed, double floor,
+  // Follows a fast approach from the time and the features of `found` along the paths, Newton's step after
+  // step, as if the step had no end: whether it leads to the floor. Where parts move without turning the gap
+  // is a convex function of the time, so that the steps never leap over its root; else that costs nothing but
+  // the height at which the impact is struck, as what is proven does not hang on it. An approach that slows
+  // down below the collision speed before is past; `passes_until_s` says when.
+  bool comesToFloor(TimeOfImpact& found, FeaturePair tracked) const {
+    double t = found.time_s;
+    double gap = found.closest.distance_m;
+    double speed = separatingSpeedAt(t, found.closest);
+    const double reached = (1.0 + kFloorSlack) * found.floor;
+    for (int i = 0; i < kFollowed && gap > reached; ++i) {
+      t += (gap - found.floor) / -speed;
+      const ClosestFeatures there =
+          closestFeatures(*a_.part, a_.path->at(t), *b_.part, b_.path->at(t), tracked);
+      ++found.queries;
+      gap = there.distance_m;
+      if (!(gap > reached)) return true;
+      speed = separatingSpeedAt(t, there);
+      if (speed >= -search_.collision_speed_mps) {
+        found.passes_until_s = t;
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The longest interval from `begin`, among those Newton proposes, over which the gap stays >= floor. What
+  // `lands` is not let past its landing.
+  double provenInterval(double begin, const ClosestFeatures& c, double speed, double floor, bool lands,
                         int& newton_steps) {
     const double gap = c.distance_m;
     const double landing = search_.window.landing;
@@ -64,14 +92,14 @@ class Look {
     const double target = std::min(landing, floor + kStruckShare * (gap - floor));
     const double whole = search_.end_s - begin;
     // Far apart for their speeds: clear without a look at the end.
-    const double clear = search_.lands ? std::max(floor, target) : floor;
+    const double clear = lands ? std::max(floor, target) : floor;
     const double curvature = curvatureBound({nullptr, c.n_W}, begin, whole);
     if (gap + (slowestSpeed(begin, c.n_W) - 0.5 * curvature * whole) * whole >= clear) return whole;
     Chord chord = bestChord(begin, c, whole, floor);
     for (int i = 0; i < kProposals; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
-        if (!search_.lands || chord.end_gap >= (1.0 - kLandingSlack) * target) return chord.interval;
+        if (!lands || chord.end_gap >= (1.0 - kLandingSlack) * target) return chord.interval;
         const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
         if (end_speed >= -search_.collision_speed_mps) return chord.interval;
         ++newton_steps;
@@ -223,7 +251,8 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   const double gap = found.closest.distance_m;
   const double speed = look.separatingSpeedAt(found.time_s, found.closest);
   const bool fast = speed < -search.collision_speed_mps;
-  if (fast && gap <= highestImpact(search)) {
+  const bool followed = found.time_s < found.passes_until_s;
+  if (fast && !followed && gap <= highestImpact(search) && look.comesToFloor(found, tracked)) {
     found.outcome = TimeOfImpact::Outcome::kImpact;
     return;
   }
@@ -233,8 +262,9 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   }
   found.outcome = TimeOfImpact::Outcome::kStopped;
   if ((speed < 0.0 && gap < (1.0 + kFloorSlack) * found.floor) || found.looks > kAdvances) return;
+  const bool lands = search.lands && found.time_s >= found.passes_until_s;
   const double interval =
-      look.provenInterval(found.time_s, found.closest, speed, found.floor, found.newton_steps);
+      look.provenInterval(found.time_s, found.closest, speed, found.floor, lands, found.newton_steps);
   if (interval <= kSmallestShare * (search.end_s - search.begin_s)) {
     if (fast && gap <= search.window.ceiling) found.outcome = TimeOfImpact::Outcome::kImpact;
     return;

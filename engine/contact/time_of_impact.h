@@ -10,7 +10,12 @@
 // direction that stands still, in which the face's far corners dip at once: there n turns with the face's
 // part, and M holds what a turning frame adds. Newton's step towards the landing gap (with the paper's linear
 // correction as its guard) only proposes the interval. Invariant: up to the returned time the distance is >=
-// the floor. Valid for any speed and any rotation. Tested in tests/engine/contact/time_of_impact_test.cpp.
+// the floor. Valid for any speed and any rotation.
+//
+// The floor decides whether there is an impact, the window where it is struck. What comes into the window
+// fast is an impact only if the parts' own paths lead below the floor: a box that slides over a seam, or past
+// the edge of a lower step, approaches that edge obliquely, but passes it. Tested in
+// tests/engine/contact/time_of_impact_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 #include "engine/contact/collision_window.h"
@@ -37,8 +42,8 @@ struct ImpactSearch {
 
 struct TimeOfImpact {
   enum class Outcome : std::uint8_t {
-    kClear,    ///< No impact before the end.
-    kImpact,   ///< In the window and approaching faster than the collision speed.
+    kClear,   ///< No impact before the end.
+    kImpact,  ///< In the window, approaching faster than the collision speed, and on the way below the floor.
     kStopped,  ///< Cannot be carried further: slow approach at the floor, or the search's bound.
     kPending   ///< Nothing up to `time_s`; what comes after has not been looked at.
   };
@@ -50,6 +55,8 @@ struct TimeOfImpact {
   int looks = 0;  ///< At the pair, the first without a query.
   double floor =
       0.0;  ///< The gap that the search keeps, m: the window's, or less where the pair began below.
+  double passes_until_s =
+      0.0;  ///< A fast approach has been followed so far, and does not lead below the floor.
 };
 
 /// The search before its first look. `at_begin`: the closest features at `begin_s`, which must be separated.

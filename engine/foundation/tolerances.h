@@ -1,6 +1,6 @@
 #pragma once
 // The tolerances that decide what the simulation does, in one place and in order. A length written "per
-// metre" is multiplied by the smaller width of the two parts concerned, at most one metre. Tolerances of one
+// metre" is multiplied by the smaller width of the bodies concerned that can move, at most one metre. Tolerances of one
 // algorithm (rounding of a slope, planarity of a face) stand in that algorithm's file with their reasons.
 
 #include <cstddef>

@@ -28,6 +28,8 @@ constexpr double kOuterShare = 1.3512071919596578;
 constexpr double kFourthOrder[] = {kOuterShare, 1.0 - 2.0 * kOuterShare, kOuterShare};
 constexpr double kPartTurn = 0.1;     // rad in one such step
 constexpr double kTumbleTurn = 0.01;  // the same where the energy of single impacts hangs on it
+constexpr double kNoTurn =
+    0x1p-26;  // rad in all: it changes an angular velocity by less than that share of it
 constexpr double kMostParts = 256.0;  // beyond some ten radians a step the energy becomes less exact
 
 // Torque-free rotation in equal steps. 1/I = 1/I_middle + (the rest): the first turns the body about the
@@ -96,6 +98,14 @@ Tumbling tumbling(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_
   const double high_turn = (1.0 / moments[1] - 1.0 / moments[2]) * momentum.norm() * longest_s;
   const double parts = std::sqrt(std::max(0.0, low_turn * high_turn)) / kTumbleTurn;
   return {&inertia, momentum, fastest, 1 + static_cast<int>(std::min(parts, kMostParts))};
+}
+
+Vec3 torqueFreeSpinInBody(const Inertia& inertia, const Vec3& spin_B, double dt_s) {
+  if (spin_B.norm() * std::abs(dt_s) < kNoTurn) return spin_B;
+  const Tumbling free = tumbling(inertia, Quat::Identity(), spin_B, dt_s);
+  const Vec3 momentum = rotationAfter(free, Quat::Identity(), dt_s).conjugate() * free.momentum;
+  const Vec3 spin = inertia.inverse_tensor_B * momentum;
+  return spin * std::sqrt(spin_B.dot(free.momentum) / spin.dot(momentum));
 }
 
 Quat rotationAfter(const Tumbling& tumbling, const Quat& R_WB, double dt_s) {

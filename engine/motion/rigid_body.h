@@ -54,4 +54,10 @@ double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angula
 /// momentum is exact and the energy bounded. Beyond two radians a step the spin of the first two is kept.
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
 
+/// What `dt_s` seconds of torque-free rotation make of an angular velocity, both in the body's own frame: its
+/// kinetic energy is the same (Euler's equations, by the same splitting). Where a contact leads a body's
+/// orientation, the body has this angular velocity in it: recomputed from an angular momentum in the world,
+/// that of a needle would gain a hundred times its energy for every few degrees by which the two differ.
+Vec3 torqueFreeSpinInBody(const Inertia& inertia, const Vec3& spin_B, double dt_s);
+
 }  // namespace carom

@@ -21,7 +21,34 @@ enum class Travel : std::uint8_t {
   kHeld        ///< Stopped at its last safe time for the rest of the step.
 };
 
-struct Body {
+/// How a body moves from an instant of the step on. The path is where it goes; the momentum velocity is what
+/// impulses act on. They differ in lasting contact, where the path also reopens gaps without giving the body
+/// energy. Forces act evenly in time, so that a body struck within the step has what they have given it until
+/// then.
+struct StepMotion {
+  Travel travel = Travel::kStill;
+  Trajectory path;
+  Velocity momentum_velocity;        ///< At path.start_s.
+  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
+  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+
+  /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
+  /// `R_WB`.
+  Velocity velocityAt(const Inertia& inertia, double t_s, const Quat& R_WB) const {
+    Velocity v = momentum_velocity;
+    const double dt = t_s - path.start_s;
+    if (travel == Travel::kStill || dt == 0.0) return v;
+    v.linear += dt * acceleration;
+    if (!torque.isZero(0.0)) v.angular += angularVelocity(inertia, path.X_WB.rotation, dt * torque);
+    if (path.tumbling.inertia != nullptr)  // its path is its own free rotation
+      v.angular = angularVelocity(inertia, R_WB, angularMomentum(inertia, path.X_WB.rotation, v.angular));
+    else if (!v.angular.isZero(0.0))
+      v.angular = R_WB * torqueFreeSpinInBody(inertia, path.X_WB.rotation.conjugate() * v.angular, dt);
+    return v;
+  }
+};
+
+struct Body : StepMotion {
   Inertia inertia;
   Material material;
   double radius_m = 0.0;
@@ -44,14 +71,7 @@ struct Body {
   /// kg m^2/s, world frame, of a body that has flown freely since it was computed: not rounded in every step.
   std::optional<Vec3> kept_angular_momentum;
 
-  // Within a step. The path is where the body goes; the momentum velocity is what impulses act on. They
-  // differ in lasting contact, where the path also reopens gaps without giving the body energy. Forces act
-  // evenly in time, so that a body struck within the step has what they have given it until then.
-  Travel travel = Travel::kStill;
-  Trajectory path;
-  Velocity momentum_velocity;        ///< At path.start_s.
-  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
-  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  // Within a step, besides its motion.
   int events = 0;
   bool collided = false;
 
@@ -67,14 +87,7 @@ struct Body {
   Velocity velocityAt(double t_s) const { return velocityAt(t_s, path.at(t_s).rotation); }
   /// The same when it is known that the path has turned the body to `R_WB`.
   Velocity velocityAt(double t_s, const Quat& R_WB) const {
-    Velocity v = momentum_velocity;
-    if (travel != Travel::kStill) v.linear += (t_s - path.start_s) * acceleration;
-    const bool turned = travel != Travel::kStill && !torque.isZero(0.0);
-    if (!turned && v.angular.isZero(0.0)) return v;
-    Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular);
-    if (turned) momentum += (t_s - path.start_s) * torque;
-    v.angular = angularVelocity(inertia, R_WB, momentum);
-    return v;
+    return StepMotion::velocityAt(inertia, t_s, R_WB);
   }
 
   ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {
@@ -83,19 +96,16 @@ struct Body {
   }
 };
 
-/// Where constant spin misses the orientation of a free body by more radians than this, impacts with
-/// restitution would not find the energy that the body has.
+/// Where constant spin misses the orientation of a free body by more radians than this, its path is its free
+/// rotation: impacts on the way find the body as it is.
 inline constexpr double kTumblingMiss = 1e-9;
-inline constexpr double kLargestSpinTurn = 2.0;  ///< rad in a step: beyond it no constant spin is near.
 
 /// Lets the body's path, which starts with its momentum velocity, turn torque-free for `dt_s` seconds.
 inline void turnFreely(Body& body, double dt_s) {
   const Quat& R = body.path.X_WB.rotation;
   const Vec3& omega = body.momentum_velocity.angular;
   body.path.turnAt(torqueFreeSpin(body.inertia, R, omega, dt_s));
-  const double miss = tumblingMiss(body.inertia, R, omega, dt_s);
-  const bool fast = omega.norm() * dt_s > kLargestSpinTurn;
-  if (miss > kTumblingMiss && (body.material.restitution > 0.0 || fast))
+  if (tumblingMiss(body.inertia, R, omega, dt_s) > kTumblingMiss)
     body.path.tumbling = tumbling(body.inertia, R, omega, dt_s);
 }
 
@@ -107,6 +117,7 @@ struct Shape {
   int body = -1;
   const ConvexPart* part = nullptr;
   double reach_m = 0.0;  ///< The largest distance of the core from the body's centre of mass.
+  double width_m = 0.0;  ///< Of the body, as the collision window takes it: +infinity where it cannot move.
 };
 
 }  // namespace carom

@@ -18,9 +18,8 @@ std::size_t at(int i) {
 void driveEvenly(Body& body, const CarriedStretch& stretch) {
   const double dt = stretch.rest_of_step_s;
   body.momentum_velocity = stretch.begin;
-  body.acceleration = (stretch.end.linear - stretch.begin.linear) / dt;
-  const Vec3 turned = stretch.end.angular - stretch.begin.angular;
-  body.torque = angularMomentum(body.inertia, body.path.X_WB.rotation, turned) / dt;
+  body.acceleration = stretch.gain.linear / dt;
+  body.torque = angularMomentum(body.inertia, stretch.R_WB, stretch.gain.angular) / dt;
 }
 
 void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends) {

@@ -11,14 +11,15 @@
 
 namespace carom {
 
-/// Where a body's velocity goes over the rest of a step.
+/// What forces make of a body's velocity over the rest of a step.
 struct CarriedStretch {
   Velocity begin;  ///< Of the momentum, at `body.path.start_s`, where the body is.
-  Velocity end;    ///< At the step's end, its angular part by the tensor of the beginning.
+  Velocity gain;   ///< Its angular part by the tensor of the orientation `R_WB`.
+  Quat R_WB;
   double rest_of_step_s = 0.0;
 };
 
-/// From now on the forces are those that take the momentum from its beginning to its end.
+/// From now on the forces are those that give the momentum its gain.
 void driveEvenly(Body& body, const CarriedStretch& stretch);
 
 /// The path at a mean velocity, bent as the momentum is or straight.

@@ -5,6 +5,7 @@
 
 #include "engine/modes/islands.h"
 #include "engine/response/dissection.h"
+#include "engine/simulation/internal_edges.h"
 #include "engine/simulation/midstep_rows.h"
 #include "engine/simulation/warm_start.h"
 
@@ -66,11 +67,14 @@ class Assembly {
   // The bodies as the solver takes them.
   void seeBodies() {
     contacts_.bodies.resize(world_.bodies.size());
+    contacts_.half_turns.resize(world_.bodies.size());
     world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Body& body = world_.bodies[i];
         ImpulseBody& seen = contacts_.bodies[i];
-        seen = body.impulseBody(body.X_WB, body.velocity);
+        HalfTurn& half = contacts_.half_turns[i];
+        half = halfTurn(body, world_.settings.step_s, noticedTurning());
+        seen = body.impulseBody({half.R_WB, body.X_WB.position}, {body.velocity.linear, half.spin});
         if (!body.resting) continue;
         seen.inverse_mass = 0.0;
         seen.inverse_tensor.setZero();
@@ -80,24 +84,47 @@ class Assembly {
 
   // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
   void findLastingPairs() {
-    std::vector<char> lasts(world_.pairs.size(), 0);
-    world_.crew.runStretches(world_.pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    std::vector<char> lasts(world_.table.pairs().size(), 0);
+    world_.crew.runStretches(world_.table.pairs().size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = world_.pairs[i];
+        ShapePair& pair = world_.table.pairs()[i];
         if (!givesWay(pair, world_.bodies)) continue;
-        lasts[i] = isLasting(pair, world_.settings.step_s);
+        lasts[i] = isLasting(pair, world_.settings.step_s) && !isInternal(static_cast<int>(i));
         if (!lasts[i]) pair.remembered.clear();
       }
     });
     Islands islands(static_cast<int>(world_.bodies.size()));
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
-      const ShapePair& pair = world_.pairs[i];
+      const ShapePair& pair = world_.table.pairs()[i];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
       lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, static_cast<int>(i)});
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
+  }
+
+  PlacedPair placed(int index) const {
+    const ShapePair& pair = world_.table.pairs()[at(index)];
+    return {pair, pair.closest, world_.bodies[at(pair.body_a)].X_WB, world_.bodies[at(pair.body_b)].X_WB};
+  }
+
+  // Whether a pair's contact is one with an internal edge.
+  bool isInternal(int index) const {
+    const PlacedPair contact = placed(index);
+    if (!isAtEdges(contact, world_.shapes)) return false;
+    for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+      if (!moves(body)) continue;
+      for (const int other : world_.table.pairsOf(body))
+        if (other != index && isLasting(world_.table.pairs()[at(other)], world_.settings.step_s) &&
+            passesEdge(contact, placed(other), world_.settings.step_s, world_.bodies, world_.shapes))
+          return true;
+    }
+    return false;
+  }
+
+  double noticedTurning() const {
+    return kNoticedTurning * world_.settings.gravity.norm() * world_.settings.step_s;
   }
 
   bool moves(int body) const { return world_.bodies[at(body)].moves(); }
@@ -110,7 +137,7 @@ class Assembly {
     if (*std::max_element(pairs_of.begin(), pairs_of.end()) < 2 * kPairsOfAPart) return;
     std::vector<int> island_of(world_.bodies.size(), -1);
     for (const LastingPair& lasting : lasting_) {
-      const ShapePair& pair = world_.pairs[at(lasting.pair)];
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
       for (const int body : {pair.body_a, pair.body_b})
         if (moves(body)) island_of[at(body)] = lasting.island;
     }
@@ -128,7 +155,7 @@ class Assembly {
     }
     for (LastingPair& lasting : lasting_) {
       if (pairs_of[at(lasting.island)] < 2 * kPairsOfAPart) continue;
-      const ShapePair& pair = world_.pairs[at(lasting.pair)];
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
       lasting.from_last_part = -commonPart(part_of[at(pair.body_a)], part_of[at(pair.body_b)]);
     }
   }
@@ -153,7 +180,7 @@ class Assembly {
 
   void makeRowsOf(const LastingPair& lasting, RowStretch& stretch) {
     const double step_s = world_.settings.step_s;
-    ShapePair& pair = world_.pairs[at(lasting.pair)];
+    ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
     const Body& a = world_.bodies[at(pair.body_a)];
     const Body& b = world_.bodies[at(pair.body_b)];
     const RememberedPoints remembered(pair);
@@ -175,7 +202,7 @@ class Assembly {
       return speed < -pair.collision_speed_mps ||
              (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
     });
-    const MidStep mid{0.5 * step_s, kNoticedTurning * world_.settings.gravity.norm() * step_s};
+    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
     moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
     warmStart(pair, a.liesStill() && b.liesStill(), rows);
     pair.remembered.clear();

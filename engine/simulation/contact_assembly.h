@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/simulation/contact_rows.h"
+#include "engine/simulation/half_turn.h"
 
 namespace carom {
 
@@ -41,7 +42,8 @@ struct LastingContacts {
   std::vector<ContactRow> rows;
   std::vector<RowSource> sources;         ///< As long.
   std::vector<PairRows> pair_rows;        ///< The rows of each pair that has any, in their order.
-  std::vector<ImpulseBody> bodies;        ///< One per body of the world, velocities after the solve.
+  std::vector<HalfTurn> half_turns;       ///< One per body of the world.
+  std::vector<ImpulseBody> bodies;        ///< In mid-step, one likewise, velocities after the solve.
   std::vector<char> touched;              ///< Moving bodies that some row pressed.
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
   std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
@@ -56,7 +58,7 @@ inline constexpr std::size_t kFewRows = 1000;
 struct LastingWorld {
   std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
-  std::vector<ShapePair>& pairs;
+  PairTable& table;
   const WorldSettings& settings;
   Crew& crew;
 };

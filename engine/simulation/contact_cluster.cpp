@@ -8,6 +8,7 @@
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
+#include "engine/simulation/internal_edges.h"
 
 namespace carom {
 namespace {
@@ -30,10 +31,8 @@ constexpr double kCrowdRestGaps = 2.0;
 // paths, it is enough that what is left over cannot use up much of the gap within a step.
 constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
-constexpr double kPathShare = 0.01;  // of that, for small clusters
-constexpr double kGapShare = 0.4;    // of the rest gap
-// Approaches of one instant that differ by a smaller share are one collision: what is symmetric stays so.
-constexpr double kSameApproach = 1e-6;
+constexpr double kPathShare = 0.01;   // of that, for small clusters
+constexpr double kGapShare = 0.4;     // of the rest gap
 constexpr double kWakingShare = 0.1;  // of the resting mode's speed: forces that do less wake nobody
 constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
 
@@ -172,12 +171,31 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
 }
 
+// Whether the contact of a pair that has been looked at is one with an internal edge.
+bool ContactCluster::isInternal(int index) {
+  const auto placed = [&](int i) {
+    const ShapePair& pair = table_.pairs()[at(i)];
+    return PlacedPair{pair, look(i), bodies_[at(pair.body_a)].path.at(time_s_),
+                      bodies_[at(pair.body_b)].path.at(time_s_)};
+  };
+  const PlacedPair contact = placed(index);
+  if (!isAtEdges(contact, shapes_)) return false;
+  for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+    if (bodies_[at(body)].is_static) continue;
+    for (const int other : table_.pairsOf(body))
+      if (other != index && look(other).distance_m <= table_.pairs()[at(other)].window.manifold &&
+          passesEdge(contact, placed(other), restOfStep(), bodies_, shapes_))
+        return true;
+  }
+  return false;
+}
+
 void ContactCluster::expand(int body) {
   for (int p : table_.pairsOf(body)) {
     if (pair_joined_[at(p)] == number_) continue;
     pair_joined_[at(p)] = number_;
     const ClosestFeatures& closest = look(p);
-    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold) addPair(p, closest);
+    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold && !isInternal(p)) addPair(p, closest);
   }
 }
 
@@ -219,8 +237,7 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
       const ClosestFeatures& closest = look(p);
       const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
                             a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
-      if (closest.distance_m <= pair.window.ceiling &&
-          std::abs(closest.n_W.dot(relative) - approach_mps) <= -kSameApproach * approach_mps)
+      if (closest.distance_m <= pair.window.ceiling && sameApproach(closest.n_W.dot(relative), approach_mps))
         addPair(p, closest);
       else
         pair_joined_[at(p)] = 0;  // it may still join as a support

@@ -10,6 +10,13 @@
 
 namespace carom {
 
+/// Whether two approaches of one instant, m/s and negative, are one collision but for rounding: what is
+/// symmetric stays so.
+inline bool sameApproach(double separating_mps, double first_mps) {
+  constexpr double kSame = 1e-6;
+  return std::abs(separating_mps - first_mps) <= kSame * std::abs(first_mps);
+}
+
 class ContactCluster {
  public:
   struct Member {
@@ -87,6 +94,7 @@ class ContactCluster {
   int join(int body);
   const ClosestFeatures& look(int pair);
   void addPair(int pair, const ClosestFeatures& closest);
+  bool isInternal(int pair);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
   void joinSimultaneous(double approach_mps);

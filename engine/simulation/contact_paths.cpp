@@ -49,7 +49,7 @@ class ContactPaths {
   void forPairs(const Work& work) {
     const std::vector<LastingContacts::PairRows>& all = contacts_.pair_rows;
     world_.crew.runStretches(all.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) work(world_.pairs[at(all[k].pair)], all[k]);
+      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(all[k].pair)], all[k]);
     });
   }
 
@@ -68,7 +68,7 @@ class ContactPaths {
       if (!contacts_.touched[i]) return;
       Velocity& mean = contacts_.paths[i].velocity;
       mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
-      mean.angular = 0.5 * (world_.bodies[i].velocity.angular + mean.angular);
+      mean.angular = meanSpin(world_.bodies[i], contacts_.half_turns[i], mean.angular, step_s_);
     });
   }
 
@@ -152,7 +152,12 @@ class ContactPaths {
     forBodies([&](std::size_t i) {
       if (!contacts_.touched[i]) return;
       bodies[i].travel = Travel::kCarried;
-      driveEvenly(bodies[i], {bodies[i].velocity, contacts_.bodies[i].velocity, step_s_});
+      const HalfTurn& half = contacts_.half_turns[i];
+      const Velocity& after = contacts_.bodies[i].velocity;
+      driveEvenly(bodies[i], {bodies[i].velocity,
+                              {after.linear - bodies[i].velocity.linear, after.angular - half.spin},
+                              half.R_WB,
+                              step_s_});
     });
     const std::vector<char> bends = findBends();
     forBodies([&](std::size_t i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,8 @@
 namespace carom {
 namespace {
 
+constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
+
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -20,7 +23,9 @@ std::size_t at(int i) {
 // The time up to which a pair's gap is proven: there it must be looked at again, if its bodies still travel
 // as they did when it was predicted.
 struct Event {
-  double time_s = 0.0;
+  std::int64_t instant = 0;     // its time, as the events are ordered
+  bool looked = false;          // then it is an impact or a stop at that time, and parts ...
+  double separating_mps = 0.0;  // ... so fast
   int pair = -1;
   int version = 0;
 };
@@ -29,14 +34,17 @@ struct Event {
 // because another event gives one of the bodies a new path.
 struct Prediction {
   int version = 0;
-  bool looked = false;  ///< And what was found not taken up yet.
+  bool looked = false;  ///< At least once.
   ImpactSearch search;
   TimeOfImpact found;
 };
 
+// Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
+// is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
   bool operator()(const Event& x, const Event& y) const {
-    return std::tie(x.time_s, x.pair) > std::tie(y.time_s, y.pair);
+    return std::tie(x.instant, x.looked, x.separating_mps, x.pair) >
+           std::tie(y.instant, y.looked, y.separating_mps, y.pair);
   }
 };
 
@@ -44,7 +52,7 @@ class EventLoop {
  public:
   EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
             const FlightPlanner& planner, const WorldSettings& settings, Crew& crew, StepCounters& counters,
-            PhaseClock* clock, StepView* view)
+            PhaseClock* clock, const StepWatchers& watchers)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
@@ -53,7 +61,7 @@ class EventLoop {
         crew_(crew),
         counters_(counters),
         clock_(clock),
-        view_(view),
+        watchers_(watchers),
         cluster_(bodies, shapes, table, settings, counters) {}
 
   std::vector<Pose> run() {
@@ -68,8 +76,12 @@ class EventLoop {
       events_.pop();
       const Prediction& prediction = predictions_[at(event.pair)];
       if (event.version != prediction.version) continue;
-      if (!prediction.looked) look(event.pair);
-      takeUp(event.pair);
+      if (event.looked) {
+        takeUpAllLike(event);
+        continue;
+      }
+      look(event.pair);
+      await(event.pair);
     }
     return std::move(ends_);
   }
@@ -91,9 +103,7 @@ class EventLoop {
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
-      if (prediction.found.outcome == TimeOfImpact::Outcome::kClear) continue;
-      events_.push({prediction.found.time_s, static_cast<int>(i), prediction.version});
-      prediction.looked = prediction.found.outcome != TimeOfImpact::Outcome::kPending;
+      await(static_cast<int>(i));
     }
   }
 
@@ -125,7 +135,31 @@ class EventLoop {
     if (!mayMeet(index)) return;
     const double begin_s = beginOf(table_.pairs()[at(index)]);
     beginSearch(index, closestAt(index, begin_s));
-    events_.push({begin_s, index, version});
+    events_.push({instantOf(begin_s), false, 0.0, index, version});
+  }
+
+  std::int64_t instantOf(double time_s) const {
+    return static_cast<std::int64_t>(time_s / settings_.step_s * kInstants);
+  }
+
+  // What a look has found, in the order of the events.
+  void await(int index) {
+    const Prediction& prediction = predictions_[at(index)];
+    const TimeOfImpact& found = prediction.found;
+    if (found.outcome == TimeOfImpact::Outcome::kClear) return;
+    const bool pending = found.outcome == TimeOfImpact::Outcome::kPending;
+    const double separating = pending ? 0.0 : separatingSpeedAt(index, found);
+    events_.push({instantOf(found.time_s), !pending, separating, index, prediction.version});
+  }
+
+  double separatingSpeedAt(int index, const TimeOfImpact& found) const {
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const auto velocityOf = [&](const Body& body, const Vec3& p_W) {
+      const Velocity v{body.path.velocityAt(found.time_s), body.path.angularVelocityAt(found.time_s)};
+      return v.at(p_W - body.path.positionAt(found.time_s));
+    };
+    return found.closest.n_W.dot(velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
+                                 velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W));
   }
 
   // Carries the search of a pair on by one look.
@@ -145,16 +179,20 @@ class EventLoop {
     counters_.newton_steps += predictions_[at(index)].found.newton_steps - newton_steps;
   }
 
-  // What a look has found: it goes on later, or is resolved.
-  void takeUp(int index) {
-    Prediction& prediction = predictions_[at(index)];
-    const TimeOfImpact& found = prediction.found;
-    if (found.outcome == TimeOfImpact::Outcome::kClear) return;
-    if (found.outcome == TimeOfImpact::Outcome::kPending) {
-      prediction.looked = false;
-      events_.push({found.time_s, index, prediction.version});
-      return;
+  // The event and those of its instant and speed: what one of them sets in motion comes after all of them.
+  void takeUpAllLike(const Event& first) {
+    alike_.assign(1, first);
+    while (!events_.empty() && events_.top().instant == first.instant && events_.top().looked &&
+           sameApproach(events_.top().separating_mps, first.separating_mps)) {
+      alike_.push_back(events_.top());
+      events_.pop();
     }
+    for (const Event& event : alike_)
+      if (event.version == predictions_[at(event.pair)].version) takeUp(event.pair);
+  }
+
+  void takeUp(int index) {
+    const TimeOfImpact& found = predictions_[at(index)].found;
     ++counters_.events;
     counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     resolve(index, found);
@@ -196,7 +234,7 @@ class EventLoop {
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
-    if (view_ != nullptr) recordCollision(bodies_, cluster_, time_s, *view_);
+    if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, time_s, *watchers_.view);
     changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
     if (supports) {
@@ -225,6 +263,7 @@ class EventLoop {
   void bring(int index, double time_s) {
     Body& body = bodies_[at(index)];
     if (body.path.start_s == time_s) return;
+    if (watchers_.paths != nullptr) watchers_.paths->add(at(index), body, time_s);
     const Pose X_WB = body.path.at(time_s);
     body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
     body.path.velocity = body.path.velocityAt(time_s);
@@ -252,7 +291,7 @@ class EventLoop {
       if (!is_as_searched) changed_.push_back(member.body);
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
-        if (rest > 0.0) driveEvenly(body, {body.momentum_velocity, cluster_.end(i), rest});
+        if (rest > 0.0) drive(body, cluster_.end(i), rest);
         continue;
       }
       if (keeps_path) {
@@ -267,7 +306,7 @@ class EventLoop {
       } else {
         const Velocity& end = cluster_.end(i);
         body.travel = Travel::kCarried;
-        driveEvenly(body, {body.momentum_velocity, end, rest});
+        drive(body, end, rest);
         carryAlong(body,
                    {0.5 * (body.momentum_velocity.linear + end.linear),
                     0.5 * (body.momentum_velocity.angular + end.angular)},
@@ -277,6 +316,15 @@ class EventLoop {
     }
   }
 
+  // To `end`, by the tensor of the path's start.
+  static void drive(Body& body, const Velocity& end, double rest_of_step_s) {
+    const Velocity& begin = body.momentum_velocity;
+    driveEvenly(body, {begin,
+                       {end.linear - begin.linear, end.angular - begin.angular},
+                       body.path.X_WB.rotation,
+                       rest_of_step_s});
+  }
+
   static bool goesStraight(const Body& body) {
     return body.travel == Travel::kCarried && body.path.acceleration.isZero(0.0);
   }
@@ -284,7 +332,7 @@ class EventLoop {
   // Straight on to where its path led, with the momentum and the forces that it has now.
   void keepPath(Body& body, std::size_t member, double rest_of_step_s) {
     body.travel = Travel::kCarried;
-    driveEvenly(body, {body.momentum_velocity, cluster_.end(member), rest_of_step_s});
+    drive(body, cluster_.end(member), rest_of_step_s);
     carryAlong(body, cluster_.path(member), rest_of_step_s, false);
   }
 
@@ -356,20 +404,21 @@ class EventLoop {
   Crew& crew_;
   StepCounters& counters_;
   PhaseClock* clock_;
-  StepView* view_;
+  StepWatchers watchers_;
   ContactCluster cluster_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
   std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
   std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
+  std::vector<Event> alike_;  ///< Scratch.
 };
 
 }  // namespace
 
 std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                             const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, StepView* view) {
-  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, view).run();
+                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers) {
+  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers).run();
 }
 
 }  // namespace carom

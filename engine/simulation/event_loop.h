@@ -7,15 +7,21 @@
 
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
+#include "engine/simulation/step_paths.h"
 #include "engine/simulation/step_view.h"
 
 namespace carom {
 
+/// Who is told of a step, each unless null.
+struct StepWatchers {
+  StepView* view = nullptr;    ///< Of the collisions.
+  StepPaths* paths = nullptr;  ///< Of the paths that events have ended.
+};
+
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
-/// where it began, if lower) throughout. `view`, unless null, is told of the collisions. Returns where the
-/// bodies' paths end.
+/// where it began, if lower) throughout. Returns where the bodies' paths end.
 std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
                             const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, StepView* view);
+                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers);
 
 }  // namespace carom

@@ -76,9 +76,9 @@ void FlightPlanner::plan(int index, Body& body) const {
   path.turnAt(flight.spin);
 }
 
-void FlightPlanner::takeContacts(Body& body, const Velocity& change) const {
+void FlightPlanner::takeContacts(Body& body, const Velocity& change, const Quat& R_WB) const {
   body.contact_force = body.inertia.mass_kg / step_s_ * change.linear;
-  body.contact_torque = angularMomentum(body.inertia, body.path.X_WB.rotation, change.angular) / step_s_;
+  body.contact_torque = angularMomentum(body.inertia, R_WB, change.angular) / step_s_;
 }
 
 void FlightPlanner::leaveContacts(int index, Body& body) const {

@@ -29,8 +29,9 @@ class FlightPlanner {
   /// May be called for several bodies at the same time. Plans body `index` from `path.start_s` with its
   /// momentum velocity, to the end of the step.
   void plan(int index, Body& body) const;
-  /// Remembers what the step's lasting contacts changed of the velocity, for the next plan.
-  void takeContacts(Body& body, const Velocity& change) const;
+  /// Remembers what the step's lasting contacts changed of the velocity, its angular part by the tensor of
+  /// `R_WB`, for the next plan.
+  void takeContacts(Body& body, const Velocity& change, const Quat& R_WB) const;
   /// For a body that no contact presses: plans it anew where its plan foresaw some.
   void leaveContacts(int index, Body& body) const;
   /// What the environment gives a body from `path.start_s` to the end of the step.

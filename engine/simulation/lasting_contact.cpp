@@ -182,7 +182,6 @@ void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Cre
 // as if something held them.
 void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
                      const FlightPlanner& planner) {
-  if (planner.isVacuum()) return;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].moves()) continue;
     if (!contacts.touched[i]) {
@@ -192,7 +191,8 @@ void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
     const Velocity gained = planner.gained(bodies[i]);
     planner.takeContacts(bodies[i],
                          {contacts.bodies[i].velocity.linear - bodies[i].velocity.linear - gained.linear,
-                          contacts.bodies[i].velocity.angular - bodies[i].velocity.angular - gained.angular});
+                          contacts.bodies[i].velocity.angular - contacts.half_turns[i].spin - gained.angular},
+                         contacts.half_turns[i].R_WB);
   }
 }
 
@@ -201,7 +201,7 @@ void remember(const LastingContacts& contacts, const LastingWorld& world) {
   world.crew.runStretches(contacts.pair_rows.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const LastingContacts::PairRows& of_pair = contacts.pair_rows[k];
-      ShapePair& pair = world.pairs[at(of_pair.pair)];
+      ShapePair& pair = world.table.pairs()[at(of_pair.pair)];
       for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
         const ContactRow& row = contacts.rows[i];
         const Vec3 impulse_W = rowImpulse(row, row.impulse);

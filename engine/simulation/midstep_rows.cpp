@@ -9,29 +9,35 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-Vec3 relativeVelocity(const ContactRow& row, std::span<const ImpulseBody> bodies) {
-  return bodies[at(row.b)].velocity.at(row.r_b) - bodies[at(row.a)].velocity.at(row.r_a);
-}
+// A body as it begins its step, and as its own spin has turned it in the middle.
+struct Half {
+  const Body& body;
+  const HalfTurn& turn;
+  const Shape& shape;
 
-// By how much turning may change the velocity at a contact in mid-step, m/s.
-double turningChange(const Velocity& a, const Velocity& b, const Shape& shape_a, const Shape& shape_b,
-                     double half_step_s) {
-  const double spin_a = a.angular.norm();
-  const double spin_b = b.angular.norm();
-  const double slide = (b.linear - a.linear).norm();
-  return half_step_s * (spin_a * (spin_a * shape_a.reach_m + 2.0 * slide) +
-                        spin_b * (spin_b * shape_b.reach_m + 2.0 * slide));
-}
+  Velocity velocity() const { return {body.velocity.linear, turn.spin}; }
+  // By how much turning may change a point's velocity until then, seen from what slides past it.
+  double change(double slide_mps, double half_step_s) const {
+    const double spin = body.velocity.angular.norm();
+    return half_step_s * spin * (spin * shape.reach_m + 2.0 * slide_mps) +
+           (turn.spin - body.velocity.angular).norm() * shape.reach_m;
+  }
+  Pose pose(const Pose& X, double half_step_s) const {
+    const Vec3 spin = turn.tumbles ? Vec3(Vec3::Zero()) : body.velocity.angular;
+    Pose later = Trajectory{0.0, X, body.velocity.linear, Vec3::Zero(), spin}.at(half_step_s);
+    if (turn.tumbles) later.rotation = turn.R_WB;
+    return later;
+  }
+};
 
-Pose poseAfter(const Pose& X, const Velocity& v, double dt_s) {
-  return Trajectory{0.0, X, v.linear, Vec3::Zero(), v.angular}.at(dt_s);
+Vec3 relativeVelocity(const ContactRow& row, const Velocity& a, const Velocity& b) {
+  return b.at(row.r_b) - a.at(row.r_a);
 }
 
 // The row where its point is in mid-step.
-void takePlace(const SourcedRow& later, std::span<const ImpulseBody> bodies, double most_mps,
-               SourcedRow& sourced) {
-  const Vec3 before = relativeVelocity(sourced.row, bodies);
-  const Vec3 after = relativeVelocity(later.row, bodies);
+void takePlace(const SourcedRow& later, const Half& a, const Half& b, double most_mps, SourcedRow& sourced) {
+  const Vec3 before = relativeVelocity(sourced.row, a.body.velocity, b.body.velocity);
+  const Vec3 after = relativeVelocity(later.row, a.velocity(), b.velocity());
   Vec3 change = after - before;
   const double normal_change = later.row.n.dot(after) - sourced.row.n.dot(before);
   if (std::max(change.norm(), std::abs(normal_change)) > most_mps) return;  // another place than before
@@ -50,17 +56,20 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
                    const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                    std::span<const ImpulseBody> solver_bodies, std::span<SourcedRow> rows,
                    StepCounters& counters) {
-  const Shape& a = shapes[at(pair.shapes.a)];
-  const Shape& b = shapes[at(pair.shapes.b)];
-  const Velocity& v_a = solver_bodies[at(request.row_a)].velocity;
-  const Velocity& v_b = solver_bodies[at(request.row_b)].velocity;
-  const double most = turningChange(v_a, v_b, a, b, mid.half_step_s);
+  const auto halfOf = [&](int body, int shape) {
+    return Half{bodies[at(body)], mid.half_turns[at(body)], shapes[at(shape)]};
+  };
+  const Half a = halfOf(pair.body_a, pair.shapes.a);
+  const Half b = halfOf(pair.body_b, pair.shapes.b);
+  const double slide = (b.body.velocity.linear - a.body.velocity.linear).norm();
+  const double most = a.change(slide, mid.half_step_s) + b.change(slide, mid.half_step_s);
   if (!(most > mid.noticed_mps)) return;
   RowRequest later = request;
-  later.X_WA = poseAfter(request.X_WA, v_a, mid.half_step_s);
-  later.X_WB = poseAfter(request.X_WB, v_b, mid.half_step_s);
+  later.X_WA = a.pose(request.X_WA, mid.half_step_s);
+  later.X_WB = b.pose(request.X_WB, mid.half_step_s);
   FeaturePair tracked = pair.tracked;
-  const ClosestFeatures closest = closestFeatures(*a.part, later.X_WA, *b.part, later.X_WB, tracked);
+  const ClosestFeatures closest =
+      closestFeatures(*a.shape.part, later.X_WA, *b.shape.part, later.X_WB, tracked);
   ++counters.distance_queries;
   if (!(closest.distance_m > 0.0)) return;
   later.closest = &closest;
@@ -72,7 +81,7 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
   for (SourcedRow& row : rows) {
     const auto same =
         std::find_if(there.begin(), there.end(), [&](const SourcedRow& s) { return s.id == row.id; });
-    if (same != there.end()) takePlace(*same, solver_bodies, most, row);
+    if (same != there.end()) takePlace(*same, a, b, most, row);
   }
 }
 

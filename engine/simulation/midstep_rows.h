@@ -9,13 +9,15 @@
 #include <span>
 
 #include "engine/simulation/contact_rows.h"
+#include "engine/simulation/half_turn.h"
 
 namespace carom {
 
 /// How far ahead the middle of the step is, and what turning is worth a look there.
 struct MidStep {
   double half_step_s = 0.0;
-  double noticed_mps = 0.0;  ///< Speed by which a contact's arms change in half a step.
+  double noticed_mps = 0.0;              ///< Speed by which a contact's arms change in half a step.
+  std::span<const HalfTurn> half_turns;  ///< Of the world's bodies.
 };
 
 /// Moves the rows of one pair, as `appendRows` made them for `request`, to mid-step, where the velocities of

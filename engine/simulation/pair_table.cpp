@@ -72,7 +72,7 @@ double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, co
 
 // Room for the collision window, and for what contacts may do to the velocity within the step.
 double pairingMargin(const Shape& shape) {
-  return 2.0 * tolerance::kManifoldHeight * std::min(shape.part->width(), tolerance::kWindowLargestScale);
+  return 2.0 * tolerance::kManifoldHeight * std::min(shape.width_m, tolerance::kWindowLargestScale);
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&
   const Shape& b = shapes[at(shapes_of_pair.b)];
   pair.body_a = a.body;
   pair.body_b = b.body;
-  pair.window = collisionWindow(*a.part, *b.part);
+  pair.window = collisionWindow(std::min(a.width_m, b.width_m));
   pair.restitution = combinedRestitution(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
   pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
   return pair;

@@ -15,6 +15,7 @@
 #include "engine/simulation/pair_table.h"
 #include "engine/simulation/start_poses.h"
 #include "engine/simulation/state_hash.h"
+#include "engine/simulation/step_paths.h"
 #include "engine/simulation/step_record.h"
 
 namespace carom {
@@ -91,6 +92,9 @@ struct World::Impl {
   Crew crew;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
+  StepPaths paths;
+  bool keeps_paths = false;
+  int step_of_paths = 0;  ///< How many steps had been made when they were kept last; 0: never.
   int steps = 0;
   bool started = false;
 
@@ -104,6 +108,7 @@ struct World::Impl {
   bool pathsLeaveBounds(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
   void endPath(Body& body, const Pose& end) const;
+  void keepLastPieces();
   void finishStep(const std::vector<Pose>& ends, PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
@@ -117,9 +122,12 @@ struct World::Impl {
 // Parts are referred to by address, so shapes are made once no solid is added any more.
 void World::Impl::makeShapes() {
   shapes.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const ConvexPart& part : solids[at(descriptions[i].solid)].parts())
-      shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero())});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Solid& solid = solids[at(descriptions[i].solid)];
+    const double width = bodies[i].is_static ? std::numeric_limits<double>::infinity() : solid.width();
+    for (const ConvexPart& part : solid.parts())
+      shapes.push_back({static_cast<int>(i), &part, part.core.radiusAbout(Vec3::Zero()), width});
+  }
 }
 
 // Every body starts the step as if it were in flight.
@@ -158,7 +166,7 @@ bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
 
 void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  solveLastingContacts({bodies, shapes, table.pairs(), substep, crew}, planner, counters, contacts);
+  solveLastingContacts({bodies, shapes, table, substep, crew}, planner, counters, contacts);
 }
 
 // The body where its path ends.
@@ -175,6 +183,12 @@ void World::Impl::endPath(Body& body, const Pose& end) const {
   if (!body.kept_angular_momentum)
     body.kept_angular_momentum = angularMomentum(body.inertia, rotation_before, spin_before);
   body.velocity.angular = angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum);
+}
+
+// How the bodies moved from their last events to the substep's end.
+void World::Impl::keepLastPieces() {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves()) paths.add(i, bodies[i], substep.step_s);
 }
 
 // The state at the step's end, and the closest features there.
@@ -360,8 +374,10 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   if (pathsLeaveBounds(clock)) findPairs(clock);
 
   // Advance from one time of impact to the next.
+  const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
   const std::vector<Pose> ends =
-      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, view);
+      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, watchers);
+  if (keeps_paths) keepLastPieces();
   finishStep(ends, clock);
 
   // Modes.
@@ -443,13 +459,16 @@ void World::step(PhaseClock* clock) {
   w.planSubstep(time(), w.settings.step_s, clock);
   w.divideStep(w.substepsWanted());
   const double length_s = w.settings.step_s / w.substeps;
+  if (w.keeps_paths) w.paths.beginStep(w.bodies.size(), w.substeps, length_s);
   for (int k = 0; k < w.substeps; ++k) {
     const double begin_s = time() + k * length_s;
     if (w.substeps > 1) w.planSubstep(begin_s, length_s, clock);
+    if (w.keeps_paths) w.paths.beginSubstep(k);
     w.makeSubstep(begin_s, clock);
   }
   w.publish();
   ++w.steps;
+  if (w.keeps_paths) w.step_of_paths = w.steps;
   w.planner.beginStep(time(), w.substep.step_s);
   if (w.view != nullptr) recordPairs({w.bodies, w.shapes, w.table, time()}, *w.view);
 }
@@ -460,6 +479,19 @@ void World::watch(StepView* view) {
   *view = StepView{};
   view->begin_s = time();
   recordPairs({impl_->bodies, impl_->shapes, impl_->table, time()}, *view);
+}
+
+void World::keepPaths(bool keep) {
+  impl_->keeps_paths = keep;
+}
+
+void World::statesWithin(double share, std::vector<BodyState>& states) const {
+  const Impl& w = *impl_;
+  REQUIRE(share >= 0.0 && share <= 1.0, share);
+  REQUIRE(w.steps > 0 && w.step_of_paths == w.steps, w.step_of_paths, w.steps);
+  states.resize(w.states.size());
+  for (std::size_t i = 0; i < states.size(); ++i)
+    states[i] = w.paths.stateAt(i, w.bodies[i].inertia, share, w.states[i]);
 }
 
 double World::time() const {

@@ -124,6 +124,13 @@ class World {
   /// changes no bit of the outcome; null: nothing is told any more. `view` must outlive that.
   void watch(StepView* view);
 
+  /// From now on the bodies' paths through each step are kept for `statesWithin`, or not any more, which
+  /// changes no bit of the outcome.
+  void keepPaths(bool keep);
+  /// The bodies `share`, in [0, 1], of the way through the last step, whose paths were kept: on the paths
+  /// that keep every gap > 0, with the modes of the step's end.
+  void statesWithin(double share, std::vector<BodyState>& states) const;
+
   double time() const;
   int stepCount() const;
   const WorldSettings& settings() const;

@@ -1,6 +1,7 @@
 #include "engine/solid/solid.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/foundation/contract.h"
 
@@ -12,6 +13,27 @@ MassProperties partMass(const ConvexPart& part) {
   if (part.core.faceCount() == 0 && !(part.radius_m > 0.0))
     throw InputError("a ball or capsule needs a positive radius");
   return roundedMass(part.core, part.radius_m);
+}
+
+double extentAlong(const std::vector<ConvexPart>& parts, const Vec3& direction) {
+  double high = -std::numeric_limits<double>::infinity();
+  double low = std::numeric_limits<double>::infinity();
+  for (const ConvexPart& part : parts) {
+    high = std::max(high, direction.dot(part.core.vertex(part.core.support(direction))) + part.radius_m);
+    low = std::min(low, direction.dot(part.core.vertex(part.core.support(-direction))) - part.radius_m);
+  }
+  return high - low;
+}
+
+double widthOf(const std::vector<ConvexPart>& parts) {
+  if (parts.size() == 1) return parts.front().width();
+  double width = std::numeric_limits<double>::infinity();
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())})
+    width = std::min(width, extentAlong(parts, axis));
+  for (const ConvexPart& part : parts)
+    for (int f = 0; f < part.core.faceCount(); ++f)
+      width = std::min(width, extentAlong(parts, part.core.plane(f).normal));
+  return width;
 }
 
 }  // namespace
@@ -29,6 +51,7 @@ Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
     radius_m_ = std::max(radius_m_, part.core.radiusAbout(Vec3::Zero()) + part.radius_m);
   }
   mass_.center = Vec3::Zero();
+  width_m_ = widthOf(parts_);
 }
 
 Solid Solid::box(const Vec3& size_m) {

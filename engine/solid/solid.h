@@ -17,7 +17,7 @@ struct ConvexPart {
   ConvexPolyhedron core;
   double radius_m = 0.0;
 
-  /// The smallest width of the part, metres: the scale of its collision window.
+  /// The smallest width of the part, metres.
   double width() const { return core.width() + 2.0 * radius_m; }
 };
 
@@ -45,12 +45,16 @@ class Solid {
   const Vec3& origin_B() const { return origin_B_; }
   /// The largest distance of any point of the solid from its centre of mass, metres.
   double radius() const { return radius_m_; }
+  /// The least extent of the solid, metres, of those along its parts' faces' normals and the axes of B: the
+  /// scale of its collision window. Of one part its smallest width.
+  double width() const { return width_m_; }
 
  private:
   std::vector<ConvexPart> parts_;
   MassProperties mass_;
   Vec3 origin_B_ = Vec3::Zero();
   double radius_m_ = 0.0;
+  double width_m_ = 0.0;
 };
 
 /// The vertices and outward faces of a box centred at the origin.

@@ -58,15 +58,5 @@ TEST(FrameClock, AStillIsOneFrameAtExactlyItsTime) {
   EXPECT_EQ(FrameClock::still(0.0, 240.0).instant(0).lastStepNeeded(), 0);
 }
 
-TEST(FrameClock, InterpolatesAlongTheLineAndTheShortestArc) {
-  const Pose a{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())), Vec3(1.0, 2.0, 3.0)};
-  const Quat quarter_on(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));
-  const Pose b{Quat(-quarter_on.coeffs()), Vec3(2.0, 0.0, 3.5)};  // the other sign of the same rotation
-  const Pose middle = interpolated(a, b, 0.25);
-  EXPECT_LT((middle.position - Vec3(1.25, 1.5, 3.125)).norm(), 1e-15);
-  EXPECT_LT(middle.rotation.angularDistance(Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))), 1e-14);
-  EXPECT_EQ(interpolated(a, b, 0.0).position, a.position);
-}
-
 }  // namespace
 }  // namespace carom::demos

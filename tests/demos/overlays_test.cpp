@@ -366,7 +366,7 @@ TEST_F(Block, BodiesOfTheFrameHideWhatIsBehindThem) {
   EXPECT_GT(behind, 8) << "faint, not absent";
 }
 
-// Between two steps the poses shown are interpolated ones: the witnesses must be of those.
+// Between two steps the poses shown are none that a step ended with: the witnesses must be of those.
 TEST(ClosestOverlay, FollowsThePosesShownBetweenTwoSteps) {
   const ShownOverlays run(findScene("contact-vertex-face"), "closest", 7, "", 37.0);
   ASSERT_GT(run.clock.instant(7).fraction, 0.0);
