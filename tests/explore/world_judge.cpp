@@ -33,7 +33,7 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
   keeps_energy_ = dry && (!(air.density_kgpm3 > 0.0) || air.wind.isZero(0.0));
   keeps_momentum_ = dry && !(air.density_kgpm3 > 0.0) && bodies_.size() == world.bodies().size();
   checkMasses();
-  lookForOverlap(world.states(), 0);
+  lookForOverlap(world.states(), "overlap", 0);
 }
 
 bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& counters, int step) {
@@ -42,7 +42,7 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
     findings_.add("nan", 1.0, step, "a state is not finite");
     return false;
   }
-  lookForOverlap(states, step);
+  lookForOverlap(states, "overlap", step);
   const Mechanics now = mechanicsOf(bodies_, states, world_.settings().gravity);
   if (keeps_energy_) {
     const EnergyWatch::Gain gain = energy_.after(now, flight_.after(states, step, findings_));
@@ -52,6 +52,10 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
   if (keeps_momentum_) checkMomentum(now, step);
   glide_.look(states, step, findings_);
   return true;
+}
+
+void WorldJudge::lookBetween(std::span<const BodyState> states, int step) {
+  if (allFinite(states)) lookForOverlap(states, "overlap-between", step);
 }
 
 void WorldJudge::conclude(int step) {
@@ -73,12 +77,12 @@ void WorldJudge::checkMasses() {
   }
 }
 
-void WorldJudge::lookForOverlap(std::span<const BodyState> states, int step) {
+void WorldJudge::lookForOverlap(std::span<const BodyState> states, const char* kind, int step) {
   const std::optional<Meeting> meeting = apart_.deepest(states);
   if (!meeting) return;
   const auto name = [this](int body) { return scene_.bodies[static_cast<std::size_t>(body)].name; };
   findings_.add(
-      "overlap", meeting->depth_m, step,
+      kind, meeting->depth_m, step,
       name(meeting->body_a) + " and " + name(meeting->body_b) + " by " + shown(meeting->depth_m) + " m");
 }
 

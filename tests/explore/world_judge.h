@@ -30,6 +30,8 @@ class WorldJudge {
 
   /// After step number `step`, from 1 on. False when nothing more can be said: a state is not finite.
   bool look(std::span<const BodyState> states, const StepCounters& counters, int step);
+  /// At an instant within that step, before `look`.
+  void lookBetween(std::span<const BodyState> states, int step);
   /// At the end of the run.
   void conclude(int step);
 
@@ -38,7 +40,7 @@ class WorldJudge {
 
  private:
   void checkMasses();
-  void lookForOverlap(std::span<const BodyState> states, int step);
+  void lookForOverlap(std::span<const BodyState> states, const char* kind, int step);
   void count(const StepCounters& counters, int step);
   void checkMomentum(const Mechanics& now, int step);
 

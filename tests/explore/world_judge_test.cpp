@@ -126,6 +126,15 @@ TEST(WorldJudge, SeesOverlapsAndNoNumbers) {
   const auto overlap = of(judged(kFalling, sunk), "overlap");
   ASSERT_TRUE(overlap);
   EXPECT_NEAR(overlap->figure, 1e-9, 1e-12);
+  const demos::Scene scene = demos::parseScene(kFalling, "planted.json");
+  const World world = std::move(demos::makeSceneWorld(scene, {}).world);
+  WorldJudge judge(scene, world);
+  std::vector<BodyState> within(world.states().begin(), world.states().end());
+  judge.lookBetween(within, 1);
+  EXPECT_TRUE(judge.findings().list().empty());
+  within[1].X_WB.position.z() = 0.4;
+  judge.lookBetween(within, 1);
+  EXPECT_TRUE(of(judge.findings().list(), "overlap-between"));
   const auto none = [](std::vector<BodyState>& s, StepCounters&) {
     s[1].linear_velocity.x() = std::numeric_limits<double>::quiet_NaN();
   };

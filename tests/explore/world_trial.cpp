@@ -1,11 +1,21 @@
 #include "tests/explore/world_trial.h"
 
+#include <array>
+#include <cmath>
+
 #include "demos/scene_world.h"
 #include "demos/shape_solid.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::explore {
 namespace {
+
+/// Two instants of a step, others in each: multiples of the golden ratio lie evenly.
+std::array<double, 2> sharesOf(int step) {
+  const double turns = 0.6180339887498949 * step;
+  const double share = turns - std::floor(turns);
+  return {0.5 * share, 0.5 + 0.5 * share};
+}
 
 class WorldTrial {
  public:
@@ -36,9 +46,15 @@ class WorldTrial {
   void runSteps() {
     World world = makeWorld(1);
     WorldJudge judge(scene_, world);
+    world.keepPaths(true);
+    std::vector<BodyState> between;
     const int steps = stepsOf(scene_);
     for (step_ = 1; step_ <= steps; ++step_) {
       stepOnce(world);
+      for (const double share : sharesOf(step_)) {
+        world.statesWithin(share, between);
+        judge.lookBetween(between, step_);
+      }
       if (!judge.look(world.states(), world.audit().last_step, step_)) break;
     }
     judge.conclude(steps);
