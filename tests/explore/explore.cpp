@@ -35,6 +35,9 @@ struct Failure {
   Finding finding;
 };
 
+constexpr double kFrozenBar = 1e-3;        // of the body-steps of a family ...
+constexpr long kTellingBodySteps = 10000;  // ... that has so many: ten bodies for a step
+
 /// Of a kind and family.
 struct Tally {
   int seen = 0;
@@ -79,7 +82,11 @@ class Explorer {
 
   int repeatScene() {
     const demos::Scene scene = demos::readSceneFile(options_.scene);
-    return repeat(guardedScene(scene, options_.scene.stem().string(), true));
+    const std::string name = options_.scene.stem().string();
+    const SeedReport report = guardedScene(scene, name, true);
+    const int code = repeat(report);
+    for (const Finding& finding : report.outcome.findings) shrinkScene({0, name, finding}, scene);
+    return code;
   }
 
   int repeatSeed() {
@@ -154,6 +161,12 @@ class Explorer {
   }
 
   int conclude() {
+    for (const auto& [family, sums] : frozen_) {
+      const double share = static_cast<double>(sums.first) / static_cast<double>(std::max(1L, sums.second));
+      if (sums.second >= kTellingBodySteps && share > kFrozenBar)
+        takeFinding(
+            {options_.from, family, {"frozen-total", share, 0, "of the body-steps of all its seeds"}});
+    }
     std::cout << '\n'
               << reports_ << " runs, " << cpu_s_ << " s of CPU time ("
               << 1e3 * cpu_s_ / static_cast<double>(std::max(1L, reports_)) << " ms each; longest "
@@ -194,23 +207,34 @@ class Explorer {
     std::cout << titleOf(failure) << std::endl;
     if (options_.shrink <= 0) return;
     const std::string kind = failure.finding.kind;
-    std::string name = kind + "-" + failure.family;
-    std::replace(name.begin(), name.end(), ':', '-');
-    const std::filesystem::path file = options_.out / (name + "-" + std::to_string(failure.seed));
+    const std::filesystem::path file = fileFor(failure);
     if (failure.family == "queries") {
       save(file.string() + ".txt", queryText(shrunkQueries(randomQueries(failure.seed), kind)));
       std::cout << "  shrunk: " << file.string() << ".txt\n";
       return;
     }
-    if (failure.family.starts_with("case:")) return;  // is small already
-    const Trial trial = [&](const demos::Scene& scene) -> std::optional<Finding> {
+    if (failure.family.starts_with("case:") || kind == "frozen-total")
+      return;  // small already; of many seeds
+    shrinkScene(failure, randomWorld(failure.seed).scene);
+  }
+
+  std::filesystem::path fileFor(const Failure& failure) const {
+    const std::string number = failure.seed > 0 ? "-" + std::to_string(failure.seed) : "";
+    return options_.out / (failure.finding.kind + "-" + failure.family + number);
+  }
+
+  void shrinkScene(const Failure& failure, const demos::Scene& scene) const {
+    if (options_.shrink <= 0) return;
+    const std::string kind = failure.finding.kind;
+    const std::filesystem::path file = fileFor(failure);
+    const Trial trial = [&](const demos::Scene& smaller) -> std::optional<Finding> {
       const bool bits = kind == "replay" || kind == "threads";
-      for (const Finding& finding : guardedScene(readBack(scene), "", bits).outcome.findings)
+      for (const Finding& finding : guardedScene(readBack(smaller), "", bits).outcome.findings)
         if (finding.kind == kind) return finding;
       return std::nullopt;
     };
     const int trials = kind == "hang" ? options_.trials / 3 : options_.trials;
-    Shrunk shrunk = shrunkScene(randomWorld(failure.seed).scene, failure.finding, trial, trials);
+    Shrunk shrunk = shrunkScene(scene, failure.finding, trial, trials);
     std::ostringstream what;
     what << shrunk.scene.description << ", seed " << failure.seed << ": " << kind << ' '
          << std::setprecision(4) << shrunk.finding.figure << " at step " << shrunk.finding.step << " ("
