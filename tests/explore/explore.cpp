@@ -35,6 +35,7 @@ struct Failure {
   Finding finding;
 };
 
+constexpr long kProgressEvery = 500;       // runs
 constexpr double kFrozenBar = 1e-3;        // of the body-steps of a family ...
 constexpr long kTellingBodySteps = 10000;  // ... that has so many: ten bodies for a step
 
@@ -135,6 +136,8 @@ class Explorer {
   void take(const SeedReport& report) {
     ++reports_;
     cpu_s_ += report.cpu_s;
+    if (reports_ % kProgressEvery == 0)
+      std::cerr << reports_ << " runs, " << cpu_s_ << " s of CPU time" << std::endl;
     if (report.cpu_s > longest_.cpu_s) longest_ = report;
     const TrialTotals& t = report.outcome.totals;
     const std::string family = report.family.empty() ? familyOf(report.seed) : report.family;
@@ -194,6 +197,10 @@ class Explorer {
     for (const auto& [key, tally] : tallies_)
       for (std::size_t i = 0; i < tally.first.size() && i < static_cast<std::size_t>(options_.shrink); ++i)
         shrink(tally.first[i]);
+    for (const auto& [key, tally] : tallies_)
+      if (tally.beyond > 0)
+        std::cout << "to be mended, or listed with its cause: " << key.first << ' ' << key.second << ' '
+                  << std::setprecision(2) << 1.05 * tally.worst.finding.figure << " # ...\n";
     std::cout << '\n' << beyond << " failures, " << known << " more that are known (open.txt)\n";
     return beyond > 0 ? 1 : 0;
   }
