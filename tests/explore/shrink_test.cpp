@@ -18,7 +18,8 @@ demos::Scene manyBodies() {
   scene.duration_s = 1.0;
   for (int i = 0; i < 20; ++i) {
     demos::Body body;
-    body.name = "b" + std::to_string(i);
+    body.name = "b";
+    body.name += std::to_string(i);
     body.shape.form = demos::BoxShape{Vec3(0.123456789, 0.5, 0.25)};
     body.X_WS.position = Vec3(1.23456789 * i, 0, 0);
     body.X_WS.rotation = Quat(0.5, 0.5, 0.5, 0.5);
