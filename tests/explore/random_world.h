@@ -1,0 +1,23 @@
+#pragma once
+// The worlds of the explorer: a seed makes one of some families, each a kind of situation that has gone wrong
+// somewhere before. Sizes from 1e-3 to 100 m, speeds to 1e4 m/s, any gravity, rates 30 to 1000. Nothing
+// overlaps at the start unless a family says so. Tested in tests/explore/random_world_test.cpp.
+
+#include <cstdint>
+#include <string>
+
+#include "demos/scene.h"
+
+namespace carom::explore {
+
+struct ExploredWorld {
+  std::string family;
+  demos::Scene scene;  ///< Its duration is that of the run.
+};
+
+ExploredWorld randomWorld(std::uint64_t seed);
+
+/// Steps of a run: the scene's duration at its rate.
+int stepsOf(const demos::Scene& scene);
+
+}  // namespace carom::explore

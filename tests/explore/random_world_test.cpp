@@ -1,0 +1,52 @@
+// The worlds of the seeds: the same again, all families, none that overlaps at the start; and their text,
+// which reads back as what was written.
+
+#include "tests/explore/random_world.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/explore/scene_text.h"
+#include "tests/explore/world_trial.h"
+
+namespace carom::explore {
+namespace {
+
+TEST(RandomWorld, IsTheSameAgainAndItsTextReadsBack) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::string text = sceneText(randomWorld(seed).scene);
+    EXPECT_TRUE(text == sceneText(randomWorld(seed).scene)) << seed;
+    demos::Scene made = randomWorld(seed).scene, read = readBack(made);
+    EXPECT_EQ(stepsOf(read), stepsOf(made)) << seed;
+    for (std::size_t i = 0; i < made.bodies.size(); ++i) {
+      EXPECT_LT((read.bodies[i].X_WS.rotation.coeffs() - made.bodies[i].X_WS.rotation.coeffs()).norm(),
+                1e-15);
+      read.bodies[i].X_WS.rotation = made.bodies[i].X_WS.rotation;  // is made unit when it is read
+    }
+    EXPECT_TRUE(sceneText(read) == sceneText(made)) << seed;
+  }
+}
+
+TEST(RandomWorld, ComesInAllFamiliesAndKeepsItsLimits) {
+  std::set<std::string> families;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const ExploredWorld world = randomWorld(seed);
+    families.insert(world.family);
+    EXPECT_GE(stepsOf(world.scene), 30) << seed;
+    EXPECT_LE(stepsOf(world.scene), 120) << seed;
+    EXPECT_LE(world.scene.bodies.size(), 61u) << seed;
+    for (const demos::Body& body : world.scene.bodies) EXPECT_LE(body.linear_velocity.norm(), 1.03e4) << seed;
+  }
+  EXPECT_EQ(families.size(), 13u);
+}
+
+TEST(RandomWorld, DoesNotOverlapAtTheStart) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const auto meeting = overlapOfStart(randomWorld(seed).scene);
+    EXPECT_FALSE(meeting) << seed << ' ' << randomWorld(seed).family << ' ' << meeting->depth_m;
+  }
+}
+
+}  // namespace
+}  // namespace carom::explore
