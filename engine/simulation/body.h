@@ -31,8 +31,8 @@ struct StepMotion {
   Velocity momentum_velocity;        ///< At path.start_s.
   Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
   Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
-  // Of a body that contacts carry, in its own frame when it had the orientation that their impulses were
-  // solved for: its angular velocity before them, rad/s, and what they make of it, rad/s^2.
+  // The same of its rotation, in its own frame when it had the orientation that its forces were found for: the
+  // angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
 

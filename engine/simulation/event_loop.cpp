@@ -266,6 +266,7 @@ class EventLoop {
     if (watchers_.paths != nullptr) watchers_.paths->add(at(index), body, time_s);
     const Pose X_WB = body.path.at(time_s);
     body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
+    body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
     body.path.velocity = body.path.velocityAt(time_s);
     body.path.X_WB = X_WB;
     body.path.start_s = time_s;

@@ -50,6 +50,13 @@ bool FlightPlanner::isTouched(const Body& body, double rest_of_step_s) const {
 }
 
 void FlightPlanner::plan(int index, Body& body) const {
+  planPath(index, body);
+  const Quat to_body = body.path.X_WB.rotation.conjugate();
+  body.solved_spin_B = to_body * body.momentum_velocity.angular;
+  body.turning_B = body.inertia.inverse_tensor_B * (to_body * body.torque);
+}
+
+void FlightPlanner::planPath(int index, Body& body) const {
   Trajectory& path = body.path;
   const double dt = step_s_ - path.start_s;
   const Velocity& start = body.momentum_velocity;

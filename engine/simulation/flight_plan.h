@@ -48,6 +48,7 @@ class FlightPlanner {
   bool isVacuum() const { return environment_.isVacuum(); }
 
  private:
+  void planPath(int index, Body& body) const;
   bool isTouched(const Body& body, double rest_of_step_s) const;
   EnvironmentBody environmentBody(int index, const Body& body) const;
 

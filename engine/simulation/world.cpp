@@ -146,6 +146,8 @@ void World::Impl::planFlight(PhaseClock* clock) {
       body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
       body.acceleration.setZero();
       body.torque.setZero();
+      body.solved_spin_B.setZero();
+      body.turning_B.setZero();
       if (body.moves()) planner.plan(static_cast<int>(i), body);
     }
   });
