@@ -11,7 +11,7 @@ namespace carom {
 namespace {
 
 constexpr int kAdvances = 1000;        // proven intervals per search
-constexpr int kProposals = 80;         // tries per interval, each shorter than the last
+constexpr int kProposals = 16;         // tries per interval, each shorter than the last; then the sure one
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
     1e-10;                              // of the searched interval: less progress than this is standing still
@@ -21,6 +21,7 @@ constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an im
 constexpr double kStruckShare = 0.9;
 constexpr double kNextShare = 0.25;
 constexpr double kFloorSlack = 0.02;  // of the floor: this near to it, an approach has come to it
+constexpr long kQueryWork = 4;        // a query of closest features takes as long as so many poses
 constexpr int kFollowed = 16;         // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
@@ -95,8 +96,9 @@ class Look {
     const double clear = lands ? std::max(floor, target) : floor;
     const double curvature = curvatureBound({nullptr, c.n_W}, begin, whole);
     if (gap + (slowestSpeed(begin, c.n_W) - 0.5 * curvature * whole) * whole >= clear) return whole;
+    const double sure = sureInterval(gap - clear, slowestSpeed(begin, c.n_W), curvature, whole);
     Chord chord = bestChord(begin, c, whole, floor);
-    for (int i = 0; i < kProposals; ++i) {
+    for (int i = 0; i < kProposals && chord.interval > sure; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
         if (!lands || chord.end_gap >= (1.0 - kLandingSlack) * target) return chord.interval;
@@ -118,8 +120,11 @@ class Look {
         proposal *= 0.5;
       chord = chordAlong(chord.direction, begin, gap, proposal);
     }
-    return 0.0;
+    return sure;
   }
+
+  /// Poses that were evaluated, those of a body that tumbles as often as its integrator has parts.
+  long work() const { return work_; }
 
  private:
   // The gap along a direction at the end of an interval, and the least that it can be within it.
@@ -130,7 +135,20 @@ class Look {
     double lower_bound = -std::numeric_limits<double>::infinity();
   };
 
+  // So long a gap cannot lose `room` m whatever the parts do: it closes at most at this speed and
+  // acceleration.
+  static double sureInterval(double room, double slowest_mps, double curvature, double whole) {
+    if (!(room > 0.0)) return 0.0;
+    if (slowest_mps >= 0.0 && !(curvature > 0.0)) return whole;
+    const double root = std::sqrt(slowest_mps * slowest_mps + 2.0 * curvature * room);
+    // The larger root of room + slowest t - curvature t^2 / 2, by whichever form does not cancel.
+    const double sure =
+        slowest_mps < 0.0 ? 2.0 * room / (root - slowest_mps) : (slowest_mps + root) / curvature;
+    return std::min((1.0 - 1e-9) * sure, whole);
+  }
+
   Pose poseOf(const MovingPart& moving, double t) const {
+    work_ += 1 + (moving.path->tumbling.inertia != nullptr ? moving.path->tumbling.parts : 0);
     return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
   }
 
@@ -227,6 +245,7 @@ class Look {
   const ImpactSearch& search_;
   int support_a_ = 0;
   int support_b_ = 0;
+  mutable long work_ = 0;
 };
 
 }  // namespace
@@ -240,14 +259,15 @@ TimeOfImpact beginSearch(const ImpactSearch& search, const ClosestFeatures& at_b
   return found;
 }
 
-void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& search, TimeOfImpact& found,
-                 FeaturePair& tracked) {
+namespace {
+
+void lookOnce(Look& look, const MovingPart& a, const MovingPart& b, const ImpactSearch& search,
+              TimeOfImpact& found, FeaturePair& tracked) {
   if (found.looks++ > 0) {
     found.closest =
         closestFeatures(*a.part, a.path->at(found.time_s), *b.part, b.path->at(found.time_s), tracked);
     ++found.queries;
   }
-  Look look(a, b, search);
   const double gap = found.closest.distance_m;
   const double speed = look.separatingSpeedAt(found.time_s, found.closest);
   const bool fast = speed < -search.collision_speed_mps;
@@ -273,6 +293,16 @@ void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& s
   const bool last = interval >= search.end_s - found.time_s || found.time_s + interval >= search.end_s;
   found.time_s = last ? search.end_s : found.time_s + interval;
   found.outcome = last ? TimeOfImpact::Outcome::kClear : TimeOfImpact::Outcome::kPending;
+}
+
+}  // namespace
+
+void lookFurther(const MovingPart& a, const MovingPart& b, const ImpactSearch& search, TimeOfImpact& found,
+                 FeaturePair& tracked) {
+  Look look(a, b, search);
+  const int queries = found.queries;
+  lookOnce(look, a, b, search, found, tracked);
+  found.work += look.work() + kQueryWork * (found.queries - queries);
 }
 
 TimeOfImpact timeOfImpact(const MovingPart& a, const MovingPart& b, const ImpactSearch& search,

@@ -1,7 +1,8 @@
 #pragma once
 // The tolerances that decide what the simulation does, in one place and in order. A length written "per
-// metre" is multiplied by the smaller width of the bodies concerned that can move, at most one metre. Tolerances of one
-// algorithm (rounding of a slope, planarity of a face) stand in that algorithm's file with their reasons.
+// metre" is multiplied by the smaller width of the bodies concerned that can move, at most one metre.
+// Tolerances of one algorithm (rounding of a slope, planarity of a face) stand in that algorithm's file with
+// their reasons.
 
 #include <cstddef>
 
@@ -54,6 +55,10 @@ inline constexpr double kLively = 0.75;    // Restitution from which on events d
 inline constexpr int kLivelyShare = 6;     // ... so many times as many.
 // Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
+// Of one step: so many poses are evaluated by the searches for times of impact for every body of the world, a
+// second's work for a thousand bodies, and so many at least; then what a look does not clear is frozen.
+inline constexpr long kSearchWorkPerBody = 5000;
+inline constexpr long kLeastSearchWork = 500000;
 inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events
 
 // Sliding (paper §2.4).

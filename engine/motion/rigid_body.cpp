@@ -15,12 +15,21 @@ constexpr double kLargestTurn = 2.0;
 
 // Turns the body about one of its principal axes by the flow of the energy L_i^2 / 2 (1/I_i - 1/I_reference):
 // the angular momentum in the body turns the other way.
-void turnAboutAxis(int axis, double rate_per_momentum, double dt_s, Quat& R, Vec3& momentum_P) {
-  Vec3 turn = Vec3::Zero();
-  turn[axis] = rate_per_momentum * momentum_P[axis] * dt_s;
-  const Quat q = rotationBy(turn);
-  R = R * q;
-  momentum_P = q.conjugate() * momentum_P;
+template <int kAxis>
+void turnAboutAxis(double rate_per_momentum, double dt_s, Quat& R, Vec3& momentum_P) {
+  constexpr int kNext = (kAxis + 1) % 3, kLast = (kAxis + 2) % 3;
+  const SineCosine half = sineCosine(0.5 * rate_per_momentum * momentum_P[kAxis] * dt_s);
+  const double s = half.sine, c = half.cosine;
+  const Vec3 v = R.vec();
+  const double w = R.w();
+  R.w() = w * c - v[kAxis] * s;
+  R.vec()[kAxis] = v[kAxis] * c + w * s;
+  R.vec()[kNext] = v[kNext] * c + v[kLast] * s;
+  R.vec()[kLast] = v[kLast] * c - v[kNext] * s;
+  const double cosine = 1.0 - 2.0 * s * s, sine = 2.0 * s * c;
+  const double next = momentum_P[kNext], last = momentum_P[kLast];
+  momentum_P[kNext] = cosine * next + sine * last;
+  momentum_P[kLast] = cosine * last - sine * next;
 }
 
 // A second-order step forwards, back and forwards makes a fourth-order one (Yoshida 1990): 1 / (2 - 2^(1/3)).
@@ -42,14 +51,17 @@ Quat rotatedFreely(const Inertia& inertia, const Quat& R_WB, const Vec3& momentu
   Quat R = R_WB * Quat(inertia.principal_axes_B);
   Vec3 momentum_P = R.conjugate() * momentum;
   if (low_rate != 0.0 || high_rate != 0.0) {
+    // Turns about one axis that follow each other are one.
+    double waiting = 0.0;
     for (int i = 0; i < parts; ++i) {
       for (double share : kFourthOrder) {
         const double h = share * dt_s / parts;
-        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
-        turnAboutAxis(0, low_rate, h, R, momentum_P);
-        turnAboutAxis(2, high_rate, 0.5 * h, R, momentum_P);
+        turnAboutAxis<2>(high_rate, waiting + 0.5 * h, R, momentum_P);
+        turnAboutAxis<0>(low_rate, h, R, momentum_P);
+        waiting = 0.5 * h;
       }
     }
+    turnAboutAxis<2>(high_rate, waiting, R, momentum_P);
   }
   return rotationBy((dt_s / moments[1]) * momentum) * R * Quat(inertia.principal_axes_B).conjugate();
 }

@@ -62,7 +62,9 @@ class EventLoop {
         counters_(counters),
         clock_(clock),
         watchers_(watchers),
-        cluster_(bodies, shapes, table, settings, counters) {}
+        cluster_(bodies, shapes, table, settings, counters),
+        most_search_work_(std::max(tolerance::kLeastSearchWork,
+                                   tolerance::kSearchWorkPerBody * static_cast<long>(bodies.size()))) {}
 
   std::vector<Pose> run() {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
@@ -71,17 +73,23 @@ class EventLoop {
       for (std::size_t i = begin; i < end; ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
     });
     lookAtAll();
-    while (!events_.empty()) {  // every event spends budget of a body that still moves, so this ends
+    // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
+    // own, every look clears a pair or freezes a body.
+    while (!events_.empty()) {
       const Event event = events_.top();
       events_.pop();
       const Prediction& prediction = predictions_[at(event.pair)];
       if (event.version != prediction.version) continue;
-      if (event.looked) {
+      if (event.looked && !hasSpentSearch()) {
         takeUpAllLike(event);
         continue;
       }
-      look(event.pair);
-      await(event.pair);
+      const double time_s = prediction.found.time_s;  // up to here all pairs are proven
+      if (!event.looked) look(event.pair);
+      if (hasSpentSearch())
+        freezePair(event.pair, time_s);
+      else
+        await(event.pair);
     }
     return std::move(ends_);
   }
@@ -103,9 +111,27 @@ class EventLoop {
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
+      search_work_ += prediction.found.work;
       await(static_cast<int>(i));
     }
   }
+
+  // Freezes the bodies of a pair that its search has not cleared.
+  void freezePair(int index, double time_s) {
+    if (predictions_[at(index)].found.outcome == TimeOfImpact::Outcome::kClear) return;
+    changed_.clear();
+    const ShapePair& pair = table_.pairs()[at(index)];
+    for (const int i : {pair.body_a, pair.body_b}) {
+      Body& body = bodies_[at(i)];
+      if (!body.moves() || body.travel == Travel::kHeld) continue;
+      bring(i, time_s);
+      hold(body);
+      changed_.push_back(i);
+    }
+    searchAgain(time_s);
+  }
+
+  bool hasSpentSearch() const { return search_work_ > most_search_work_; }
 
   bool mayMeet(int index) const {
     const ShapePair& pair = table_.pairs()[at(index)];
@@ -174,7 +200,9 @@ class EventLoop {
   void look(int index) {
     const int queries = predictions_[at(index)].found.queries;
     const int newton_steps = predictions_[at(index)].found.newton_steps;
+    const long work = predictions_[at(index)].found.work;
     carryOn(index);
+    search_work_ += predictions_[at(index)].found.work - work;
     counters_.distance_queries += predictions_[at(index)].found.queries - queries;
     counters_.newton_steps += predictions_[at(index)].found.newton_steps - newton_steps;
   }
@@ -408,6 +436,8 @@ class EventLoop {
   PhaseClock* clock_;
   StepWatchers watchers_;
   ContactCluster cluster_;
+  long search_work_ = 0;  ///< Of all searches in this step: see TimeOfImpact::work.
+  long most_search_work_ = 0;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
   std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
   std::vector<Prediction> predictions_;
