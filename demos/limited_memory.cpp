@@ -44,6 +44,13 @@ void endByCrash(int) {
   ::_exit(static_cast<int>(ExitCode::kCannotWrite));
 }
 
+bool returns = false;
+
+// A library that has no more memory may call exit itself (Mesa's lexer does, with code 2).
+void endByExit() {
+  if (!returns) endByCrash(0);
+}
+
 /// Hands everything on at once.
 class LineBuffer final : public std::streambuf {
  protected:
@@ -93,6 +100,12 @@ void tellCrashesOfLimitedMemory() {
   action.sa_flags = SA_ONSTACK;
   sigfillset(&action.sa_mask);
   for (const int crash : kCrashes) ::sigaction(crash, &action, nullptr);
+  std::atexit(endByExit);
+}
+
+int returned(int code) {
+  returns = true;
+  return code;
 }
 
 void abortAsBug() {

@@ -6,11 +6,14 @@
 
 namespace carom::demos {
 
-/// Where this process has a limit of memory: from now on a fault or abort ends it with one line and
+/// Where this process has a limit of memory: from now on a fault, abort or exit ends it with one line and
 /// ExitCode::kCannotWrite (a child of this process: with the code alone), and of what is written to standard
 /// error only what goes through std::cerr arrives. Without a limit it does nothing, and a crash is a crash.
 /// To be called once, before other threads are started.
 void tellCrashesOfLimitedMemory();
+
+/// The code that `main` returns: from now on an end of the process is the program's own.
+int returned(int code);
 
 /// For a bug of ours, which has been told: SIGABRT ends the process as it does everywhere.
 [[noreturn]] void abortAsBug();

@@ -56,11 +56,11 @@ int main(int argc, char** argv) {
   tellCrashesOfLimitedMemory();
   keepFreedMemory();
   try {
-    return run(argc, argv);
+    return returned(run(argc, argv));
   } catch (...) {
     const Failure failure = failureOf(std::current_exception());
     tell(failure.line);
     if (failure.is_bug) abortAsBug();
-    return failure.code;
+    return returned(failure.code);
   }
 }

@@ -1,4 +1,4 @@
-// stress tunnelling | sweeps | collisions | pile | energy: what Carom promises of contact, asked often.
+// stress tunnelling | sweeps | collisions | tiles | landings | pile | energy: what Carom promises of contact, asked often.
 // Without options each runs at the size of its bar (from minutes to an hour); small sizes take seconds. Exit
 // code 0 when every bar is met, 1 when one is missed, 2 for options it does not understand.
 
@@ -37,6 +37,22 @@ int main(int argc, char** argv) {
   collisions->add_option("--seed", collision.seed);
   collisions->add_option("--threads", collision.threads)->check(CLI::Range(1, 256));
 
+  TilesRun tile;
+  CLI::App* tiles = app.add_subcommand("tiles", "bodies gliding over floors of ten thousand flush tiles");
+  tiles->add_option("--glides", tile.glides)->check(CLI::Range(1L, 1000000000L));
+  tiles->add_option("--first", tile.first, "number of the first glide")->check(CLI::Range(0L, 1000000000000L));
+  tiles->add_option("--seed", tile.seed);
+  tiles->add_option("--threads", tile.threads)->check(CLI::Range(1, 256));
+
+  LandingsRun landing;
+  CLI::App* landings = app.add_subcommand("landings", "thin boxes landing without restitution: energy gained");
+  landings->add_option("--landings", landing.landings)->check(CLI::Range(1L, 1000000000L));
+  landings->add_option("--first", landing.first, "number of the first landing")
+      ->check(CLI::Range(0L, 1000000000000L));
+  landings->add_option("--aspect", landing.largest_aspect, "the largest")->check(CLI::Range(1.0, 10000.0));
+  landings->add_option("--seed", landing.seed);
+  landings->add_option("--threads", landing.threads)->check(CLI::Range(1, 256));
+
   PileRun pile;
   pile.crowds = {Crowd::kHulls, Crowd::kBoxes};
   pile.frictions = {0.5, 0.1, 0.0};
@@ -68,6 +84,8 @@ int main(int argc, char** argv) {
   if (shots->parsed()) met = runTunnelling(tunnelling);
   if (sweeps->parsed()) met = runSweeps(sweep);
   if (collisions->parsed()) met = runCollisions(collision);
+  if (tiles->parsed()) met = runTiles(tile);
+  if (landings->parsed()) met = runLandings(landing);
   if (piles->parsed()) met = runPiles(pile);
   if (energies->parsed()) met = runEnergy(energy);
   return met ? 0 : 1;

@@ -54,6 +54,23 @@ struct EnergyRun {
 };
 bool runEnergy(const EnergyRun& run);
 
+struct TilesRun {
+  long glides = 400;
+  long first = 0;
+  std::uint64_t seed = 1;
+  int threads = 2;
+};
+bool runTiles(const TilesRun& run);
+
+struct LandingsRun {
+  long landings = 1'000'000;
+  long first = 0;
+  double largest_aspect = 1000.0;
+  std::uint64_t seed = 1;
+  int threads = 2;
+};
+bool runLandings(const LandingsRun& run);
+
 /// Calls work(thread, i) for every i of [0, count), each once; tells how far it is every half minute.
 template <typename Work>
 void shareOut(long count, int threads, const Work& work) {

@@ -5,11 +5,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source demos/packages.sh
 
-tunnelling=() sweeps=() collisions=() energy=() pile=()
+tunnelling=() sweeps=() collisions=() tiles=() landings=() energy=() pile=()
 case "${1-}" in
   "") ;;
   --small)
-    tunnelling=(--trials 3000) sweeps=(--sweeps 10000) collisions=(--collisions 100000) energy=(--share 0.1)
+    tunnelling=(--trials 3000) sweeps=(--sweeps 10000) collisions=(--collisions 100000) tiles=(--glides 8)
+    landings=(--landings 300) energy=(--share 0.1)
     pile=(--bodies 40 --seconds 5)
     ;;
   *)
@@ -24,7 +25,7 @@ build_preset bench stress
 
 program=build/bench/tests/bench/stress
 code=0
-for part in tunnelling sweeps collisions energy pile; do
+for part in tunnelling sweeps collisions tiles landings energy pile; do
   declare -n options=$part
   echo
   echo "stress $part ${options[*]}"

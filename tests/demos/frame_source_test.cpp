@@ -21,6 +21,9 @@ TEST_P(FrameSourceAt, ARecordingGivesTheSimulatedStates) {
   RunFacts facts;
   FrameSource simulated(made, clock, facts);
   RecordingHeader header;
+  header.rate_hz = scene.rate_hz;
+  header.fps = GetParam();
+  header.duration_s = 1.0;
   header.bodies = static_cast<int>(made.names.size());
   header.frames = frames;
   RecordingWriter writer(folder.path() / "run.carom", header);
