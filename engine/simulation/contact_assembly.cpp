@@ -195,17 +195,12 @@ class Assembly {
     std::vector<SourcedRow>& rows = stretch.of_pair;
     rows.clear();
     appendRows(request, pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
-    // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution,
-    // as has one above the rest gap that will be fast when it has fallen there; so will one that bounces up.
+    // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution;
+    // so will one that bounces up.
     std::erase_if(rows, [&](const SourcedRow& sourced) {
       const double speed = rowVelocity(sourced.row, contacts_.bodies).x();
-      if (speed < -pair.collision_speed_mps) return true;
-      if (pair.restitution == 0.0) return false;
-      const double above = sourced.gap_m - (1.0 + tolerance::kRestBand) * pair.window.rest;
-      const double fall = 2.0 * std::max(0.0, above) * sourced.row.n.dot(a.acceleration - b.acceleration);
-      const bool falls_fast =
-          fall > 0.0 && speed * speed + fall > pair.collision_speed_mps * pair.collision_speed_mps;
-      return falls_fast || speed > pair.collision_speed_mps;
+      return speed < -pair.collision_speed_mps ||
+             (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
     });
     const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
     moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);

@@ -23,7 +23,8 @@ TEST_P(BouncingBall, StopsAtTheClosedFormTime) {
   const double dropped = std::min(1.0 / rate_hz, 1.0 / 240.0) / (1.0 - restitution);
   const double expected = closedFormBounceStop(1.0, restitution);
   const double stop = bounceStop(kCarom, 1.0, restitution, radius, rate_hz);
-  const double window = 0.5 * collisionWindow(2.0 * radius).ceiling / (0.5 * kGravity / 240.0);
+  const double window =
+      0.5 * collisionWindow(2.0 * radius).ceiling / (0.5 * kGravity / 240.0) / (1.0 - restitution);
   EXPECT_GE(stop, expected - dropped - window - 2.0 / rate_hz);
   EXPECT_LE(stop, expected + 1.0 / rate_hz);
 }
