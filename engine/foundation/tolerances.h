@@ -56,9 +56,9 @@ inline constexpr int kLivelyShare = 6;     // ... so many times as many.
 // Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
 // Of one step: so many poses are evaluated by the searches for times of impact for every body of the world, a
-// second's work for a thousand bodies, and so many at least; then what a look does not clear is frozen.
+// second's work for a thousand bodies, and so many at least (0.2 s); then what a look does not clear is frozen.
 inline constexpr long kSearchWorkPerBody = 5000;
-inline constexpr long kLeastSearchWork = 500000;
+inline constexpr long kLeastSearchWork = 1500000;
 inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events
 
 // Sliding (paper §2.4).
