@@ -254,5 +254,32 @@ TEST(Tumbling, NeverSpinsFasterThanItsBound_AndConstantSpinMissesItByNoMoreThanS
   }
 }
 
+// A needle whose orientation is a few degrees beside its angular momentum's: with the same momentum it would
+// have a hundred times its energy.
+TEST(SpinOfEnergy, HasTheEnergyAndTheNearestAngularMomentum) {
+  const Solid needle = Solid::box({0.3, 0.004, 0.002});
+  const Inertia inertia = inertiaOf(1000.0, needle.volume(), needle.unitInertia());
+  oracle::Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const Quat before = random.rotation();
+    const Vec3 spin = random.uniform(1.0, 100.0) * random.direction();
+    const Vec3 momentum = angularMomentum(inertia, before, spin);
+    const double energy = 0.5 * spin.dot(momentum);
+    const Quat after = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction())) * before;
+    const Vec3 found = spinOfEnergy(inertia, after, momentum, energy);
+    const Vec3 kept = angularMomentum(inertia, after, found);
+    const double found_energy = 0.5 * found.dot(kept);
+    EXPECT_LE(found_energy, energy * (1.0 + 1e-14)) << i;
+    if (found_energy < energy * (1.0 - 1e-12)) continue;  // beyond what a small difference explains
+    // Nearest: the change is along the gradient of the energy, which is the spin.
+    const Vec3 change = kept - momentum;
+    EXPECT_LE(change.cross(found).norm(), 1e-9 * momentum.norm() * found.norm()) << i;
+  }
+  const Quat same = random.rotation();
+  const Vec3 spin(3.0, -2.0, 5.0);
+  const Vec3 momentum = angularMomentum(inertia, same, spin);
+  EXPECT_LT((spinOfEnergy(inertia, same, momentum, 0.5 * spin.dot(momentum)) - spin).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace carom
