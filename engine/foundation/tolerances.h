@@ -37,7 +37,8 @@ inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough f
 inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
 inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
 inline constexpr double kSolverCrowdResidual = 2.0e-4;     // ... and this of crowds swept alone
-inline constexpr int kSolverMostVisits = 50000;        // of what moves, where the coarse one is not reached
+inline constexpr int kSolverMostVisits = 50000;        // of a step, where what moves has not come to the coarse one
+inline constexpr int kSolverMovingSweeps = 20;           // of what moves, where the budget is less
 inline constexpr int kSolverStandingSweeps = 20;       // of what stands, before it is solved at once, and ...
 inline constexpr int kSolverCrowdStandingSweeps = 28;  // ... of a crowd that does
 // Crowds (focused_solver.h) are swept alone for a pause, to their own residual, when solving them at once

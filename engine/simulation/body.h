@@ -81,6 +81,7 @@ struct Body : StepMotion {
 
   // Within a step, besides its motion.
   int events = 0;
+  int cleared = 0;  ///< How often its path was led clear of another body.
   bool collided = false;
 
   bool moves() const { return !is_static && !resting; }

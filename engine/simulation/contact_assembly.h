@@ -3,6 +3,8 @@
 // of a crowd dissected so that several threads can sweep its rows. Internal to the simulation floor. Tested
 // through tests/engine/simulation/ and tests/physics/.
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "engine/simulation/contact_rows.h"
@@ -39,16 +41,31 @@ struct LastingContacts {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
+  /// What moves and hangs together by rows: those of one island stand together, and so do its pairs.
+  struct Island {
+    std::size_t row_begin = 0;
+    std::size_t row_end = 0;
+    std::size_t pair_begin = 0;
+    std::size_t pair_end = 0;
+  };
+  std::span<ContactRow> rowsOf(const Island& island) {
+    return std::span(rows).subspan(island.row_begin, island.row_end - island.row_begin);
+  }
+  std::span<const PairRows> pairsOf(const Island& island) const {
+    return std::span(pair_rows).subspan(island.pair_begin, island.pair_end - island.pair_begin);
+  }
+
   std::vector<ContactRow> rows;
-  std::vector<RowSource> sources;         ///< As long.
-  std::vector<PairRows> pair_rows;        ///< The rows of each pair that has any, in their order.
-  std::vector<HalfTurn> half_turns;       ///< One per body of the world.
-  std::vector<ImpulseBody> bodies;        ///< In mid-step, one likewise, velocities after the solve.
-  std::vector<char> touched;              ///< Moving bodies that some row pressed.
-  std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
-  std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
-  std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
-  std::vector<RowStretch> stretches;      ///< Scratch.
+  std::vector<RowSource> sources;      ///< As long.
+  std::vector<PairRows> pair_rows;     ///< The rows of each pair that has any, in their order.
+  std::vector<HalfTurn> half_turns;    ///< One per body of the world.
+  std::vector<ImpulseBody> bodies;     ///< In mid-step, one likewise, velocities after the solve.
+  std::vector<char> touched;           ///< Moving bodies that some row pressed.
+  std::vector<Velocity> gained;        ///< What the environment gives the bodies in the step, likewise.
+  std::vector<Island> islands;         ///< In the order of the rows.
+  std::vector<ImpulseBody> paths;      ///< The bodies with the mean velocities of their paths.
+  std::vector<MomentumPart> momentum;  ///< Of the rows, while they are bounds on paths.
+  std::vector<RowStretch> stretches;   ///< Scratch.
 };
 
 /// So many rows are looked at by one thread: to wait for another takes as long.
@@ -63,11 +80,22 @@ struct LastingWorld {
   Crew& crew;
 };
 
+/// So often can each of `rows` be visited within a step's budget.
+inline int sweepsInBudget(std::size_t rows) {
+  return tolerance::kSolverRowVisits / std::max(1, static_cast<int>(rows));
+}
+
 /// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
 bool isLasting(const ShapePair& pair, double step_s);
 
 /// Makes the rows of all lasting pairs of which a body moves, prepared and with the impulses that they start
 /// from, not yet applied. What these pairs remember is over then.
 void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts);
+
+/// Puts rows where `pairs` come down (ShapePair::landing) beside those solved already, or in place of what
+/// these pairs had; what their bodies have of the rows taken out is given back. Returns the islands of the
+/// new rows; of theirs, those with a body of such a pair are marked as not looked at.
+std::vector<std::size_t> addLandings(const LastingWorld& world, std::span<const int> pairs,
+                                     StepCounters& counters, LastingContacts& contacts);
 
 }  // namespace carom

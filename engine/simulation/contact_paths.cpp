@@ -4,16 +4,13 @@
 #include <atomic>
 #include <limits>
 
-#include "engine/response/focused_solver.h"
+#include "engine/response/ordered_pass.h"
 #include "engine/simulation/carried_path.h"
 
 namespace carom {
 namespace {
 
-constexpr int kPathSweeps = 60;
-constexpr int kFirstPathSweeps = 8;     // of a crowd; if they visited its rows more often than ...
-constexpr long kPathsInMotion = 5;      // ... this in the mean, ...
-constexpr int kPathFocusedSweeps = 24;  // ... it gets so many focused ones
+constexpr int kPathSweeps = 2;          // at least
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -31,8 +28,25 @@ void lowerTo(double value, double& smallest) {
 
 class ContactPaths {
  public:
-  ContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts)
-      : world_(world), counters_(counters), contacts_(contacts), step_s_(world.settings.step_s) {}
+  ContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+               LastingContacts& contacts)
+      : world_(world),
+        islands_(islands),
+        counters_(counters),
+        contacts_(contacts),
+        step_s_(world.settings.step_s) {
+    std::vector<char> listed(world.bodies.size(), 0);
+    for (const std::size_t island : islands_) {
+      for (const LastingContacts::PairRows& pair : contacts_.pairsOf(contacts_.islands[island])) {
+        pairs_.push_back(pair);
+        for (const int body : {contacts_.rows[pair.begin].a, contacts_.rows[pair.begin].b}) {
+          if (listed[at(body)]) continue;
+          listed[at(body)] = 1;
+          bodies_.push_back(at(body));
+        }
+      }
+    }
+  }
 
   void set() {
     beginAtMeans();
@@ -47,17 +61,16 @@ class ContactPaths {
   // Calls work(pair, rows) for stretches of pairs side by side; `rows` are indices.
   template <typename Work>
   void forPairs(const Work& work) {
-    const std::vector<LastingContacts::PairRows>& all = contacts_.pair_rows;
-    world_.crew.runStretches(all.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(all[k].pair)], all[k]);
+    world_.crew.runStretches(pairs_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(pairs_[k].pair)], pairs_[k]);
     });
   }
 
   // The same for bodies: work(index).
   template <typename Work>
   void forBodies(const Work& work) {
-    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(i);
+    world_.crew.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(bodies_[i]);
     });
   }
 
@@ -111,39 +124,22 @@ class ContactPaths {
     return raised;
   }
 
-  // Without friction.
+  // Without friction; as finely as the world's budget of row visits goes. Where few sweeps do not do, one
+  // pass from the supports upwards leaves only what is wedged.
   void solve(double coarse_residual_mps) {
-    for (std::size_t i = 0; i + 1 < contacts_.island_begin.size(); ++i) {
-      const std::size_t count = contacts_.island_begin[i + 1] - contacts_.island_begin[i];
-      const std::span<ContactRow> rows = std::span(contacts_.rows).subspan(contacts_.island_begin[i], count);
-      if (count >= kFocusedRows) {
-        solveCrowd(rows, coarse_residual_mps);
-        continue;
-      }
-      const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
-      solveContacts(rows, contacts_.paths,
-                    {.sweeps = std::max(kPathSweeps, careful_sweeps),
-                     .residual_mps = kPathResidual,
-                     .friction = false,
-                     .careful_sweeps = careful_sweeps,
-                     .coarse_residual_mps = coarse_residual_mps});
-    }
-  }
-
-  // Sweeps that pass over what is not stirred are cheapest where few paths come into a gap; where most do,
-  // paths are swept like impulses.
-  void solveCrowd(std::span<ContactRow> rows, double residual_mps) {
-    SolverSettings settings{
-        .sweeps = kFirstPathSweeps, .residual_mps = residual_mps, .friction = false, .crew = &world_.crew};
-    const SolverReport report = solveContacts(rows, contacts_.paths, settings);
-    if (report.residual_mps <= residual_mps) return;
-    if (report.visits > kPathsInMotion * static_cast<long>(rows.size())) {
-      settings.sweeps = kPathFocusedSweeps;
-      solveContactsFocused(rows, contacts_.paths, settings);
-    } else {
-      settings.sweeps = kPathSweeps - kFirstPathSweeps;
-      settings.resumes = true;
-      solveContacts(rows, contacts_.paths, settings);
+    const int careful_sweeps = sweepsInBudget(contacts_.rows.size());
+    for (const std::size_t island : islands_) {
+      const std::span<ContactRow> rows = contacts_.rowsOf(contacts_.islands[island]);
+      const SolverReport report = solveContacts(rows, contacts_.paths,
+                                                {.sweeps = std::max(kPathSweeps, careful_sweeps),
+                                                 .residual_mps = kPathResidual,
+                                                 .friction = false,
+                                                 .careful_sweeps = careful_sweeps,
+                                                 .coarse_residual_mps = coarse_residual_mps,
+                                                 .crew = &world_.crew});
+      counters_.row_visits += report.visits;
+      if (report.residual_mps > coarse_residual_mps)
+        passUpwards(rows, contacts_.paths, -world_.settings.gravity);
     }
   }
 
@@ -170,7 +166,7 @@ class ContactPaths {
   std::vector<char> findBends() {
     std::vector<char> bends = contacts_.touched;
     std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i)
+    for (const std::size_t i : bodies_)
       if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i)
@@ -181,6 +177,9 @@ class ContactPaths {
   }
 
   LastingWorld world_;
+  std::span<const std::size_t> islands_;
+  std::vector<LastingContacts::PairRows> pairs_;  ///< Theirs.
+  std::vector<std::size_t> bodies_;
   StepCounters& counters_;
   LastingContacts& contacts_;
   double step_s_;
@@ -188,8 +187,9 @@ class ContactPaths {
 
 }  // namespace
 
-void setContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {
-  ContactPaths(world, counters, contacts).set();
+void setContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+                     LastingContacts& contacts) {
+  ContactPaths(world, islands, counters, contacts).set();
 }
 
 }  // namespace carom

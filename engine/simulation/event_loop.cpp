@@ -14,6 +14,14 @@
 namespace carom {
 namespace {
 
+// Of solving landings: what the last leaves over are events.
+constexpr int kLandingRounds = 2;
+// Of leading a body's path clear in one step: so often apart from another, by a bit more than is missing, so
+// that what is wedged converges; then so often its motion is halved; then it is held.
+constexpr int kMostClearings = 20;
+constexpr int kMostHalvings = 2;
+constexpr double kOverRelaxed = 1.3;
+constexpr double kOpened = 0.5;       // of what is missing to the rest gap
 constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
 
 std::size_t at(int i) {
@@ -34,7 +42,8 @@ struct Event {
 // because another event gives one of the bodies a new path.
 struct Prediction {
   int version = 0;
-  bool looked = false;  ///< At least once.
+  bool searched = false;  ///< Its bodies may meet.
+  bool looked = false;    ///< At least once.
   ImpactSearch search;
   TimeOfImpact found;
 };
@@ -66,13 +75,16 @@ class EventLoop {
         most_search_work_(std::max(tolerance::kLeastSearchWork,
                                    tolerance::kSearchWorkPerBody * static_cast<long>(bodies.size()))) {}
 
-  std::vector<Pose> run() {
+  std::optional<std::vector<Pose>> run(const LandingSolver& solve_landings) {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
     ends_.resize(bodies_.size());
     crew_.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
     });
     lookAtAll();
+    if (!holdLandings(solve_landings)) return std::nullopt;
+    for (std::size_t i = 0; i < predictions_.size(); ++i)
+      if (predictions_[i].searched) await(static_cast<int>(i));
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
     while (!events_.empty()) {
@@ -112,8 +124,48 @@ class EventLoop {
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
       search_work_ += prediction.found.work;
-      await(static_cast<int>(i));
     }
+  }
+
+  // What will not bounce and would come down within the step is held in time where it is many, round by
+  // round: what holds one may bring another down. Whether the step goes on.
+  bool holdLandings(const LandingSolver& solve_landings) {
+    for (int round = 0; round < kLandingRounds && !hasSpentSearch(); ++round) {
+      const std::vector<int> landings = foreseeLandings();
+      if (landings.empty()) return true;
+      const std::optional<std::vector<int>> moved = solve_landings(landings);
+      if (!moved) return false;
+      if (moved->empty()) return true;
+      changed_ = *moved;
+      for (const int pair : pairsWithNewPaths(0.0)) begin(pair);
+    }
+    return true;
+  }
+
+  std::vector<int> foreseeLandings() {
+    std::vector<int> landings;
+    for (std::size_t i = 0; i < predictions_.size(); ++i) {
+      ShapePair& pair = table_.pairs()[i];
+      const TimeOfImpact& found = predictions_[i].found;
+      if (pair.restitution > 0.0 || !predictions_[i].searched) continue;
+      while (found.outcome == TimeOfImpact::Outcome::kPending && !hasSpentSearch()) look(static_cast<int>(i));
+      if (found.outcome == TimeOfImpact::Outcome::kClear || found.outcome == TimeOfImpact::Outcome::kPending ||
+          isSlow(static_cast<int>(i)))
+        continue;
+      pair.landing = landingOf(pair, found);
+      landings.push_back(static_cast<int>(i));
+    }
+    return landings;
+  }
+
+  Landing landingOf(const ShapePair& pair, const TimeOfImpact& found) const {
+    const double t = found.time_s;
+    const Trajectory& a = bodies_[at(pair.body_a)].path;
+    const Trajectory& b = bodies_[at(pair.body_b)].path;
+    const auto mean = [&](const Trajectory& path) {
+      return Velocity{path.velocity + 0.5 * t * path.acceleration, path.angularVelocityAt(t)};
+    };
+    return {t, found.closest, a.at(t), b.at(t), mean(a), mean(b)};
   }
 
   // Freezes the bodies of a pair that its search has not cleared.
@@ -148,20 +200,23 @@ class EventLoop {
   void beginSearch(int index, const ClosestFeatures& at_begin) {
     Prediction& prediction = predictions_[at(index)];
     const ShapePair& pair = table_.pairs()[at(index)];
-    prediction.search = {pair.window, pair.collision_speed_mps, beginOf(pair), settings_.step_s,
-                         pair.restitution == 0.0};
+    prediction.search = {pair.window,      pair.collision_speed_mps, beginOf(pair),
+                         settings_.step_s, pair.restitution == 0.0,  pair.landing.has_value()};
     prediction.found = carom::beginSearch(prediction.search, at_begin);
+    prediction.searched = true;
     prediction.looked = false;
   }
 
   // The search of a pair whose bodies have new paths.
-  void predict(int index) {
+  void begin(int index) {
     predictions_.resize(table_.pairs().size());
-    const int version = ++predictions_[at(index)].version;
-    if (!mayMeet(index)) return;
-    const double begin_s = beginOf(table_.pairs()[at(index)]);
-    beginSearch(index, closestAt(index, begin_s));
-    events_.push({instantOf(begin_s), false, 0.0, index, version});
+    ++predictions_[at(index)].version;
+    predictions_[at(index)].searched = false;
+    if (mayMeet(index)) beginSearch(index, closestAt(index, beginOf(table_.pairs()[at(index)])));
+  }
+  void predict(int index) {
+    begin(index);
+    if (predictions_[at(index)].searched) await(index);
   }
 
   std::int64_t instantOf(double time_s) const {
@@ -221,8 +276,12 @@ class EventLoop {
 
   void takeUp(int index) {
     const TimeOfImpact& found = predictions_[at(index)].found;
+    if (isSlow(index)) {
+      clearPaths(index, found);
+      return;
+    }
     ++counters_.events;
-    counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
+    ++counters_.impacts;
     resolve(index, found);
   }
 
@@ -241,6 +300,69 @@ class EventLoop {
                            pair.tracked);
   }
 
+  // Whether what a look has found is no collision: a slow approach that is at the floor.
+  bool isSlow(int index) const {
+    const TimeOfImpact& found = predictions_[at(index)].found;
+    return found.outcome == TimeOfImpact::Outcome::kStopped &&
+           separatingSpeedAt(index, found) >= -table_.pairs()[at(index)].collision_speed_mps;
+  }
+
+  // Leads two bodies apart that come slowly to the floor: solvers left that over, or turning. Only their
+  // paths change, by as little as lets their gap open; their momentum is what it was, and the next step
+  // solves it.
+  void clearPaths(int index, const TimeOfImpact& found) {
+    const double time_s = found.time_s;
+    const double rest = settings_.step_s - time_s;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const std::array<int, 2> both{pair.body_a, pair.body_b};
+    ++counters_.cleared_paths;
+    changed_.clear();
+    std::array<ImpulseBody, 2> paths;
+    int spent = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      Body& body = bodies_[at(both[k])];
+      const bool gives_way = body.moves() && body.travel != Travel::kHeld;
+      if (gives_way) {
+        bring(both[k], time_s);
+        changed_.push_back(both[k]);
+        spent = std::max(spent, ++body.cleared);
+      }
+      paths[k] = body.impulseBody(body.path.at(time_s),
+                                  {body.path.velocityAt(time_s) + 0.5 * rest * body.path.acceleration,
+                                   body.path.angularVelocityAt(time_s)});
+      if (gives_way) continue;
+      paths[k].inverse_mass = 0.0;
+      paths[k].inverse_tensor.setZero();
+    }
+    if (spent > kMostClearings + kMostHalvings) {
+      for (const int i : changed_) hold(bodies_[at(i)]);
+    } else if (spent > kMostClearings) {
+      for (std::size_t k = 0; k < 2; ++k)
+        lead(both[k], {0.5 * paths[k].velocity.linear, 0.5 * paths[k].velocity.angular}, rest);
+    } else {
+      const Vec3& n = found.closest.n_W;
+      const Vec3 r_a = found.closest.p_A_W - paths[0].center;
+      const Vec3 r_b = found.closest.p_B_W - paths[1].center;
+      const double separating = n.dot(paths[1].velocity.at(r_b) - paths[0].velocity.at(r_a));
+      const double wanted =
+          std::min(tolerance::kGapSpeed, kOpened * (pair.window.rest - found.closest.distance_m) / rest);
+      const double response = n.dot(collisionMatrix(paths[0], paths[1], r_a, r_b) * n);
+      const double impulse = kOverRelaxed * (wanted - separating) / response;
+      paths[0].apply(-impulse * n, r_a);
+      paths[1].apply(impulse * n, r_b);
+      for (std::size_t k = 0; k < 2; ++k) lead(both[k], paths[k].velocity, rest);
+    }
+    searchAgain(time_s);
+  }
+
+  // Straight on, at this mean velocity.
+  void lead(int index, const Velocity& mean, double rest_of_step_s) {
+    Body& body = bodies_[at(index)];
+    if (!body.moves() || body.travel == Travel::kHeld) return;
+    body.travel = Travel::kCarried;
+    carryAlong(body, mean, rest_of_step_s, false);
+  }
+
   // The impulses of one event, the paths that follow, and the searches that these make out of date.
   void resolve(int index, const TimeOfImpact& found) {
     const double time_s = found.time_s;
@@ -253,9 +375,8 @@ class EventLoop {
     }
     // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
     // speed are one; the others do not come back, and press at once on all that stands behind.
-    const bool stopped = found.outcome == TimeOfImpact::Outcome::kStopped;
     const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
-    const bool crowded = stopped || spent > share * tolerance::kPairEvents;
+    const bool crowded = spent > share * tolerance::kPairEvents;
     const bool spreads = crowded || pair.restitution == 0.0;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
@@ -408,8 +529,12 @@ class EventLoop {
     ++counters_.stopped_bodies;
   }
 
-  // The pairs of every body that has a new path.
   void searchAgain(double time_s) {
+    for (const int pair : pairsWithNewPaths(time_s)) predict(pair);
+  }
+
+  // The pairs of every body that has a new path.
+  std::vector<int> pairsWithNewPaths(double time_s) {
     extendPairs(time_s);
     std::vector<int> pairs;
     for (int body : changed_) {
@@ -418,7 +543,7 @@ class EventLoop {
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    for (int pair : pairs) predict(pair);
+    return pairs;
   }
 
   void extendPairs(double time_s) {
@@ -447,10 +572,13 @@ class EventLoop {
 
 }  // namespace
 
-std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers) {
-  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers).run();
+std::optional<std::vector<Pose>> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                           PairTable& table, const FlightPlanner& planner,
+                                           const WorldSettings& settings, Crew& crew, StepCounters& counters,
+                                           PhaseClock* clock, const StepWatchers& watchers,
+                                           const LandingSolver& solve_landings) {
+  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers)
+      .run(solve_landings);
 }
 
 }  // namespace carom

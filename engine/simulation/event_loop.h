@@ -5,6 +5,11 @@
 // its budget of events is held at its last safe time: accuracy is lost and counted, the gap is not. Internal
 // to the simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
 
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 #include "engine/simulation/step_paths.h"
@@ -18,10 +23,18 @@ struct StepWatchers {
   StepPaths* paths = nullptr;  ///< Of the paths that events have ended.
 };
 
+/// Solves the landings of these pairs (ShapePair::landing), or of some of them, with the step's lasting
+/// contacts, and lists the bodies that have new paths from the beginning of the step. None: what rested has
+/// been woken, and the step must be planned anew.
+using LandingSolver = std::function<std::optional<std::vector<int>>(std::span<const int>)>;
+
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
-/// where it began, if lower) throughout. Returns where the bodies' paths end.
-std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers);
+/// where it began, if lower) throughout. Returns where the bodies' paths end; nothing when the step must be
+/// planned anew.
+std::optional<std::vector<Pose>> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                           PairTable& table, const FlightPlanner& planner,
+                                           const WorldSettings& settings, Crew& crew, StepCounters& counters,
+                                           PhaseClock* clock, const StepWatchers& watchers,
+                                           const LandingSolver& solve_landings);
 
 }  // namespace carom

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
+#include "engine/modes/islands.h"
+#include "engine/response/conjugate_sweeps.h"
 #include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
+#include "engine/response/turning_resistance.h"
 #include "engine/simulation/contact_paths.h"
 #include "engine/simulation/solver_patience.h"
 
 namespace carom {
 namespace {
 
-constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
+constexpr int kLandingSweeps = 8;     // over rows that landings stir; the next step solves on
+constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
+constexpr double kFewMoving = 0.05;   // of a crowd's bodies: so many falling about do not set it in motion
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -86,8 +92,8 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
 }
 
 // What lies still, all of it.
-void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                      std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
+SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                              std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
   SolverSettings settings{
       .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
@@ -98,68 +104,97 @@ void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
     settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
     settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
     settings.in_the_mean = true;
-    solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
-    return;
+    return solveContactsFocused(rows, solver_bodies, settings);
   }
-  patience.learn(solveStandingContacts(rows, solver_bodies, settings), settings.residual_mps);
+  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
+  patience.learn(report, settings.residual_mps);
+  return report;
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
 // taken as equations, would contradict each other.
-void solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
-                         std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
-                         double gravity_speed, Crew& crew) {
+SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
+                                 std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
+                                 double gravity_speed, Crew& crew) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, motions)) {
-    solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
-    return;
-  }
-  solveContactsFocused(rows, solver_bodies,
-                       {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
-                        .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
-                        .in_the_mean = rows.size() >= kFocusedRows,
-                        .crew = &crew});
+  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
+  return solveContactsFocused(
+      rows, solver_bodies,
+      {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
+       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
+       .in_the_mean = rows.size() >= kFocusedRows,
+       .crew = &crew});
 }
 
-// Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
-// a coarse step, farther.
-void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed,
-                       Crew& crew) {
-  const double residual = residualOf(rows, tolerance::kSolverCoarseResidual);
-  const int careful_sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps);
-  const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(rows.size());
-  solveContactsFocused(rows, bodies,
-                       {.sweeps = std::max(careful_sweeps, most_sweeps),
-                        .residual_mps = residual * gravity_speed,
-                        .careful_sweeps = careful_sweeps,
-                        .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
-                        .crew = &crew});
+// Carefully as far as the world's budget goes; a crowd in motion is solved on in the next step.
+SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, int careful_sweeps,
+                               int most_sweeps, double gravity_speed, Crew& crew) {
+  return solveContactsFinely(
+      rows, bodies,
+      {.sweeps = std::max({careful_sweeps, most_sweeps, tolerance::kSolverMovingSweeps}),
+       .residual_mps = tolerance::kSolverResidual * gravity_speed,
+       .careful_sweeps = careful_sweeps,
+       .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+       .crew = &crew});
 }
 
 // With friction.
-void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
-  const std::vector<BodyMotion> motions = motionsOf(bodies, crew);
-  for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
-    const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
-    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
-    if (stands(rows, motions))
-      solveStandingIsland(rows, motions, bodies, contacts.bodies, gravity_speed, crew);
-    else
-      solveMovingIsland(rows, contacts.bodies, gravity_speed, crew);
+void solveImpulses(LastingContacts& contacts, const LastingWorld& world, StepCounters& counters) {
+  const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+  const std::vector<BodyMotion> motions = motionsOf(world.bodies, world.crew);
+  const int careful_sweeps = sweepsInBudget(contacts.rows.size());
+  const int most_sweeps = tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size()));
+  for (const LastingContacts::Island& island : contacts.islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(island);
+    const SolverReport report =
+        stands(rows, motions)
+            ? solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew)
+            : solveMovingIsland(rows, contacts.bodies, careful_sweeps, most_sweeps, gravity_speed,
+                                world.crew);
+    counters.row_visits += report.visits;
   }
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
 void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
                      const FlightPlanner& planner) {
+  contacts.gained.assign(bodies.size(), {});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].moves()) continue;
-    const Velocity gained = planner.gained(bodies[i]);
-    contacts.bodies[i].velocity.linear += gained.linear;
-    contacts.bodies[i].velocity.angular += gained.angular;
+    contacts.gained[i] = planner.gained(bodies[i]);
+    contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
+    contacts.bodies[i].velocity.angular += contacts.gained[i].angular;
+  }
+}
+
+// Gives the bodies the impulses that rows begin with; those of an island so many times, at most once, that
+// they come nearest to what its bounds ask for, in the measure of energy. What an island remembers of another
+// arrangement may be far too much for this one, and few sweeps would leave some of that in its bodies.
+void warmUp(LastingContacts& contacts) {
+  const auto missed = [&](std::span<const ContactRow> rows) {
+    double sum = 0.0;  // J: the impulses on the speeds missed
+    for (const ContactRow& row : rows)
+      if (!row.impulse.isZero(0.0)) sum += row.impulse.dot(rowMiss(row, contacts.bodies));
+    return sum;
+  };
+  for (const LastingContacts::Island& island : contacts.islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(island);
+    const double before = missed(rows);
+    for (const ContactRow& row : rows) applyLoad(row, contacts.bodies);
+    const double work = missed(rows) - before;  // twice the energy of what they make of the velocities
+    const double share = work > 0.0 ? std::clamp(-before / work, 0.0, 1.0) : 1.0;
+    if (share == 1.0) continue;
+    for (ContactRow& row : rows) {
+      ContactRow taken_back = row;
+      taken_back.impulse *= share - 1.0;
+      taken_back.torque *= share - 1.0;
+      applyLoad(taken_back, contacts.bodies);
+      row.impulse *= share;
+      row.torque *= share;
+    }
   }
 }
 
@@ -178,30 +213,30 @@ void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Cre
     if (!bodies[i].moves()) contacts.touched[i] = 0;
 }
 
-// For the next step's plans: what contacts have given; nothing to bodies in flight, which must not be planned
-// as if something held them.
-void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
-                     const FlightPlanner& planner) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].moves()) continue;
-    if (!contacts.touched[i]) {
-      planner.leaveContacts(static_cast<int>(i), bodies[i]);
-      continue;
-    }
-    const Velocity gained = planner.gained(bodies[i]);
-    planner.takeContacts(bodies[i],
-                         {contacts.bodies[i].velocity.linear - bodies[i].velocity.linear - gained.linear,
-                          contacts.bodies[i].velocity.angular - contacts.half_turns[i].spin - gained.angular},
-                         contacts.half_turns[i].R_WB);
+// For the next step's plans: what contacts have given; nothing to a body in flight, which must not be planned
+// as if something held it.
+void foreseeContacts(const LastingContacts& contacts, int index, Body& body, const FlightPlanner& planner) {
+  const auto i = at(index);
+  if (!contacts.touched[i]) {
+    planner.leaveContacts(index, body);
+    return;
   }
+  const Velocity& after = contacts.bodies[i].velocity;
+  const Velocity& gained = contacts.gained[i];
+  planner.takeContacts(body,
+                       {after.linear - body.velocity.linear - gained.linear,
+                        after.angular - contacts.half_turns[i].spin - gained.angular},
+                       contacts.half_turns[i].R_WB);
 }
 
-void remember(const LastingContacts& contacts, const LastingWorld& world) {
+void remember(const LastingContacts& contacts, std::span<const LastingContacts::PairRows> pairs,
+              const LastingWorld& world) {
   const double step_s = world.settings.step_s;
-  world.crew.runStretches(contacts.pair_rows.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+  world.crew.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const LastingContacts::PairRows& of_pair = contacts.pair_rows[k];
+      const LastingContacts::PairRows& of_pair = pairs[k];
       ShapePair& pair = world.table.pairs()[at(of_pair.pair)];
+      pair.remembered.clear();
       for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
         const ContactRow& row = contacts.rows[i];
         const Vec3 impulse_W = rowImpulse(row, row.impulse);
@@ -216,6 +251,16 @@ void remember(const LastingContacts& contacts, const LastingWorld& world) {
       }
     }
   });
+}
+
+// A body that nothing presses any more flies as it was planned.
+void letFly(int index, Body& body, const FlightPlanner& planner) {
+  body.travel = Travel::kBallistic;
+  body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  body.momentum_velocity = body.velocity;
+  body.solved_spin_B.setZero();
+  body.turning_B.setZero();
+  planner.plan(index, body);
 }
 
 }  // namespace
@@ -266,13 +311,81 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
   std::vector<Body>& bodies = world.bodies;
   assembleContacts(world, counters, contacts);
   giveEnvironment(contacts, bodies, planner);
-  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
-  solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
+  warmUp(contacts);
+  solveImpulses(contacts, world, counters);
   findTouched(contacts, bodies, world.crew);
-  foreseeContacts(contacts, bodies, planner);
-  setContactPaths(world, counters, contacts);
-  remember(contacts, world);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves()) foreseeContacts(contacts, static_cast<int>(i), bodies[i], planner);
+  std::vector<std::size_t> islands(contacts.islands.size());
+  std::iota(islands.begin(), islands.end(), std::size_t{0});
+  setContactPaths(world, islands, counters, contacts);
+  remember(contacts, contacts.pair_rows, world);
   counters.contact_points = static_cast<int>(contacts.rows.size());
+}
+
+std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
+                                 const LastingContacts& contacts) {
+  const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
+  Islands islands(static_cast<int>(world.bodies.size()));
+  const auto join = [&](int index) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    if (moves(pair.body_a) && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
+  };
+  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) join(of_pair.pair);
+  for (const int pair : pairs) join(pair);
+  const auto islandOf = [&](int index) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    return at(islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  };
+  std::vector<int> landings(world.bodies.size(), 0);
+  for (const int pair : pairs) ++landings[islandOf(pair)];
+  const int most = sweepsInBudget(contacts.rows.size()) / kVisitsOfAnEvent;
+  std::vector<int> crowded;
+  for (const int pair : pairs) {
+    if (landings[islandOf(pair)] > most)
+      crowded.push_back(pair);
+    else
+      world.table.pairs()[at(pair)].landing.reset();
+  }
+  return crowded;
+}
+
+std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& world,
+                               const FlightPlanner& planner, StepCounters& counters,
+                               LastingContacts& contacts) {
+  const std::vector<std::size_t> islands = addLandings(world, pairs, counters, contacts);
+  std::vector<char> listed(world.bodies.size(), 0);
+  std::vector<int> bodies;
+  for (const std::size_t i : islands) {
+    const LastingContacts::Island& island = contacts.islands[i];
+    const std::span<ContactRow> rows = contacts.rowsOf(island);
+    for (const ContactRow& row : rows)
+      for (const int body : {row.a, row.b}) {
+        contacts.bodies[at(body)].stir = 0.0;
+        if (listed[at(body)] || !world.bodies[at(body)].moves()) continue;
+        listed[at(body)] = 1;
+        bodies.push_back(body);
+      }
+    const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+    const SolverReport report =
+        solveContacts(rows, contacts.bodies,
+                      {.sweeps = kLandingSweeps,
+                       .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                       .resumes = true,
+                       .crew = &world.crew});
+    counters.row_visits += report.visits;
+  }
+  findTouched(contacts, world.bodies, world.crew);
+  for (const int i : bodies) {
+    Body& body = world.bodies[at(i)];
+    if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic) letFly(i, body, planner);
+    foreseeContacts(contacts, i, body, planner);
+  }
+  setContactPaths(world, islands, counters, contacts);
+  for (const std::size_t i : islands) remember(contacts, contacts.pairsOf(contacts.islands[i]), world);
+  counters.landings += static_cast<int>(pairs.size());
+  counters.contact_points = static_cast<int>(contacts.rows.size());
+  return bodies;
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/broad_phase/bounds_tree.h"
@@ -28,6 +29,16 @@ struct RememberedImpulse {
   Vec3 torque_W = Vec3::Zero();          ///< N m on B.
 };
 
+/// Where a pair that will not bounce comes down within the step, on the paths that its bodies were to take.
+struct Landing {
+  double time_s = 0.0;  ///< From the step's beginning.
+  ClosestFeatures closest;
+  Pose X_WA;
+  Pose X_WB;
+  Velocity a;  ///< Of the paths, in the mean until then.
+  Velocity b;
+};
+
 struct ShapePair {
   IndexPair shapes;
   int body_a = -1;
@@ -37,6 +48,7 @@ struct ShapePair {
   double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
   FeaturePair tracked;
   ClosestFeatures closest;                    ///< At the end of the last step.
+  std::optional<Landing> landing;             ///< In this step: its contact rows are made of it.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 };
 

@@ -106,10 +106,11 @@ struct World::Impl {
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
   int substepsWanted() const;
   void divideStep(int count);
+  std::optional<std::vector<Pose>> advance(PhaseClock* clock);
   void makeSubstep(double begin_s, PhaseClock* clock);
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
-  bool pathsLeaveBounds(PhaseClock* clock);
+  void meetFarther(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
   void endPath(Body& body, const Pose& end) const;
   void keepLastPieces();
@@ -143,6 +144,7 @@ void World::Impl::planFlight(PhaseClock* clock) {
       body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
       body.momentum_velocity = body.velocity;
       body.events = 0;
+      body.cleared = 0;
       body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
       body.acceleration.setZero();
       body.torque.setZero();
@@ -165,9 +167,13 @@ void World::Impl::findPairs(PhaseClock* clock) {
   table.collect(bodies, shapes, substep, counters, clock);
 }
 
-bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
+// Pairs that paths could meet which leave the bounds that bodies were paired by are added; the others keep
+// their places, which contact rows know them by.
+void World::Impl::meetFarther(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  return table.pathsLeaveBounds(bodies, shapes, substep.step_s, crew);
+  if (!table.pathsLeaveBounds(bodies, shapes, substep.step_s, crew)) return;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves()) table.extend(static_cast<int>(i), 0.0, bodies, shapes, substep, counters, clock);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
@@ -339,6 +345,7 @@ void World::Impl::updateModes() {
 void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock) {
   substep.step_s = length_s;
   planner.beginStep(begin_s, length_s);
+  for (ShapePair& pair : table.pairs()) pair.landing.reset();
   planFlight(clock);
   findPairs(clock);
 }
@@ -369,22 +376,31 @@ void World::Impl::divideStep(int count) {
   counters.substeps = count;
 }
 
-void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
-  // Impulses of lasting contact; what they press awake takes part in them.
-  solveContacts(clock);
-  while (wakePressed(bodies, contacts)) {  // each time an island fewer rests
-    planFlight(clock);
-    solveContacts(clock);
-  }
-  if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
-  if (pathsLeaveBounds(clock)) findPairs(clock);
-
-  // Advance from one time of impact to the next.
+// Nothing, when what rested has been woken: then the step must be planned anew.
+std::optional<std::vector<Pose>> World::Impl::advance(PhaseClock* clock) {
+  if (wakePressed(bodies, contacts)) return std::nullopt;  // each time an island fewer rests
+  meetFarther(clock);
+  const LastingWorld lasting{bodies, shapes, table, substep, crew};
+  const auto solve_landings = [&](std::span<const int> pairs) -> std::optional<std::vector<int>> {
+    const PhaseScope phase(clock, StepPhase::kImpulses);
+    const std::vector<int> crowded = crowdedLandings(pairs, lasting, contacts);
+    if (crowded.empty()) return crowded;
+    std::vector<int> moved = solveLandings(crowded, lasting, planner, counters, contacts);
+    if (wakePressed(bodies, contacts)) return std::nullopt;
+    return moved;
+  };
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  const std::vector<Pose> ends =
-      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, watchers);
+  return runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, watchers, solve_landings);
+}
+
+void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
+  // Impulses of lasting contact; what they press awake takes part in them. Then advance from one time of
+  // impact to the next.
+  std::optional<std::vector<Pose>> ends;
+  for (solveContacts(clock); !(ends = advance(clock)); solveContacts(clock)) planFlight(clock);
+  if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
   if (keeps_paths) keepLastPieces();
-  finishStep(ends, clock);
+  finishStep(*ends, clock);
 
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);
