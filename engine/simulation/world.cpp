@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/tolerances.h"
-#include "engine/modes/islands.h"
 #include "engine/modes/resting.h"
 #include "engine/modes/sliding.h"
 #include "engine/simulation/event_loop.h"
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 #include "engine/simulation/pair_table.h"
+#include "engine/simulation/resting_islands.h"
 #include "engine/simulation/start_poses.h"
 #include "engine/simulation/state_hash.h"
 #include "engine/simulation/step_paths.h"
@@ -93,6 +94,7 @@ struct World::Impl {
   LastingContacts contacts;  ///< Of the last substep.
   bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
+  RestingIslands resting_islands;
   Crew crew;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
@@ -117,9 +119,7 @@ struct World::Impl {
   void updateModes();
   void accumulateStillness();
   void dampSwings();
-  Islands joinPressing() const;
   void restIslands();
-  bool islandCanRest(const std::vector<int>& members);
   void publish();
 };
 
@@ -234,81 +234,10 @@ void World::Impl::dampSwings() {
   }
 }
 
-Islands World::Impl::joinPressing() const {
-  Islands islands(static_cast<int>(bodies.size()));
-  for (const ContactRow& row : contacts.rows)
-    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static)
-      islands.join(row.a, row.b);
-  return islands;
-}
-
-bool World::Impl::islandCanRest(const std::vector<int>& members) {
-  std::vector<int> local(bodies.size(), -1);
-  std::vector<ImpulseBody> island_bodies;
-  std::vector<double> radii;
-  std::vector<Velocity> pushes;
-  for (int m : members) {
-    if (planner.restless(bodies[at(m)])) return false;
-    local[at(m)] = static_cast<int>(island_bodies.size());
-    island_bodies.push_back(contacts.bodies[at(m)]);
-    radii.push_back(bodies[at(m)].radius_m);
-    if (!planner.isVacuum()) pushes.push_back(planner.pushAtRest(m, bodies[at(m)]));
-  }
-  // All supports that do not belong to the island are one body that cannot move.
-  const int ground = static_cast<int>(island_bodies.size());
-  island_bodies.push_back({});
-  radii.push_back(0.0);
-  if (!planner.isVacuum()) pushes.push_back({});
-  std::vector<ContactRow> rows;
-  std::vector<std::size_t> source_of;
-  std::vector<double> slack_m;
-  for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
-    ContactRow row = contacts.rows[i];
-    const bool in_a = local[at(row.a)] >= 0;
-    const bool in_b = local[at(row.b)] >= 0;
-    if (!in_a && !in_b) continue;
-    if (!in_a) row.r_a += contacts.bodies[at(row.a)].center;
-    if (!in_b) row.r_b += contacts.bodies[at(row.b)].center;
-    row.a = in_a ? local[at(row.a)] : ground;
-    row.b = in_b ? local[at(row.b)] : ground;
-    rows.push_back(row);
-    source_of.push_back(i);
-    slack_m.push_back(contacts.sources[i].slack_m);
-  }
-  // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
-  std::vector<RowLoad> balance(rows.size());
-  const bool rests =
-      canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, slack_m, balance});
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!balance[k].impulse.isZero(0.0))
-      correctLoad(contacts, source_of[k], balance[k], substep.step_s, table.pairs());
-  return rests;
-}
-
 void World::Impl::restIslands() {
-  const Islands islands = joinPressing();
-  std::vector<std::vector<int>> members(bodies.size());
-  std::vector<double> still(bodies.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].moves()) continue;
-    const auto island = at(islands.of(static_cast<int>(i)));
-    members[island].push_back(static_cast<int>(i));
-    still[island] = std::min(still[island], bodies[i].still_s);
-  }
-  for (std::size_t island = 0; island < bodies.size(); ++island) {
-    if (members[island].empty() || still[island] < tolerance::kRestTime) continue;
-    const bool rests = islandCanRest(members[island]);
-    for (int m : members[island]) {
-      Body& body = bodies[at(m)];
-      if (!rests) {
-        body.still_s = 0.0;  // ask again after it has lain still as long once more
-        continue;
-      }
-      body.resting = true;
-      body.rest_island = static_cast<int>(island);
-      body.velocity = {};
-    }
-  }
+  std::vector<int> all(bodies.size());
+  std::iota(all.begin(), all.end(), 0);
+  resting_islands.rest({bodies, table, planner, substep, contacts, crew}, all, counters);
 }
 
 void World::Impl::updateModes() {
