@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "engine/foundation/contract.h"
 #include "engine/simulation/contact_rows.h"
@@ -79,7 +80,6 @@ double pairingMargin(const Shape& shape) {
 
 void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s,
                              Crew& crew) {
-  tree_.clear();
   const bool first = proxies_.size() != shapes.size();
   proxies_.resize(shapes.size());
   starts_.resize(shapes.size());
@@ -120,7 +120,9 @@ void PairTable::link(std::size_t pair) {
 
 void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
-  const std::vector<IndexPair> wanted = finder_.find(proxies_);
+  std::vector<int> all(proxies_.size());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<IndexPair>& wanted = finder_.find(proxies_, all);
   counters.candidate_pairs = static_cast<int>(wanted.size());
   // In most steps of what has settled the pairs stay as they are, and they are large.
   const auto is = [](const ShapePair& pair, const IndexPair& shapes_of_pair) {
@@ -172,9 +174,8 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
     proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
     const int shape = static_cast<int>(i);
-    if (!tree_.isBuilt()) tree_.build(proxies_);
-    tree_.grow(shape, onwards);
-    tree_.findPartners(proxies_, shape, partners_);
+    finder_.grow(shape, onwards);
+    finder_.findPartners(proxies_, shape, partners_);
     for (int partner : partners_) {
       const int low = std::min(shape, partner);
       const int high = std::max(shape, partner);

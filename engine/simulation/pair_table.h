@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/broad_phase/bounds_tree.h"
-#include "engine/broad_phase/candidate_pairs.h"
+#include "engine/broad_phase/pair_finder.h"
 #include "engine/contact/contact_manifold.h"
 #include "engine/contact/time_of_impact.h"
 #include "engine/foundation/crew.h"
@@ -93,7 +92,6 @@ class PairTable {
   std::vector<Proxy> proxies_;
   std::vector<Bounds> starts_;  ///< Of the shapes, where the paths start that they were paired by.
   PairFinder finder_;
-  BoundsTree tree_;               ///< Of the proxies; built when a path first leaves its bounds.
   std::vector<ShapePair> pairs_;  ///< Ascending by shapes, but for those added within a step.
   std::vector<std::vector<int>> of_body_;
   std::vector<int> partners_;  ///< Scratch of `extend`.
