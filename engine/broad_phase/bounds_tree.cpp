@@ -49,6 +49,7 @@ int BoundsTree::buildNode(std::span<int> things, int& next) {
   link(built, 0, buildNode(things.first(things.size() / 2), next));
   link(built, 1, buildNode(things.subspan(things.size() / 2), next));
   fit(built);
+  rotate(built);
   return built;
 }
 
