@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "engine/modes/islands.h"
+#include "engine/simulation/active_bodies.h"
 #include "engine/simulation/contact_rows.h"
 #include "engine/simulation/half_turn.h"
 
@@ -31,6 +33,13 @@ struct RowStretch {
   StepCounters counters;
 };
 
+/// How a body moved before the step's impulses, once for all its rows.
+struct BodyMotion {
+  double mass_kg = 0.0;    ///< 0: it does not move.
+  double speed_mps = 0.0;  ///< Of its middle, and of its surface about that.
+  bool lies_still = true;
+};
+
 /// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
 /// step.
 struct LastingContacts {
@@ -48,7 +57,11 @@ struct LastingContacts {
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
   std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
   std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
-  std::vector<RowStretch> stretches;      ///< Scratch.
+  // Scratch. What belongs to bodies that are not active is as they came to rest.
+  std::vector<RowStretch> stretches;
+  std::vector<Vec3> accelerations;
+  std::vector<BodyMotion> motions;
+  Islands islands;
 };
 
 /// So many rows are looked at by one thread: to wait for another takes as long.
@@ -59,6 +72,7 @@ struct LastingWorld {
   std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
   PairTable& table;
+  ActiveBodies& active;
   const WorldSettings& settings;
   Crew& crew;
 };

@@ -53,11 +53,12 @@ class ContactPaths {
     });
   }
 
-  // The same for bodies: work(index).
+  // The same for active bodies: work(index).
   template <typename Work>
   void forBodies(const Work& work) {
-    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(i);
+    const std::span<const int> active = world_.active.list();
+    world_.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(at(active[k]));
     });
   }
 
@@ -169,9 +170,11 @@ class ContactPaths {
   // Whose paths may bend, one a body.
   std::vector<char> findBends() {
     std::vector<char> bends = contacts_.touched;
-    std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i)
-      if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
+    std::vector<Vec3>& accelerations = contacts_.accelerations;
+    accelerations.resize(world_.bodies.size(), Vec3::Zero());
+    forBodies([&](std::size_t i) {
+      accelerations[i] = world_.bodies[i].moves() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
+    });
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i)
         straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,

@@ -19,9 +19,8 @@ struct StepWatchers {
 };
 
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
-/// where it began, if lower) throughout. Returns where the bodies' paths end.
-std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers);
+/// where it began, if lower) throughout. The bodies' paths then end at `X_end`.
+void runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+               PhaseClock* clock, const StepWatchers& watchers);
 
 }  // namespace carom

@@ -17,25 +17,20 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// How a body moved before the step's impulses, once for all its rows.
-struct BodyMotion {
-  double mass_kg = 0.0;    // 0: it does not move
-  double speed_mps = 0.0;  // of its middle, and of its surface about that
-  bool lies_still = true;
-};
-
-std::vector<BodyMotion> motionsOf(const std::vector<Body>& bodies, Crew& crew) {
-  std::vector<BodyMotion> motions(bodies.size());
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Body& body = bodies[i];
+std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
+  contacts.motions.resize(world.bodies.size());
+  const std::span<const int> active = world.active.list();
+  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Body& body = world.bodies[at(active[k])];
+      BodyMotion& motion = contacts.motions[at(active[k])];
+      motion = {};
       if (!body.moves()) continue;
-      motions[i] = {1.0 / body.inertia.inverse_mass,
-                    body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m,
-                    body.liesStill()};
+      motion = {1.0 / body.inertia.inverse_mass,
+                body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
     }
   });
-  return motions;
+  return contacts.motions;
 }
 
 // Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
@@ -140,8 +135,11 @@ void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies
 }
 
 // With friction.
-void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
-  const std::vector<BodyMotion> motions = motionsOf(bodies, crew);
+void solveImpulses(const LastingWorld& world, LastingContacts& contacts) {
+  std::vector<Body>& bodies = world.bodies;
+  const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+  Crew& crew = world.crew;
+  const std::span<const BodyMotion> motions = motionsOf(world, contacts);
   for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
     const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
     const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
@@ -153,9 +151,10 @@ void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double 
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
-void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
-                     const FlightPlanner& planner) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const FlightPlanner& planner) {
+  const std::vector<Body>& bodies = world.bodies;
+  for (const int active : world.active.list()) {
+    const std::size_t i = at(active);
     if (!bodies[i].moves()) continue;
     const Velocity gained = planner.gained(bodies[i]);
     contacts.bodies[i].velocity.linear += gained.linear;
@@ -171,18 +170,19 @@ void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Cre
       const ContactRow& row = contacts.rows[k];
       if (row.impulse.isZero(0.0)) continue;
       for (const int i : {row.a, row.b})
-        std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
+        if (bodies[at(i)].moves())
+          std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
     }
   });
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].moves()) contacts.touched[i] = 0;
 }
 
 // For the next step's plans: what contacts have given; nothing to bodies in flight, which must not be planned
 // as if something held them.
-void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
+void foreseeContacts(const LastingContacts& contacts, const LastingWorld& world,
                      const FlightPlanner& planner) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  std::vector<Body>& bodies = world.bodies;
+  for (const int active : world.active.list()) {
+    const std::size_t i = at(active);
     if (!bodies[i].moves()) continue;
     if (!contacts.touched[i]) {
       planner.leaveContacts(static_cast<int>(i), bodies[i]);
@@ -236,25 +236,14 @@ void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad
   }
 }
 
-void wake(Body& body) {
-  body.resting = false;
-  body.rest_island = -1;
-  body.still_s = 0.0;
-}
-
-void wakeIsland(std::vector<Body>& bodies, int island) {
-  for (Body& body : bodies)
-    if (body.resting && body.rest_island == island) wake(body);
-}
-
-bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
-  if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.resting; })) return false;
+bool wakePressed(const LastingWorld& world, const LastingContacts& contacts) {
   bool woken = false;
   for (const ContactRow& row : contacts.rows) {
     if (!(row.impulse.x() > 0.0)) continue;
     for (int i : {row.a, row.b}) {
-      if (!bodies[at(i)].resting) continue;
-      wakeIsland(bodies, bodies[at(i)].rest_island);
+      if (!world.bodies[at(i)].resting) continue;
+      for (const int member : world.active.wakeIsland(world.bodies, i))
+        world.table.activate(member, world.bodies, world.settings);
       woken = true;
     }
   }
@@ -263,13 +252,12 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
 
 void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
                           LastingContacts& contacts) {
-  std::vector<Body>& bodies = world.bodies;
   assembleContacts(world, counters, contacts);
-  giveEnvironment(contacts, bodies, planner);
+  giveEnvironment(contacts, world, planner);
   for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
-  solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
-  findTouched(contacts, bodies, world.crew);
-  foreseeContacts(contacts, bodies, planner);
+  solveImpulses(world, contacts);
+  findTouched(contacts, world.bodies, world.crew);
+  foreseeContacts(contacts, world, planner);
   setContactPaths(world, counters, contacts);
   remember(contacts, world);
   counters.contact_points = static_cast<int>(contacts.rows.size());

@@ -112,14 +112,14 @@ void RestingIslands::answer(const RestingWorld& world, const Question& question)
     if (!question.balance[k].impulse.isZero(0.0))
       correctLoad(world.contacts, rows[k], question.balance[k], world.settings.step_s, world.table.pairs());
   const std::span<const Member> members = membersOf(question);
-  for (const Member& member : members) {
-    Body& body = world.bodies[at(member.body)];
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    Body& body = world.bodies[at(members[k].body)];
     if (!question.rests) {
       body.still_s = 0.0;
       continue;
     }
     body.resting = true;
-    body.rest_island = member.island;
+    body.next_at_rest = members[(k + 1) % members.size()].body;
     body.velocity = {};
   }
 }

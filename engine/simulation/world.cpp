@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/tolerances.h"
@@ -88,11 +87,11 @@ struct World::Impl {
   std::vector<Solid> solids;
   std::vector<BodyDescription> descriptions;
   std::vector<Body> bodies;
+  ActiveBodies active;
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
   PairTable table;
   LastingContacts contacts;  ///< Of the last substep.
-  bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
   RestingIslands resting_islands;
   Crew crew;
@@ -104,18 +103,27 @@ struct World::Impl {
   int steps = 0;
   bool started = false;
 
+  LastingWorld lastingWorld() { return {bodies, shapes, table, active, substep, crew}; }
+  /// Calls work(index) for every active body, side by side.
+  template <typename Work>
+  void forActive(const Work& work) {
+    const std::span<const int> list = active.list();
+    crew.runStretches(list.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(at(list[k]));
+    });
+  }
   void makeShapes();
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
-  int substepsWanted() const;
+  int substepsWanted();
   void divideStep(int count);
   void makeSubstep(double begin_s, PhaseClock* clock);
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
   bool pathsLeaveBounds(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
-  void endPath(Body& body, const Pose& end) const;
+  void endPath(Body& body) const;
   void keepLastPieces();
-  void finishStep(const std::vector<Pose>& ends, PhaseClock* clock);
+  void finishStep(PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
   void dampSwings();
@@ -134,53 +142,46 @@ void World::Impl::makeShapes() {
   }
 }
 
-// Every body starts the step as if it were in flight.
+// Every active body starts the step as if it were in flight.
 void World::Impl::planFlight(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kForces);
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Body& body = bodies[i];
-      body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-      body.momentum_velocity = body.velocity;
-      body.events = 0;
-      body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
-      body.acceleration.setZero();
-      body.torque.setZero();
-      body.solved_spin_B.setZero();
-      body.turning_B.setZero();
-      if (body.moves()) planner.plan(static_cast<int>(i), body);
-    }
+  forActive([&](std::size_t i) {
+    Body& body = bodies[i];
+    body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    body.momentum_velocity = body.velocity;
+    body.events = 0;
+    body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
+    body.acceleration.setZero();
+    body.torque.setZero();
+    body.solved_spin_B.setZero();
+    body.turning_B.setZero();
+    body.X_end = body.X_WB;
+    if (body.moves()) planner.plan(static_cast<int>(i), body);
   });
 }
 
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  const bool sleeps = std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.moves(); });
-  if (sleeps && pairs_sleep) {
-    counters.candidate_pairs = static_cast<int>(table.pairs().size());
-    return;
-  }
-  pairs_sleep = sleeps;
-  table.updateBounds(bodies, shapes, substep.step_s, crew);
+  table.updateBounds(bodies, shapes, active.list(), substep.step_s, crew);
   table.collect(bodies, shapes, substep, counters, clock);
 }
 
 bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  return table.pathsLeaveBounds(bodies, shapes, substep.step_s, crew);
+  return table.pathsLeaveBounds(bodies, shapes, active.list(), substep.step_s, crew);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  solveLastingContacts({bodies, shapes, table, substep, crew}, planner, counters, contacts);
+  solveLastingContacts(lastingWorld(), planner, counters, contacts);
 }
 
 // The body where its path ends.
-void World::Impl::endPath(Body& body, const Pose& end) const {
+void World::Impl::endPath(Body& body) const {
   const Vec3 spin_before = body.velocity.angular;
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
-  body.X_WB = end;
+  body.X_WB = body.X_end;
   body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
   if (!flew_freely || spin_before.isZero(0.0)) {
     body.kept_angular_momentum.reset();
@@ -193,35 +194,35 @@ void World::Impl::endPath(Body& body, const Pose& end) const {
 
 // How the bodies moved from their last events to the substep's end.
 void World::Impl::keepLastPieces() {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves()) paths.add(i, bodies[i], substep.step_s);
+  for (const int i : active.list())
+    if (bodies[at(i)].moves()) paths.add(at(i), bodies[at(i)], substep.step_s);
 }
 
 // The state at the step's end, and the closest features there.
-void World::Impl::finishStep(const std::vector<Pose>& ends, PhaseClock* clock) {
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (bodies[i].moves()) endPath(bodies[i], ends[i]);
-  });
-  for (const Body& body : bodies) {
+void World::Impl::finishStep(PhaseClock* clock) {
+  forActive([&](std::size_t i) {
+    if (!bodies[i].moves()) return;
+    endPath(bodies[i]);
+    const Body& body = bodies[i];
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
-  }
+  });
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }
 
 void World::Impl::accumulateStillness() {
-  for (Body& body : bodies) {
+  for (const int i : active.list()) {
+    Body& body = bodies[at(i)];
     if (!body.moves()) continue;
     body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + substep.step_s : 0.0;
   }
 }
 
 void World::Impl::dampSwings() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (!body.moves() || !contacts.touched[i] || body.collided) {
+  for (const int i : active.list()) {
+    Body& body = bodies[at(i)];
+    if (!body.moves() || !contacts.touched[at(i)] || body.collided) {
       body.swing.forget();
       continue;
     }
@@ -235,13 +236,12 @@ void World::Impl::dampSwings() {
 }
 
 void World::Impl::restIslands() {
-  std::vector<int> all(bodies.size());
-  std::iota(all.begin(), all.end(), 0);
-  resting_islands.rest({bodies, table, planner, substep, contacts, crew}, all, counters);
+  resting_islands.rest({bodies, table, planner, substep, contacts, crew}, active.list(), counters);
 }
 
 void World::Impl::updateModes() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (const int active_body : active.list()) {
+    const std::size_t i = at(active_body);
     Body& body = bodies[i];
     body.supported = !body.moves() || contacts.touched[i];
     if (body.is_static)
@@ -274,16 +274,18 @@ void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock
 
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
 // is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
-int World::Impl::substepsWanted() const {
+int World::Impl::substepsWanted() {
   int wanted = 1;
   while (wanted < tolerance::kMostSubsteps &&
          settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
     wanted *= 2;
+  const std::span<const int> list = active.list();
   const bool stirred =
-      std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.liesStill(); });
+      std::any_of(list.begin(), list.end(), [&](int i) { return !bodies[at(i)].liesStill(); });
   if (wanted == 1 || !stirred) return 1;
   int awake = 0;
-  for (const ShapePair& pair : table.pairs()) {
+  for (const int place : table.active()) {
+    const ShapePair& pair = table.pairs()[at(place)];
     awake += bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
     if (2 * awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
   }
@@ -301,7 +303,7 @@ void World::Impl::divideStep(int count) {
 void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   // Impulses of lasting contact; what they press awake takes part in them.
   solveContacts(clock);
-  while (wakePressed(bodies, contacts)) {  // each time an island fewer rests
+  while (wakePressed(lastingWorld(), contacts)) {  // each time an island fewer rests
     planFlight(clock);
     solveContacts(clock);
   }
@@ -310,10 +312,9 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
 
   // Advance from one time of impact to the next.
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  const std::vector<Pose> ends =
-      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, watchers);
+  runEvents(lastingWorld(), planner, counters, clock, watchers);
   if (keeps_paths) keepLastPieces();
-  finishStep(ends, clock);
+  finishStep(clock);
 
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);
@@ -325,8 +326,9 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   updateModes();
 }
 
+// What is not active stays as it was published.
 void World::Impl::publish() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) states[i] = stateOf(bodies[i]);
+  for (const int i : active.list()) states[at(i)] = stateOf(bodies[at(i)]);
 }
 
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
@@ -376,9 +378,10 @@ std::vector<Overlap> World::start() {
   std::vector<int> solid_of;
   for (const BodyDescription& description : w.descriptions) solid_of.push_back(description.solid);
   w.planner.begin(w.solids, std::move(solid_of));
+  w.active.begin(w.bodies);
   w.planFlight(nullptr);
   w.findPairs(nullptr);
-  const StartingBodies start{w.bodies, w.shapes, w.table, w.settings};
+  const StartingBodies start{w.bodies, w.shapes, w.active.list(), w.table, w.settings};
   std::vector<Overlap> overlaps = overlapsAtStart(start);
   if (overlaps.empty() && openTouching(start)) {
     w.planFlight(nullptr);
@@ -394,7 +397,9 @@ void World::step(PhaseClock* clock) {
   Impl& w = *impl_;
   REQUIRE(w.started);
   w.counters = {};
-  for (Body& body : w.bodies) body.collided = false;
+  w.active.beginStep(w.bodies);
+  w.counters.active_bodies = static_cast<int>(w.active.list().size());
+  for (const int i : w.active.list()) w.bodies[at(i)].collided = false;
   w.planSubstep(time(), w.settings.step_s, clock);
   w.divideStep(w.substepsWanted());
   const double length_s = w.settings.step_s / w.substeps;
@@ -462,8 +467,8 @@ Audit World::audit() const {
   audit.time_s = time();
   audit.last_step = w.counters;
   audit.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (const ShapePair& pair : w.table.pairs())
-    audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
+  for (const int place : w.table.all())
+    audit.smallest_gap_m = std::min(audit.smallest_gap_m, w.table.pairs()[at(place)].closest.distance_m);
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
     const Body& body = w.bodies[i];
     if (body.is_static) continue;

@@ -20,6 +20,7 @@ class Crowd {
     settings_.step_s = 0.1;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const int body = static_cast<int>(i);
+      all_.push_back(body);
       bodies_[i].is_static = i % 10 == 9;
       bodies_[i].X_WB = bodies_[i].path.X_WB = random_.pose(kRoom);
       shapes_.push_back({body, &block_.parts()[0], block_.radius()});
@@ -33,7 +34,7 @@ class Crowd {
       body.path = Trajectory{0.0, random_.pose(kRoom), random_.direction()};
       body.X_WB = body.path.X_WB;
     }
-    table_.updateBounds(bodies_, shapes_, settings_.step_s, crew_);
+    table_.updateBounds(bodies_, shapes_, all_, settings_.step_s, crew_);
     table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
   }
 
@@ -43,10 +44,11 @@ class Crowd {
     const Pose X_WB = body.path.at(time_s);
     const double speed_mps = random_.logUniform(1.0, 100.0);
     body.path = Trajectory{time_s, X_WB, speed_mps * random_.direction()};
-    const std::size_t before = table_.pairs().size();
+    const std::size_t before = table_.active().size();
     table_.extend(index, time_s, bodies_, shapes_, settings_, counters_, nullptr);
     std::vector<IndexPair> added;
-    for (std::size_t i = before; i < table_.pairs().size(); ++i) added.push_back(table_.pairs()[i].shapes);
+    for (const int place : std::span(table_.active()).subspan(before))
+      added.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
     return added;
   }
 
@@ -65,10 +67,11 @@ class Crowd {
 
   std::vector<IndexPair> pairs() const {
     std::vector<IndexPair> pairs;
-    for (const ShapePair& pair : table_.pairs()) pairs.push_back(pair.shapes);
+    for (const int place : table_.all())
+      pairs.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
     return pairs;
   }
-  bool pathsLeaveBounds() { return table_.pathsLeaveBounds(bodies_, shapes_, settings_.step_s, crew_); }
+  bool pathsLeaveBounds() { return table_.pathsLeaveBounds(bodies_, shapes_, all_, settings_.step_s, crew_); }
   const PairTable& table() const { return table_; }
 
  private:
@@ -78,6 +81,7 @@ class Crowd {
   Solid block_ = Solid::box({0.5, 0.6, 0.7});
   Solid beam_ = Solid::box({3.0, 0.2, 0.2});
   std::vector<Body> bodies_;
+  std::vector<int> all_;
   std::vector<Shape> shapes_;
   WorldSettings settings_;
   StepCounters counters_;

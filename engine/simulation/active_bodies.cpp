@@ -1,0 +1,53 @@
+#include "engine/simulation/active_bodies.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/foundation/contract.h"
+
+namespace carom {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void ActiveBodies::begin(std::vector<Body>& bodies) {
+  active_.resize(bodies.size());
+  std::iota(active_.begin(), active_.end(), 0);
+  sorted_ = true;
+  for (Body& body : bodies) body.active = true;
+}
+
+void ActiveBodies::beginStep(std::vector<Body>& bodies) {
+  std::erase_if(active_, [&](int i) {
+    Body& body = bodies[at(i)];
+    body.active = body.moves() || !body.lay;
+    body.lay = !body.moves();
+    return !body.active;
+  });
+}
+
+std::span<const int> ActiveBodies::wakeIsland(std::vector<Body>& bodies, int body) {
+  REQUIRE(bodies[at(body)].resting, body);
+  woken_.clear();
+  for (int i = body; bodies[at(i)].resting; i = bodies[at(i)].next_at_rest) {
+    woken_.push_back(i);
+    wake(bodies[at(i)]);
+    if (bodies[at(i)].active) continue;
+    bodies[at(i)].active = true;
+    active_.push_back(i);
+    sorted_ = false;
+  }
+  return woken_;
+}
+
+std::span<const int> ActiveBodies::list() {
+  if (!sorted_) std::sort(active_.begin(), active_.end());
+  sorted_ = true;
+  return active_;
+}
+
+}  // namespace carom
