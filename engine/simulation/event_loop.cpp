@@ -31,15 +31,6 @@ struct Event {
   int version = 0;
 };
 
-// The search for a pair's next impact. It is carried only as far as events come: most searches end early,
-// because another event gives one of the bodies a new path.
-struct Prediction {
-  int version = 0;
-  bool looked = false;  ///< At least once.
-  ImpactSearch search;
-  TimeOfImpact found;
-};
-
 // Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
 // is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
@@ -52,7 +43,7 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers)
+            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
       : bodies_(world.bodies),
         shapes_(world.shapes),
         table_(world.table),
@@ -63,7 +54,8 @@ class EventLoop {
         counters_(counters),
         clock_(clock),
         watchers_(watchers),
-        cluster_(bodies_, shapes_, table_, settings_, counters),
+        cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
+        predictions_(memory.predictions),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
                                    tolerance::kSearchWorkPerBody * static_cast<long>(bodies_.size()))) {}
 
@@ -104,11 +96,12 @@ class EventLoop {
     predictions_.resize(table_.pairs().size());
     const std::vector<int>& pairs = table_.active();
     crew_.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (mayMeet(pairs[i])) {
-          beginSearch(pairs[i], table_.pairs()[at(pairs[i])].closest);
-          carryOn(pairs[i]);
-        }
+      for (std::size_t i = begin; i < end; ++i) {
+        predictions_[at(pairs[i])].looked = false;
+        if (!mayMeet(pairs[i])) continue;
+        beginSearch(pairs[i], table_.pairs()[at(pairs[i])].closest);
+        carryOn(pairs[i]);
+      }
     });
     for (const int i : pairs) {
       const Prediction& prediction = predictions_[at(i)];
@@ -443,10 +436,10 @@ class EventLoop {
   PhaseClock* clock_;
   StepWatchers watchers_;
   ContactCluster cluster_;
-  long search_work_ = 0;  ///< Of all searches in this step: see TimeOfImpact::work.
+  std::vector<Prediction>& predictions_;  ///< By place of the pair.
+  long search_work_ = 0;                  ///< Of all searches in this step: see TimeOfImpact::work.
   long most_search_work_ = 0;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::vector<Event> alike_;  ///< Scratch.
 };
@@ -454,8 +447,8 @@ class EventLoop {
 }  // namespace
 
 void runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers) {
-  EventLoop(world, planner, counters, clock, watchers).run();
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory) {
+  EventLoop(world, planner, counters, clock, watchers, memory).run();
 }
 
 }  // namespace carom

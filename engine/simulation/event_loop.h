@@ -5,6 +5,7 @@
 // its budget of events is held at its last safe time: accuracy is lost and counted, the gap is not. Internal
 // to the simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
 
+#include "engine/simulation/contact_cluster.h"
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 #include "engine/simulation/step_paths.h"
@@ -18,9 +19,24 @@ struct StepWatchers {
   StepPaths* paths = nullptr;  ///< Of the paths that events have ended.
 };
 
+/// The search for a pair's next impact. It is carried only as far as events come: most searches end early,
+/// because another event gives one of the bodies a new path.
+struct Prediction {
+  int version = 0;
+  bool looked = false;  ///< At least once.
+  ImpactSearch search;
+  TimeOfImpact found;
+};
+
+/// Kept from step to step for its room: nothing of it says what happens in a step.
+struct EventMemory {
+  std::vector<Prediction> predictions;  ///< By place of the pair.
+  ClusterMemory cluster;
+};
+
 /// Carries all bodies to the end of the step; every pair keeps its gap at or above the window's floor (or
 /// where it began, if lower) throughout. The bodies' paths then end at `X_end`.
 void runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers);
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory);
 
 }  // namespace carom

@@ -159,6 +159,7 @@ void PairTable::remove(int place, const std::vector<Body>& bodies) {
   for (const int body : {pair.body_a, pair.body_b})
     if (!bodies[at(body)].is_static) std::erase(of_body_[at(body)], place);
   pair.remembered.clear();
+  pair.shapes = {};
   pair.active = false;
   free_.push_back(place);
 }
@@ -267,12 +268,10 @@ void PairTable::scaleImpulses(double factor) {
 }
 
 std::vector<int> PairTable::all() const {
-  std::vector<char> is_free(pairs_.size(), 0);
-  for (const int place : free_) is_free[at(place)] = 1;
   std::vector<int> places;
   places.reserve(count());
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    if (is_free[i] == 0) places.push_back(static_cast<int>(i));
+    if (!pairs_[i].isFree()) places.push_back(static_cast<int>(i));
   std::sort(places.begin(), places.end(), [this](int p, int q) { return isBefore(p, q); });
   return places;
 }

@@ -42,6 +42,8 @@ struct ShapePair {
   FeaturePair tracked;
   ClosestFeatures closest;                    ///< At the end of the last step.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
+
+  bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
 };
 
 /// The ids of the points that a pair remembers.
@@ -85,7 +87,7 @@ class PairTable {
   void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
                StepCounters& counters);
 
-  /// By place; some places may be free. Those in use: `active` and `all`.
+  /// By place; some places may be free.
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }
   /// The places of the pairs that the step looks at: those with an active body. In their order after

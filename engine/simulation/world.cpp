@@ -94,6 +94,7 @@ struct World::Impl {
   LastingContacts contacts;  ///< Of the last substep.
   FlightPlanner planner;
   RestingIslands resting_islands;
+  EventMemory event_memory;
   Crew crew;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
@@ -312,7 +313,7 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
 
   // Advance from one time of impact to the next.
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  runEvents(lastingWorld(), planner, counters, clock, watchers);
+  runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory);
   if (keeps_paths) keepLastPieces();
   finishStep(clock);
 
@@ -467,8 +468,8 @@ Audit World::audit() const {
   audit.time_s = time();
   audit.last_step = w.counters;
   audit.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (const int place : w.table.all())
-    audit.smallest_gap_m = std::min(audit.smallest_gap_m, w.table.pairs()[at(place)].closest.distance_m);
+  for (const ShapePair& pair : w.table.pairs())
+    if (!pair.isFree()) audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
     const Body& body = w.bodies[i];
     if (body.is_static) continue;
