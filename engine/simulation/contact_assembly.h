@@ -59,6 +59,7 @@ struct LastingContacts {
   std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
   // Scratch. What belongs to bodies that are not active is as they came to rest.
   std::vector<RowStretch> stretches;
+  std::vector<char> bends;
   std::vector<Vec3> accelerations;
   std::vector<BodyMotion> motions;
   Islands islands;

@@ -161,18 +161,21 @@ class ContactPaths {
                               half.spin,
                               step_s_});
     });
-    const std::vector<char> bends = findBends();
+    findBends();
     forBodies([&](std::size_t i) {
-      if (contacts_.touched[i]) carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, bends[i] != 0);
+      if (contacts_.touched[i])
+        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.bends[i] != 0);
     });
   }
 
-  // Whose paths may bend, one a body.
-  std::vector<char> findBends() {
-    std::vector<char> bends = contacts_.touched;
+  // Whose paths may bend.
+  void findBends() {
+    std::vector<char>& bends = contacts_.bends;
     std::vector<Vec3>& accelerations = contacts_.accelerations;
-    accelerations.resize(world_.bodies.size(), Vec3::Zero());
+    bends.resize(world_.bodies.size());
+    accelerations.resize(world_.bodies.size());
     forBodies([&](std::size_t i) {
+      bends[i] = contacts_.touched[i];
       accelerations[i] = world_.bodies[i].moves() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
     });
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
@@ -180,7 +183,6 @@ class ContactPaths {
         straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,
                        bends);
     });
-    return bends;
   }
 
   LastingWorld world_;

@@ -163,9 +163,11 @@ void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const
 }
 
 // The moving bodies that some row presses.
-void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Crew& crew) {
-  contacts.touched.assign(bodies.size(), 0);
-  crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+void findTouched(LastingContacts& contacts, const LastingWorld& world) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.touched.resize(bodies.size(), 0);
+  for (const int i : world.active.list()) contacts.touched[at(i)] = 0;
+  world.crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ContactRow& row = contacts.rows[k];
       if (row.impulse.isZero(0.0)) continue;
@@ -256,7 +258,7 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
   giveEnvironment(contacts, world, planner);
   for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
   solveImpulses(world, contacts);
-  findTouched(contacts, world.bodies, world.crew);
+  findTouched(contacts, world);
   foreseeContacts(contacts, world, planner);
   setContactPaths(world, counters, contacts);
   remember(contacts, world);
