@@ -1,7 +1,6 @@
 #include "engine/simulation/active_bodies.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/foundation/contract.h"
 
@@ -13,13 +12,6 @@ std::size_t at(int i) {
 }
 
 }  // namespace
-
-void ActiveBodies::begin(std::vector<Body>& bodies) {
-  active_.resize(bodies.size());
-  std::iota(active_.begin(), active_.end(), 0);
-  sorted_ = true;
-  for (Body& body : bodies) body.active = true;
-}
 
 void ActiveBodies::beginStep(std::vector<Body>& bodies) {
   std::erase_if(active_, [&](int i) {
@@ -33,21 +25,17 @@ void ActiveBodies::beginStep(std::vector<Body>& bodies) {
 std::span<const int> ActiveBodies::wakeIsland(std::vector<Body>& bodies, int body) {
   REQUIRE(bodies[at(body)].resting, body);
   woken_.clear();
+  const auto before = static_cast<std::ptrdiff_t>(active_.size());
   for (int i = body; bodies[at(i)].resting; i = bodies[at(i)].next_at_rest) {
     woken_.push_back(i);
     wake(bodies[at(i)]);
     if (bodies[at(i)].active) continue;
     bodies[at(i)].active = true;
     active_.push_back(i);
-    sorted_ = false;
   }
+  std::sort(active_.begin() + before, active_.end());
+  std::inplace_merge(active_.begin(), active_.begin() + before, active_.end());
   return woken_;
-}
-
-std::span<const int> ActiveBodies::list() {
-  if (!sorted_) std::sort(active_.begin(), active_.end());
-  sorted_ = true;
-  return active_;
 }
 
 }  // namespace carom

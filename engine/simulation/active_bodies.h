@@ -13,19 +13,18 @@ namespace carom {
 
 class ActiveBodies {
  public:
-  /// Of a world that starts: all of them.
-  void begin(std::vector<Body>& bodies);
+  /// A body that has come into the world, the last.
+  void add(int body) { active_.push_back(body); }
   /// Bodies that have not moved in the whole last step are not active any more.
   void beginStep(std::vector<Body>& bodies);
   /// Wakes what came to rest together with a body; those bodies are active from now on. Returns them.
   std::span<const int> wakeIsland(std::vector<Body>& bodies, int body);
 
   /// Ascending.
-  std::span<const int> list();
+  std::span<const int> list() const { return active_; }
 
  private:
   std::vector<int> active_;
-  bool sorted_ = true;
   std::vector<int> woken_;  ///< By the last call.
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "engine/foundation/contract.h"
@@ -171,6 +172,7 @@ void PairTable::restPairs(const std::vector<Body>& bodies) {
     if (bodies[at(pair.body_a)].active || bodies[at(pair.body_b)].active) return false;
     pair.active = false;
     pair.scale = scale_;
+    if (resting_gap_m_) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
     return true;
   });
 }
@@ -254,6 +256,7 @@ void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldS
   for (const int place : of_body_[at(body)]) {
     ShapePair& pair = pairAt(place);
     if (pair.active) continue;
+    if (resting_gap_m_ && pair.closest.distance_m <= *resting_gap_m_) resting_gap_m_.reset();
     scaleRemembered(pair, impulseScale(pair));
     pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
     pair.active = true;
@@ -265,6 +268,18 @@ void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldS
 void PairTable::scaleImpulses(double factor) {
   for (const int place : active_) scaleRemembered(pairAt(place), factor);
   scale_ *= factor;
+}
+
+double PairTable::smallestGap() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!resting_gap_m_) {
+    resting_gap_m_ = kInfinity;
+    for (const ShapePair& pair : pairs_)
+      if (!pair.isFree() && !pair.active) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
+  }
+  double smallest = *resting_gap_m_;
+  for (const int place : active_) smallest = std::min(smallest, pairAt(place).closest.distance_m);
+  return smallest;
 }
 
 std::vector<int> PairTable::all() const {

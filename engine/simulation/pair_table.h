@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -95,6 +96,9 @@ class PairTable {
   const std::vector<int>& active() const { return active_; }
   /// The places of all pairs, in their order. Cost O(pairs).
   std::vector<int> all() const;
+  /// Of all pairs, m; +infinity when there is none. Cost O(active), and where one that rested with the
+  /// smallest gap has woken, O(pairs).
+  double smallestGap() const;
   std::size_t count() const { return pairs_.size() - free_.size(); }
   /// By what the impulses that a pair remembers are to be multiplied.
   double impulseScale(const ShapePair& pair) const { return pair.active ? 1.0 : scale_ / pair.scale; }
@@ -120,10 +124,11 @@ class PairTable {
   std::vector<Bounds> starts_;  ///< Of the shapes, where the paths start that they were paired by.
   PairFinder finder_;
   std::vector<ShapePair> pairs_;
-  std::vector<int> free_;      ///< Places.
-  std::vector<int> active_;    ///< Ascending by shapes after `collect`.
-  std::vector<int> extended_;  ///< Places of the pairs added since.
-  double scale_ = 1.0;         ///< By what all impulses have been multiplied.
+  std::vector<int> free_;                        ///< Places.
+  std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
+  std::vector<int> extended_;                    ///< Places of the pairs added since.
+  mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
+  double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
   std::vector<std::vector<int>> of_body_;
   std::vector<int> partners_, collected_;  ///< Scratch.
 };

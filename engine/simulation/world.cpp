@@ -90,6 +90,8 @@ struct World::Impl {
   ActiveBodies active;
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
+  std::vector<double>
+      potential_J;  ///< Of each body as it was published, where there is neither air nor water.
   PairTable table;
   LastingContacts contacts;  ///< Of the last substep.
   FlightPlanner planner;
@@ -102,6 +104,7 @@ struct World::Impl {
   bool keeps_paths = false;
   int step_of_paths = 0;  ///< How many steps had been made when they were kept last; 0: never.
   int steps = 0;
+  int dynamic_bodies = 0;
   bool started = false;
 
   LastingWorld lastingWorld() { return {bodies, shapes, table, active, substep, crew}; }
@@ -130,6 +133,9 @@ struct World::Impl {
   void dampSwings();
   void restIslands();
   void publish();
+  double potentialOf(int body) const {
+    return bodies[at(body)].is_static ? 0.0 : planner.potential(body, bodies[at(body)]);
+  }
 };
 
 // Parts are referred to by address, so shapes are made once no solid is added any more.
@@ -329,7 +335,10 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
 
 // What is not active stays as it was published.
 void World::Impl::publish() {
-  for (const int i : active.list()) states[at(i)] = stateOf(bodies[at(i)]);
+  for (const int i : active.list()) {
+    states[at(i)] = stateOf(bodies[at(i)]);
+    if (planner.isVacuum()) potential_J[at(i)] = potentialOf(i);
+  }
 }
 
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
@@ -368,7 +377,11 @@ int World::addBody(const BodyDescription& description) {
   impl_->bodies.push_back(body);
   impl_->descriptions.push_back(description);
   impl_->states.push_back(stateOf(body));
-  return static_cast<int>(impl_->bodies.size()) - 1;
+  const int index = static_cast<int>(impl_->bodies.size()) - 1;
+  impl_->potential_J.push_back(impl_->potentialOf(index));
+  impl_->active.add(index);
+  impl_->dynamic_bodies += !body.is_static;
+  return index;
 }
 
 std::vector<Overlap> World::start() {
@@ -379,7 +392,6 @@ std::vector<Overlap> World::start() {
   std::vector<int> solid_of;
   for (const BodyDescription& description : w.descriptions) solid_of.push_back(description.solid);
   w.planner.begin(w.solids, std::move(solid_of));
-  w.active.begin(w.bodies);
   w.planFlight(nullptr);
   w.findPairs(nullptr);
   const StartingBodies start{w.bodies, w.shapes, w.active.list(), w.table, w.settings};
@@ -467,20 +479,20 @@ Audit World::audit() const {
   Audit audit;
   audit.time_s = time();
   audit.last_step = w.counters;
-  audit.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (const ShapePair& pair : w.table.pairs())
-    if (!pair.isFree()) audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
-  for (std::size_t i = 0; i < w.bodies.size(); ++i) {
-    const Body& body = w.bodies[i];
+  audit.smallest_gap_m = w.table.smallestGap();
+  audit.resting_bodies = w.dynamic_bodies;
+  for (const int i : w.active.list()) {  // the others have neither energy of motion nor momentum
+    const Body& body = w.bodies[at(i)];
     if (body.is_static) continue;
     const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;
     audit.kinetic_energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
-    audit.potential_energy_J += w.planner.potential(static_cast<int>(i), body);
     audit.linear_momentum += momentum;
     audit.angular_momentum += body.X_WB.position.cross(momentum) +
                               angularMomentum(body.inertia, body.X_WB.rotation, body.velocity.angular);
-    audit.resting_bodies += body.resting;
+    audit.resting_bodies -= !body.resting;
   }
+  for (std::size_t i = 0; i < w.bodies.size(); ++i)
+    audit.potential_energy_J += w.planner.isVacuum() ? w.potential_J[i] : w.potentialOf(static_cast<int>(i));
   return audit;
 }
 

@@ -95,7 +95,7 @@ TEST(ActiveBodies, GoOnAsWithoutWhatRestsBesideThem) {
 TEST(ActiveBodies, AreDroppedAfterAWholeStepAtRest_AndWakeTogether) {
   std::vector<Body> bodies(4);
   ActiveBodies active;
-  active.begin(bodies);
+  for (int i = 0; i < 4; ++i) active.add(i);
   const auto listed = [&] { return std::vector<int>(active.list().begin(), active.list().end()); };
   active.beginStep(bodies);
   for (const int i : {0, 2, 3}) bodies[static_cast<std::size_t>(i)].resting = true;
