@@ -7,6 +7,8 @@
 namespace carom {
 namespace {
 
+constexpr double kWorn = 2.0;  // times the surface that was built: queries cost in proportion to it
+
 Bounds together(const Bounds& a, const Bounds& b) {
   return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
@@ -29,6 +31,36 @@ void BoundsTree::build(std::span<const Bounds> bounds) {
   std::iota(things.begin(), things.end(), 0);
   int next = leaves_;
   root_ = buildNode(things, next);
+  built_surface_ = fitAll();
+}
+
+void BoundsTree::moveAll(std::span<const Bounds> bounds) {
+  if (static_cast<int>(bounds.size()) != leaves_) {
+    build(bounds);
+    return;
+  }
+  for (int i = 0; i < leaves_; ++i) node(i).bounds = bounds[static_cast<std::size_t>(i)];
+  if (!(fitAll() <= kWorn * built_surface_)) build(bounds);
+}
+
+// Children first. Returns the surface of all nodes above leaves.
+double BoundsTree::fitAll() {
+  double sum = 0.0;
+  const auto firstLeafBelow = [&](int i) {
+    while (!isLeaf(i)) i = node(i).children[0];
+    return i;
+  };
+  for (int i = root_ < 0 ? -1 : firstLeafBelow(root_); i >= 0 && node(i).parent >= 0;) {
+    const int parent = node(i).parent;
+    if (side(i) == 0) {
+      i = firstLeafBelow(node(parent).children[1]);
+      continue;
+    }
+    fit(parent);
+    sum += surface(node(parent).bounds);
+    i = parent;
+  }
+  return sum;
 }
 
 // The lower half of the things goes to the first child: as deep as the logarithm of their number.

@@ -18,6 +18,9 @@ class BoundsTree {
  public:
   /// Splits at medians, along the axis on which the bounds are spread most. Cost O(n log n).
   void build(std::span<const Bounds> bounds);
+  /// Gives all things other bounds. Keeps its shape, O(n), while its nodes are about as small as when it was
+  /// built last; then it is built anew.
+  void moveAll(std::span<const Bounds> bounds);
   int size() const { return leaves_; }
   const Bounds& bounds(int thing) const { return nodes_[static_cast<std::size_t>(thing)].bounds; }
   /// Gives a thing other bounds. Cost about O(log n).
@@ -40,6 +43,7 @@ class BoundsTree {
   int side(int i) const { return node(node(i).parent).children[1] == i ? 1 : 0; }
   int buildNode(std::span<int> things, int& next);
   void fit(int i);
+  double fitAll();
   void link(int parent, int side, int child);
   void takeOut(int thing);
   int bestSibling(const Bounds& bounds) const;
@@ -48,7 +52,8 @@ class BoundsTree {
 
   int leaves_ = 0;
   int root_ = -1;
-  std::vector<Node> nodes_;  ///< The leaves are the first, by thing; then come those above them.
+  double built_surface_ = 0.0;  ///< Of all nodes above leaves, when it was built.
+  std::vector<Node> nodes_;     ///< The leaves are the first, by thing; then come those above them.
 };
 
 }  // namespace carom

@@ -25,7 +25,7 @@ bool PairFinder::hasLeft(const Proxy& proxy, int i) const {
   return proxy.group != roomy.group || proxy.moves != roomy.moves || !roomy.bounds.contains(proxy.bounds);
 }
 
-// A tree built anew costs each thing about as much as putting one elsewhere costs it.
+// To give all things other bounds costs no more than to put half of them elsewhere.
 void PairFinder::makeRoom(std::span<const Proxy> proxies) {
   for (const int i : left_) roomy_[at(i)] = withRoom(proxies[at(i)]);
   if (2 * left_.size() <= proxies.size()) {
@@ -35,7 +35,7 @@ void PairFinder::makeRoom(std::span<const Proxy> proxies) {
   std::vector<Bounds> bounds;
   bounds.reserve(roomy_.size());
   for (const Proxy& roomy : roomy_) bounds.push_back(roomy.bounds);
-  tree_.build(bounds);
+  tree_.moveAll(bounds);
 }
 
 void PairFinder::pairAnew() {

@@ -84,6 +84,25 @@ TEST(BoundsTree, FindsWhatAskingEverybodyFinds_WhileThingsMoveAndGrow) {
   EXPECT_GT(found, 100000u);
 }
 
+// By little, so that the tree keeps its shape, and to anywhere, so that it is built anew.
+TEST(BoundsTree, FindsWhatAskingEverybodyFinds_WhenAllMoveAtOnce) {
+  Random random(45);
+  BoundsTree tree;
+  for (int c = 0; c < 50; ++c) {
+    const Place place{random.logUniform(0.1, 100.0), random.logUniform(0.1, 10.0)};
+    std::vector<Bounds> all(static_cast<std::size_t>(random.integer(1, 100)));
+    for (int change = 0; change < 10; ++change) {
+      for (Bounds& bounds : all) {
+        if (change % 5 == 0) bounds = anyBounds(random, place);
+        const Vec3 shift = 0.1 * place.size * random.direction();
+        bounds = {bounds.low + shift, bounds.high + shift};
+      }
+      tree.moveAll(all);
+      for (const Bounds& bounds : all) ASSERT_EQ(foundAt(tree, bounds), everyoneAt(all, bounds)) << c;
+    }
+  }
+}
+
 // Equal coordinates everywhere.
 TEST(BoundsTree, OfARowOfTouchingCubes_FindsBothNeighbours) {
   BoundsTree tree;
