@@ -71,6 +71,28 @@ class Crowd {
       pairs.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
     return pairs;
   }
+  // Every second body comes to rest where it is, and the pairs are collected again.
+  void restHalf() {
+    std::vector<int> active;
+    for (const int body : all_) {
+      Body& b = bodies_[static_cast<std::size_t>(body)];
+      b.active = body % 2 == 0;
+      b.resting = !b.active && !b.is_static;
+      if (b.active) active.push_back(body);
+    }
+    table_.updateBounds(bodies_, shapes_, active, settings_.step_s, crew_);
+    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+  }
+  void wake(int body) {
+    bodies_[static_cast<std::size_t>(body)].active = true;
+    bodies_[static_cast<std::size_t>(body)].resting = false;
+    table_.activate(body, bodies_, settings_);
+  }
+  bool hasActiveBody(const ShapePair& pair) const {
+    return bodies_[static_cast<std::size_t>(pair.body_a)].active ||
+           bodies_[static_cast<std::size_t>(pair.body_b)].active;
+  }
+  PairTable& table() { return table_; }
   bool pathsLeaveBounds() { return table_.pathsLeaveBounds(bodies_, shapes_, all_, settings_.step_s, crew_); }
   const PairTable& table() const { return table_; }
 
@@ -108,6 +130,40 @@ TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
     EXPECT_EQ(pairs, candidatePairs(crowd.table().proxies())) << "step " << step;
   }
   EXPECT_GT(added_in_all, 1000u);
+}
+
+// What rests keeps its pairs, at their places, with what they remember; nobody looks at them. When it wakes
+// they are in the order they were in, and their impulses are those of steps as long as they are now.
+TEST(PairTable, KeepsThePairsOfWhatRests_AndBringsThemBackWhenItWakes) {
+  Random random(45);
+  Crowd crowd(random, 100);
+  crowd.beginStep();
+  PairTable& table = crowd.table();
+  for (const int place : table.active())
+    table.pairs()[static_cast<std::size_t>(place)].remembered.push_back({.impulse_W = Vec3(0, 0, place + 1)});
+  const std::vector<int> before = table.all();
+  crowd.restHalf();
+  EXPECT_EQ(table.all(), before);
+  for (const int place : table.active())
+    EXPECT_TRUE(crowd.hasActiveBody(table.pairs()[static_cast<std::size_t>(place)]));
+  ASSERT_LT(table.active().size(), before.size()) << "some pairs rest";
+  table.scaleImpulses(0.5);
+  table.scaleImpulses(0.5);
+  for (int body = 1; body < 100; body += 2)
+    if (body % 10 != 9) crowd.wake(body);
+  EXPECT_EQ(table.active().size(), before.size());
+  for (const int place : table.active()) {
+    const ShapePair& pair = table.pairs()[static_cast<std::size_t>(place)];
+    ASSERT_EQ(pair.remembered.size(), 1u);
+    EXPECT_EQ(pair.remembered[0].impulse_W.z(), 0.25 * (place + 1));
+  }
+  for (int body = 0; body < 100; ++body) {
+    const std::vector<int>& of_body = table.pairsOf(body);
+    EXPECT_TRUE(std::is_sorted(of_body.begin(), of_body.end(), [&](int p, int q) {
+      return table.pairs()[static_cast<std::size_t>(p)].shapes <
+             table.pairs()[static_cast<std::size_t>(q)].shapes;
+    }));
+  }
 }
 
 }  // namespace
