@@ -96,7 +96,7 @@ class Assembly {
         if (!lasts[i]) pair.remembered.clear();
       }
     });
-    Islands& islands = contacts_.islands;
+    Islands& islands = contacts_.room.joined;
     islands.part(static_cast<int>(world_.bodies.size()));
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
@@ -224,7 +224,7 @@ class Assembly {
   // Rows of one island stand together; each island is solved on its own, so that one that converges slowly
   // does not keep the others sweeping. Pairs without rows may have parted islands.
   void joinRows() {
-    Islands& islands = contacts_.islands;
+    Islands& islands = contacts_.room.joined;
     islands.part(static_cast<int>(world_.bodies.size()));
     for (const RowStretch& stretch : contacts_.stretches)
       for (const RowStretch::Pair& pair : stretch.pairs)

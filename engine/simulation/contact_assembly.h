@@ -40,6 +40,15 @@ struct BodyMotion {
   bool lies_still = true;
 };
 
+/// Room that is kept from step to step, by body of the world; what belongs to bodies that are not active is
+/// as they came to rest.
+struct ContactRoom {
+  std::vector<char> bends;
+  std::vector<Vec3> accelerations;
+  std::vector<BodyMotion> motions;
+  Islands joined;
+};
+
 /// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
 /// step.
 struct LastingContacts {
@@ -48,6 +57,7 @@ struct LastingContacts {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
+  ContactRoom room;  ///< Scratch.
   std::vector<ContactRow> rows;
   std::vector<RowSource> sources;         ///< As long.
   std::vector<PairRows> pair_rows;        ///< The rows of each pair that has any, in their order.
@@ -57,12 +67,7 @@ struct LastingContacts {
   std::vector<std::size_t> island_begin;  ///< Where each island's rows begin, and the end.
   std::vector<ImpulseBody> paths;         ///< The bodies with the mean velocities of their paths.
   std::vector<MomentumPart> momentum;     ///< Of the rows, while they are bounds on paths.
-  // Scratch. What belongs to bodies that are not active is as they came to rest.
-  std::vector<RowStretch> stretches;
-  std::vector<char> bends;
-  std::vector<Vec3> accelerations;
-  std::vector<BodyMotion> motions;
-  Islands islands;
+  std::vector<RowStretch> stretches;      ///< Scratch.
 };
 
 /// So many rows are looked at by one thread: to wait for another takes as long.

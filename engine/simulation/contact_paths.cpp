@@ -164,14 +164,14 @@ class ContactPaths {
     findBends();
     forBodies([&](std::size_t i) {
       if (contacts_.touched[i])
-        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.bends[i] != 0);
+        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.room.bends[i] != 0);
     });
   }
 
   // Whose paths may bend.
   void findBends() {
-    std::vector<char>& bends = contacts_.bends;
-    std::vector<Vec3>& accelerations = contacts_.accelerations;
+    std::vector<char>& bends = contacts_.room.bends;
+    std::vector<Vec3>& accelerations = contacts_.room.accelerations;
     bends.resize(world_.bodies.size());
     accelerations.resize(world_.bodies.size());
     forBodies([&](std::size_t i) {

@@ -18,19 +18,19 @@ std::size_t at(int i) {
 }
 
 std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
-  contacts.motions.resize(world.bodies.size());
+  contacts.room.motions.resize(world.bodies.size());
   const std::span<const int> active = world.active.list();
   world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Body& body = world.bodies[at(active[k])];
-      BodyMotion& motion = contacts.motions[at(active[k])];
+      BodyMotion& motion = contacts.room.motions[at(active[k])];
       motion = {};
       if (!body.moves()) continue;
       motion = {1.0 / body.inertia.inverse_mass,
                 body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
     }
   });
-  return contacts.motions;
+  return contacts.room.motions;
 }
 
 // Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
