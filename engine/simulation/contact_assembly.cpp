@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/modes/islands.h"
 #include "engine/response/dissection.h"
 #include "engine/simulation/internal_edges.h"
 #include "engine/simulation/midstep_rows.h"
@@ -58,7 +57,7 @@ class Assembly {
   std::vector<std::size_t> addLandings(std::span<const int> pairs) {
     std::vector<RowStretch> stretches(2);
     keepRows(pairs, stretches[0]);
-    for (const int pair : pairs) makeRowsOf({-1, -kWhole, pair}, stretches[1]);
+    for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
     for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
     counters_.distance_queries += stretches[1].counters.distance_queries;
     contacts_.stretches.swap(stretches);
@@ -71,6 +70,7 @@ class Assembly {
   struct LastingPair {
     int island = -1;  // at first a body of it
     int from_last_part = -kWhole;
+    std::uint64_t rank = 0;
     int pair = -1;
     auto operator<=>(const LastingPair&) const = default;
   };
@@ -79,8 +79,10 @@ class Assembly {
   void seeBodies() {
     contacts_.bodies.resize(world_.bodies.size());
     contacts_.half_turns.resize(world_.bodies.size());
-    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+    const std::span<const int> active = world_.active.list();
+    world_.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t i = at(active[k]);
         const Body& body = world_.bodies[i];
         ImpulseBody& seen = contacts_.bodies[i];
         HalfTurn& half = contacts_.half_turns[i];
@@ -95,23 +97,25 @@ class Assembly {
 
   // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
   void findLastingPairs() {
-    std::vector<char> lasts(world_.table.pairs().size(), 0);
-    world_.crew.runStretches(world_.table.pairs().size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    const std::vector<int>& active = world_.table.active();
+    std::vector<char> lasts(active.size(), 0);
+    world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = world_.table.pairs()[i];
+        ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
         lasts[i] =
-            pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(static_cast<int>(i)));
+            pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
         if (!lasts[i]) pair.remembered.clear();
       }
     });
-    Islands islands(static_cast<int>(world_.bodies.size()));
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
-      const ShapePair& pair = world_.table.pairs()[i];
+      const ShapePair& pair = world_.table.pairs()[at(active[i])];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
-      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, static_cast<int>(i)});
+      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, pair.rank, active[i]});
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
   }
@@ -306,7 +310,8 @@ class Assembly {
   // Rows of one island stand together; each island is solved on its own, so that one that converges slowly
   // does not keep the others sweeping. Pairs without rows may have parted islands.
   void joinRows() {
-    Islands islands(static_cast<int>(world_.bodies.size()));
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
     for (const RowStretch& stretch : contacts_.stretches)
       for (const RowStretch::Pair& pair : stretch.pairs)
         if (moves(pair.body_a) && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);

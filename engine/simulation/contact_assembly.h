@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/modes/islands.h"
+#include "engine/simulation/active_bodies.h"
 #include "engine/simulation/contact_rows.h"
 #include "engine/simulation/half_turn.h"
 
@@ -33,6 +35,22 @@ struct RowStretch {
   StepCounters counters;
 };
 
+/// How a body moved before the step's impulses, once for all its rows.
+struct BodyMotion {
+  double mass_kg = 0.0;    ///< 0: it does not move.
+  double speed_mps = 0.0;  ///< Of its middle, and of its surface about that.
+  bool lies_still = true;
+};
+
+/// Room that is kept from step to step, by body of the world; what belongs to bodies that are not active is
+/// as they came to rest.
+struct ContactRoom {
+  std::vector<char> bends;
+  std::vector<Vec3> accelerations;
+  std::vector<BodyMotion> motions;
+  Islands joined;
+};
+
 /// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
 /// step.
 struct LastingContacts {
@@ -41,6 +59,7 @@ struct LastingContacts {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
+  ContactRoom room;  ///< Scratch.
   /// What moves and hangs together by rows: those of one island stand together, and so do its pairs.
   struct Island {
     std::size_t row_begin = 0;
@@ -76,6 +95,7 @@ struct LastingWorld {
   std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
   PairTable& table;
+  ActiveBodies& active;
   const WorldSettings& settings;
   Crew& crew;
 };

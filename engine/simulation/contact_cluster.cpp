@@ -89,6 +89,7 @@ int ContactCluster::join(int index) {
   body_joined_[at(index)] = number_;
   body_member_[at(index)] = static_cast<int>(members_.size());
   const Body& body = bodies_[at(index)];
+  if (!body.is_static && !body.active) table_.activate(index, bodies_, settings_);
   Member member;
   member.body = index;
   member.expanded = body.is_static;

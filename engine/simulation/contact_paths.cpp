@@ -156,24 +156,28 @@ class ContactPaths {
                               half.spin,
                               step_s_});
     });
-    const std::vector<char> bends = findBends();
+    findBends();
     forBodies([&](std::size_t i) {
-      if (contacts_.touched[i]) carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, bends[i] != 0);
+      if (contacts_.touched[i])
+        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.room.bends[i] != 0);
     });
   }
 
-  // Whose paths may bend, one a body.
-  std::vector<char> findBends() {
-    std::vector<char> bends = contacts_.touched;
-    std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
-    for (const std::size_t i : bodies_)
-      if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
+  // Whose paths may bend.
+  void findBends() {
+    std::vector<char>& bends = contacts_.room.bends;
+    std::vector<Vec3>& accelerations = contacts_.room.accelerations;
+    bends.resize(world_.bodies.size());
+    accelerations.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) {
+      bends[i] = contacts_.touched[i];
+      accelerations[i] = world_.bodies[i].moves() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
+    });
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i)
         straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,
                        bends);
     });
-    return bends;
   }
 
   LastingWorld world_;

@@ -34,57 +34,52 @@ struct Event {
   std::int64_t instant = 0;     // its time, as the events are ordered
   bool looked = false;          // then it is an impact or a stop at that time, and parts ...
   double separating_mps = 0.0;  // ... so fast
+  std::uint64_t rank = 0;       // of the pair
   int pair = -1;
   int version = 0;
-};
-
-// The search for a pair's next impact. It is carried only as far as events come: most searches end early,
-// because another event gives one of the bodies a new path.
-struct Prediction {
-  int version = 0;
-  bool searched = false;  ///< Its bodies may meet.
-  bool looked = false;    ///< At least once.
-  ImpactSearch search;
-  TimeOfImpact found;
 };
 
 // Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
 // is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
   bool operator()(const Event& x, const Event& y) const {
-    return std::tie(x.instant, x.looked, x.separating_mps, x.pair) >
-           std::tie(y.instant, y.looked, y.separating_mps, y.pair);
+    return std::tie(x.instant, x.looked, x.separating_mps, x.rank) >
+           std::tie(y.instant, y.looked, y.separating_mps, y.rank);
   }
 };
 
 class EventLoop {
  public:
-  EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers)
-      : bodies_(bodies),
-        shapes_(shapes),
-        table_(table),
+  EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
+      : bodies_(world.bodies),
+        shapes_(world.shapes),
+        table_(world.table),
+        active_(world.active),
         planner_(planner),
-        settings_(settings),
-        crew_(crew),
+        settings_(world.settings),
+        crew_(world.crew),
         counters_(counters),
         clock_(clock),
         watchers_(watchers),
-        cluster_(bodies, shapes, table, settings, counters),
+        cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
+        predictions_(memory.predictions),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
-                                   tolerance::kSearchWorkPerBody * static_cast<long>(bodies.size()))) {}
+                                   tolerance::kSearchWorkPerBody * static_cast<long>(bodies_.size()))) {}
 
-  std::optional<std::vector<Pose>> run(const LandingSolver& solve_landings) {
+  bool run(const LandingSolver& solve_landings) {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
-    ends_.resize(bodies_.size());
-    crew_.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
+    const std::span<const int> active = active_.list();
+    crew_.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        Body& body = bodies_[at(active[k])];
+        body.X_end = body.path.at(settings_.step_s);
+      }
     });
     lookAtAll();
-    if (!holdLandings(solve_landings)) return std::nullopt;
-    for (std::size_t i = 0; i < predictions_.size(); ++i)
-      if (predictions_[i].searched) await(static_cast<int>(i));
+    if (!holdLandings(solve_landings)) return false;
+    for (const int i : table_.active())
+      if (predictions_[at(i)].searched) await(i);
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
     while (!events_.empty()) {
@@ -103,7 +98,7 @@ class EventLoop {
       else
         await(event.pair);
     }
-    return std::move(ends_);
+    return true;
   }
 
  private:
@@ -111,15 +106,17 @@ class EventLoop {
   // whole step is clear.
   void lookAtAll() {
     predictions_.resize(table_.pairs().size());
-    crew_.runStretches(predictions_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (mayMeet(static_cast<int>(i))) {
-          beginSearch(static_cast<int>(i), table_.pairs()[i].closest);
-          carryOn(static_cast<int>(i));
-        }
+    const std::vector<int>& pairs = table_.active();
+    crew_.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        predictions_[at(pairs[i])].looked = predictions_[at(pairs[i])].searched = false;
+        if (!mayMeet(pairs[i])) continue;
+        beginSearch(pairs[i], table_.pairs()[at(pairs[i])].closest);
+        carryOn(pairs[i]);
+      }
     });
-    for (std::size_t i = 0; i < predictions_.size(); ++i) {
-      Prediction& prediction = predictions_[i];
+    for (const int i : pairs) {
+      const Prediction& prediction = predictions_[at(i)];
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
@@ -144,16 +141,16 @@ class EventLoop {
 
   std::vector<int> foreseeLandings() {
     std::vector<int> landings;
-    for (std::size_t i = 0; i < predictions_.size(); ++i) {
-      ShapePair& pair = table_.pairs()[i];
-      const TimeOfImpact& found = predictions_[i].found;
-      if (pair.restitution > 0.0 || !predictions_[i].searched) continue;
-      while (found.outcome == TimeOfImpact::Outcome::kPending && !hasSpentSearch()) look(static_cast<int>(i));
-      if (found.outcome == TimeOfImpact::Outcome::kClear || found.outcome == TimeOfImpact::Outcome::kPending ||
-          isSlow(static_cast<int>(i)))
+    for (const int i : table_.active()) {
+      ShapePair& pair = table_.pairs()[at(i)];
+      const TimeOfImpact& found = predictions_[at(i)].found;
+      if (pair.restitution > 0.0 || !predictions_[at(i)].searched) continue;
+      while (found.outcome == TimeOfImpact::Outcome::kPending && !hasSpentSearch()) look(i);
+      if (found.outcome == TimeOfImpact::Outcome::kClear ||
+          found.outcome == TimeOfImpact::Outcome::kPending || isSlow(i))
         continue;
       pair.landing = landingOf(pair, found);
-      landings.push_back(static_cast<int>(i));
+      landings.push_back(i);
     }
     return landings;
   }
@@ -219,6 +216,8 @@ class EventLoop {
     if (predictions_[at(index)].searched) await(index);
   }
 
+  std::uint64_t rankOf(int index) const { return table_.pairs()[at(index)].rank; }
+
   std::int64_t instantOf(double time_s) const {
     return static_cast<std::int64_t>(time_s / settings_.step_s * kInstants);
   }
@@ -230,7 +229,7 @@ class EventLoop {
     if (found.outcome == TimeOfImpact::Outcome::kClear) return;
     const bool pending = found.outcome == TimeOfImpact::Outcome::kPending;
     const double separating = pending ? 0.0 : separatingSpeedAt(index, found);
-    events_.push({instantOf(found.time_s), !pending, separating, index, prediction.version});
+    events_.push({instantOf(found.time_s), !pending, separating, rankOf(index), index, prediction.version});
   }
 
   double separatingSpeedAt(int index, const TimeOfImpact& found) const {
@@ -287,7 +286,7 @@ class EventLoop {
 
   MovingPart movingPart(int shape) const {
     const Shape& s = shapes_[at(shape)];
-    return {s.part, &bodies_[at(s.body)].path, s.reach_m, &ends_[at(s.body)]};
+    return {s.part, &bodies_[at(s.body)].path, s.reach_m, &bodies_[at(s.body)].X_end};
   }
 
   ClosestFeatures closestAt(int index, double time_s) {
@@ -400,11 +399,10 @@ class EventLoop {
   }
 
   void wakeInStep(int index) {
-    const int island = bodies_[at(index)].rest_island;
-    for (Body& body : bodies_) {
-      if (!body.resting || body.rest_island != island) continue;
-      wake(body);
-      body.travel = Travel::kCarried;  // held up by others or afloat: its forces are in balance
+    for (const int member : active_.wakeIsland(bodies_, index)) {
+      bodies_[at(member)].travel =
+          Travel::kCarried;  // held up by others or afloat: its forces are in balance
+      table_.activate(member, bodies_, settings_);
     }
   }
 
@@ -431,9 +429,10 @@ class EventLoop {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
       Body& body = bodies_[at(member.body)];
-      body.collided = body.collided || member.collided;
-      if (body.is_static || !isTouched(i)) continue;
-      if (body.resting) wakeInStep(member.body);
+      if (body.is_static) continue;
+      if (body.resting && isTouched(i)) wakeInStep(member.body);
+      body.collided = body.collided || (member.collided && body.moves());
+      if (!isTouched(i)) continue;
       const double rest = settings_.step_s - time_s;
       const bool keeps_path = cluster_.keepsPath(i);
       const bool is_as_searched = keeps_path && goesStraight(body);
@@ -538,7 +537,7 @@ class EventLoop {
     extendPairs(time_s);
     std::vector<int> pairs;
     for (int body : changed_) {
-      ends_[at(body)] = bodies_[at(body)].path.at(settings_.step_s);
+      bodies_[at(body)].X_end = bodies_[at(body)].path.at(settings_.step_s);
       pairs.insert(pairs.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
     }
     std::sort(pairs.begin(), pairs.end());
@@ -554,6 +553,7 @@ class EventLoop {
   std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
+  ActiveBodies& active_;
   const FlightPlanner& planner_;
   const WorldSettings& settings_;
   Crew& crew_;
@@ -561,24 +561,20 @@ class EventLoop {
   PhaseClock* clock_;
   StepWatchers watchers_;
   ContactCluster cluster_;
-  long search_work_ = 0;  ///< Of all searches in this step: see TimeOfImpact::work.
+  std::vector<Prediction>& predictions_;  ///< By place of the pair.
+  long search_work_ = 0;                  ///< Of all searches in this step: see TimeOfImpact::work.
   long most_search_work_ = 0;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
-  std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::vector<Event> alike_;  ///< Scratch.
 };
 
 }  // namespace
 
-std::optional<std::vector<Pose>> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                           PairTable& table, const FlightPlanner& planner,
-                                           const WorldSettings& settings, Crew& crew, StepCounters& counters,
-                                           PhaseClock* clock, const StepWatchers& watchers,
-                                           const LandingSolver& solve_landings) {
-  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers)
-      .run(solve_landings);
+bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
+               const LandingSolver& solve_landings) {
+  return EventLoop(world, planner, counters, clock, watchers, memory).run(solve_landings);
 }
 
 }  // namespace carom

@@ -23,25 +23,20 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// How a body moved before the step's impulses, once for all its rows.
-struct BodyMotion {
-  double mass_kg = 0.0;    // 0: it does not move
-  double speed_mps = 0.0;  // of its middle, and of its surface about that
-  bool lies_still = true;
-};
-
-std::vector<BodyMotion> motionsOf(const std::vector<Body>& bodies, Crew& crew) {
-  std::vector<BodyMotion> motions(bodies.size());
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Body& body = bodies[i];
+std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
+  contacts.room.motions.resize(world.bodies.size());
+  const std::span<const int> active = world.active.list();
+  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Body& body = world.bodies[at(active[k])];
+      BodyMotion& motion = contacts.room.motions[at(active[k])];
+      motion = {};
       if (!body.moves()) continue;
-      motions[i] = {1.0 / body.inertia.inverse_mass,
-                    body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m,
-                    body.liesStill()};
+      motion = {1.0 / body.inertia.inverse_mass,
+                body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
     }
   });
-  return motions;
+  return contacts.room.motions;
 }
 
 // Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
@@ -144,7 +139,7 @@ SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody
 // With friction.
 void solveImpulses(LastingContacts& contacts, const LastingWorld& world, StepCounters& counters) {
   const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
-  const std::vector<BodyMotion> motions = motionsOf(world.bodies, world.crew);
+  const std::span<const BodyMotion> motions = motionsOf(world, contacts);
   const int careful_sweeps = sweepsInBudget(contacts.rows.size());
   const int most_sweeps = tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size()));
   for (const LastingContacts::Island& island : contacts.islands) {
@@ -159,10 +154,12 @@ void solveImpulses(LastingContacts& contacts, const LastingWorld& world, StepCou
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
-void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
-                     const FlightPlanner& planner) {
-  contacts.gained.assign(bodies.size(), {});
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const FlightPlanner& planner) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.gained.resize(bodies.size());
+  for (const int active : world.active.list()) {
+    const std::size_t i = at(active);
+    contacts.gained[i] = {};
     if (!bodies[i].moves()) continue;
     contacts.gained[i] = planner.gained(bodies[i]);
     contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
@@ -199,18 +196,19 @@ void warmUp(LastingContacts& contacts) {
 }
 
 // The moving bodies that some row presses.
-void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Crew& crew) {
-  contacts.touched.assign(bodies.size(), 0);
-  crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+void findTouched(LastingContacts& contacts, const LastingWorld& world) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.touched.resize(bodies.size(), 0);
+  for (const int i : world.active.list()) contacts.touched[at(i)] = 0;
+  world.crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ContactRow& row = contacts.rows[k];
       if (row.impulse.isZero(0.0)) continue;
       for (const int i : {row.a, row.b})
-        std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
+        if (bodies[at(i)].moves())
+          std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
     }
   });
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].moves()) contacts.touched[i] = 0;
 }
 
 // For the next step's plans: what contacts have given; nothing to a body in flight, which must not be planned
@@ -281,25 +279,14 @@ void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad
   }
 }
 
-void wake(Body& body) {
-  body.resting = false;
-  body.rest_island = -1;
-  body.still_s = 0.0;
-}
-
-void wakeIsland(std::vector<Body>& bodies, int island) {
-  for (Body& body : bodies)
-    if (body.resting && body.rest_island == island) wake(body);
-}
-
-bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
-  if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.resting; })) return false;
+bool wakePressed(const LastingWorld& world, const LastingContacts& contacts) {
   bool woken = false;
   for (const ContactRow& row : contacts.rows) {
     if (!(row.impulse.x() > 0.0)) continue;
     for (int i : {row.a, row.b}) {
-      if (!bodies[at(i)].resting) continue;
-      wakeIsland(bodies, bodies[at(i)].rest_island);
+      if (!world.bodies[at(i)].resting) continue;
+      for (const int member : world.active.wakeIsland(world.bodies, i))
+        world.table.activate(member, world.bodies, world.settings);
       woken = true;
     }
   }
@@ -308,14 +295,13 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
 
 void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
                           LastingContacts& contacts) {
-  std::vector<Body>& bodies = world.bodies;
   assembleContacts(world, counters, contacts);
-  giveEnvironment(contacts, bodies, planner);
+  giveEnvironment(contacts, world, planner);
   warmUp(contacts);
   solveImpulses(contacts, world, counters);
-  findTouched(contacts, bodies, world.crew);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves()) foreseeContacts(contacts, static_cast<int>(i), bodies[i], planner);
+  findTouched(contacts, world);
+  for (const int i : world.active.list())
+    if (world.bodies[at(i)].moves()) foreseeContacts(contacts, i, world.bodies[at(i)], planner);
   std::vector<std::size_t> islands(contacts.islands.size());
   std::iota(islands.begin(), islands.end(), std::size_t{0});
   setContactPaths(world, islands, counters, contacts);
@@ -375,7 +361,7 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
                        .crew = &world.crew});
     counters.row_visits += report.visits;
   }
-  findTouched(contacts, world.bodies, world.crew);
+  findTouched(contacts, world);
   for (const int i : bodies) {
     Body& body = world.bodies[at(i)];
     if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic) letFly(i, body, planner);

@@ -13,7 +13,7 @@
 namespace carom {
 
 /// Wakes the resting islands that a moving body presses on; whether there were any.
-bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts);
+bool wakePressed(const LastingWorld& world, const LastingContacts& contacts);
 
 /// Solves the step's lasting contacts and sets path and momentum of the bodies that they press. Bodies must
 /// come with planned paths that start at the beginning of the step; resting ones do not give way.
@@ -34,10 +34,5 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
 /// The load that a row of `contacts` is remembered by, and acts with, instead of what it took in the step.
 void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad& load, double step_s,
                  std::vector<ShapePair>& pairs);
-
-/// Makes a body that rested move again.
-void wake(Body& body);
-/// Wakes everything that came to rest together with a body.
-void wakeIsland(std::vector<Body>& bodies, int island);
 
 }  // namespace carom
