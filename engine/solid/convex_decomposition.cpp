@@ -168,8 +168,11 @@ class Cutting {
       if (static_cast<int>(done_.size() + waiting_.size()) >= settings_.most_pieces ||
           ++report.cuts > kCutsPerPiece * settings_.most_pieces)
         throw InputError(tooMany(report));
-      cutOnce(piece, notches);
-      separate(piece);
+      // A notch that no plane divides is none to rounding; whether the piece is convex is seen at the end.
+      if (cutOnce(piece, notches))
+        separate(piece);
+      else
+        done_.push_back(std::move(piece));
     }
   }
 
@@ -182,19 +185,15 @@ class Cutting {
            std::to_string(settings_.most_pieces) + " convex pieces";
   }
 
-  void cutOnce(Piece& piece, std::vector<int> notches) {
+  bool cutOnce(Piece& piece, const std::vector<int>& notches) {
     const CutSurface before = surface_;
     const Piece whole = piece;
     for (const NotchPlane& by : bestPlanes(piece, notches)) {
-      if (surface_.cut(piece, by)) return;
+      if (surface_.cut(piece, by)) return true;
       surface_ = before;
       piece = whole;
     }
-    const Vec3 p = surface_.point(surface_.tail(notches.front()));
-    std::ostringstream message;
-    message << "its concave edge at (" << p.x() << ", " << p.y() << ", " << p.z()
-            << ") cannot be cut: details are finer than rounding";
-    throw InputError(message.str());
+    return false;
   }
 
   /// Of all notches those whose solid angles are farthest from flat, times their length.
@@ -462,14 +461,17 @@ class Merging {
 
 }  // namespace
 
+double flatTolerance(const SurfaceMesh& mesh, double coordinate_error_m) {
+  double largest = 0.0;
+  for (const Vec3& p : mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return std::max(kRoundings * kRounding * largest, kErrorsToFlat * coordinate_error_m);
+}
+
 ConvexDecomposition convexDecomposition(const ClosedSurface& surface, const DecompositionSettings& settings) {
   REQUIRE(settings.coordinate_error_m >= 0.0 && settings.most_pieces > 0, settings.coordinate_error_m,
           settings.most_pieces);
-  double largest = 0.0;
-  for (const Vec3& p : surface.mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   ConvexDecomposition made;
-  made.report.tolerance_m =
-      std::max(kRoundings * kRounding * largest, kErrorsToFlat * settings.coordinate_error_m);
+  made.report.tolerance_m = flatTolerance(surface.mesh, settings.coordinate_error_m);
   Cutting cutting(surface, settings, made.report.tolerance_m);
   cutting.run(made.report);
   Merging merging(cutting, settings, made.report.tolerance_m);

@@ -34,6 +34,10 @@ struct ConvexDecomposition {
   DecompositionReport report;
 };
 
+/// What counts as flat in a mesh whose coordinates may be off by that much, metres: that, and the rounding of
+/// the largest coordinate.
+double flatTolerance(const SurfaceMesh& mesh, double coordinate_error_m);
+
 /// Throws InputError where more than `most_pieces` are needed, and where rounding leaves a part that is not
 /// convex. Cost: about the notches times the triangles, and a hull for each pair of pieces that may be one.
 ConvexDecomposition convexDecomposition(const ClosedSurface& surface,

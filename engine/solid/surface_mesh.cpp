@@ -255,7 +255,6 @@ ClosedSurface closedSurface(const SurfaceMesh& given) {
     }
   }
   made.handles = shells - (fans - static_cast<int>(made.mesh.triangles.size()) / 2) / 2;
-  if (!(surfaceMass(made.mesh).mass > 0.0)) throw InputError("the surface encloses no volume");
   return made;
 }
 

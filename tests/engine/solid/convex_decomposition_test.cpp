@@ -45,6 +45,13 @@ std::vector<NamedMesh> family() {
   return all;
 }
 
+/// One of many dented balls.
+SurfaceMesh seededBall(std::uint64_t seed) {
+  Random random(seed + 1);
+  const int sides = 4 + static_cast<int>(random.unit() * 12), rows = 3 + static_cast<int>(random.unit() * 8);
+  return dentedBall(sides, rows, 1 + static_cast<int>(random.unit() * 6), seed);
+}
+
 double largestCoordinate(const SurfaceMesh& mesh) {
   double largest = 0.0;
   for (const Vec3& p : mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
@@ -156,6 +163,20 @@ TEST(ConvexDecomposition, TakesAFilesRoundingForFlat) {
   const ConvexDecomposition made = convexDecomposition(surface, {.coordinate_error_m = 0.5e-6});
   EXPECT_EQ(made.pieces.size(), 20u);
   EXPECT_NEAR(made.report.volume_m3 / surfaceMass(rounded).mass, 1.0, 1e-6);
+}
+
+// Some cuts of this one part what another cut has made convex already.
+TEST(ConvexDecomposition, PutsTogetherPiecesThatMakeAConvexOne) {
+  const ClosedSurface surface = closedSurface(placed(seededBall(92)));
+  const ConvexDecomposition made = convexDecomposition(surface);
+  EXPECT_GT(made.report.merged, 0);
+  EXPECT_NEAR(made.report.volume_m3 / surfaceMass(surface.mesh).mass, 1.0, 1e-12);
+}
+
+// Cuts leave a notch on a triangle thinner than rounding, which no plane divides.
+TEST(ConvexDecomposition, TakesANotchThatNoPlaneDividesForNone) {
+  const ClosedSurface surface = closedSurface(placed(seededBall(165)));
+  EXPECT_NEAR(convexDecomposition(surface).report.volume_m3 / surfaceMass(surface.mesh).mass, 1.0, 1e-12);
 }
 
 TEST(ConvexDecomposition, RefusesWhatNeedsTooManyPieces) {
