@@ -16,8 +16,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "demos/asset_path.h"
 #include "demos/bounded_process.h"
 #include "demos/mesh_header.h"
+#include "demos/written_precision.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
 
@@ -280,6 +282,23 @@ ImportedMesh readApart(const fs::path& path) {
 
 }  // namespace
 
+namespace {
+
+/// The digits of a text in place of assimp's rounding.
+void takeText(const fs::path& path, ImportedMesh& mesh) {
+  const std::string ending = path.extension().string();
+  if (ending != ".obj" && ending != ".off" && ending != ".ply" && ending != ".stl") return;
+  const std::string text = readTextFile(path);
+  mesh.written_error_m = halfLastDigit(text);
+  std::vector<Vec3*> points;
+  for (MeshPart& part : mesh.parts)
+    for (Vec3& p : part.vertices) points.push_back(&p);
+  if (takeWritten(writtenVertices(text), points) && hasDoubleDigits(text))
+    mesh.coordinate_error_m = mesh.written_error_m;
+}
+
+}  // namespace
+
 ImportedMesh importMesh(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw InputError(path.string() + ": no such mesh file");
@@ -290,9 +309,11 @@ ImportedMesh importMesh(const fs::path& path) {
   if (mesh.parts.empty()) throw InputError(path.string() + ": holds no mesh with faces");
   const std::string ending = path.extension().string();
   mesh.y_up = ending == ".gltf" || ending == ".glb" || ending == ".dae";
+  double reach = 0.0;
   for (const MeshPart& part : mesh.parts)
-    for (const Vec3& p : part.vertices)
-      mesh.coordinate_error_m = std::max(mesh.coordinate_error_m, kRounding * p.cwiseAbs().maxCoeff());
+    for (const Vec3& p : part.vertices) reach = std::max(reach, p.cwiseAbs().maxCoeff());
+  mesh.coordinate_error_m = kRounding * reach;
+  takeText(path, mesh);
   return mesh;
 }
 

@@ -25,8 +25,10 @@ struct MeshPart {
 struct ImportedMesh {
   std::vector<MeshPart> parts;
   bool y_up = false;  ///< The file's format says that y is up: glTF and Collada.
-  double coordinate_error_m =
-      0.0;  ///< How far a coordinate may be from what the file means: single precision.
+  /// How far a coordinate may be from what the file means: single precision, where it came through assimp or
+  /// has no more digits than that.
+  double coordinate_error_m = 0.0;
+  double written_error_m = 0.0;  ///< Of a text: half of the last digit of its longest numbers.
 };
 
 /// Throws InputError for a file that is missing, unreadable, empty, that takes more than 1 GB of memory, 10 s

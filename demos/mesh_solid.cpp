@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "demos/mesh_import.h"
-#include "demos/written_precision.h"
 #include "engine/foundation/contract.h"
 #include "engine/solid/convex_decomposition.h"
 #include "engine/solid/convex_hull.h"
@@ -127,18 +126,12 @@ bool saysNothing(const BoundingSurface& surface) {
   return true;
 }
 
-/// How far a coordinate may be from what is meant: by the importer's precision, which is all that a convex
-/// hull need forgive, and by the file's digits.
-struct CoordinateError {
-  double import_m = 0.0;
-  double written_m = 0.0;
-  double largest() const { return std::max(import_m, written_m); }
-};
-
-void addSurface(const MeshPart& part, const CoordinateError& error, MeshSolid& made) {
+void addSurface(const MeshPart& part, const ImportedMesh& file, MeshSolid& made) {
   const ClosedSurface closed = closedSurface({part.vertices, part.triangles});
+  // A hull need not forgive what the file's digits bend.
+  const double error_m = std::max(file.coordinate_error_m, file.written_error_m);
   MeshReport& report = made.report;
-  if (const std::optional<Vec3> p = findCrossing(closed.mesh, flatTolerance(closed.mesh, error.largest()))) {
+  if (const std::optional<Vec3> p = findCrossing(closed.mesh, flatTolerance(closed.mesh, error_m))) {
     std::ostringstream message;
     message << "the surface goes through itself at (" << p->x() << ", " << p->y() << ", " << p->z() << ')';
     throw InputError(message.str());
@@ -146,9 +139,10 @@ void addSurface(const MeshPart& part, const CoordinateError& error, MeshSolid& m
   const double volume_m3 = surfaceMass(closed.mesh).mass;
   if (!(volume_m3 > 0.0)) throw InputError("the surface encloses no volume");
   const ConvexDecomposition pieces = convexDecomposition(
-      closed, {.coordinate_error_m = error.largest(),
+      closed, {.coordinate_error_m = error_m,
                .most_pieces = std::max(1, kMostPieces - static_cast<int>(made.parts.size()))});
-  const ConvexPolyhedron hull = convexHull(part.vertices, {.coordinate_error_m = error.import_m}).polyhedron;
+  const ConvexPolyhedron hull =
+      convexHull(part.vertices, {.coordinate_error_m = file.coordinate_error_m}).polyhedron;
   if (pieces.pieces.size() == 1 && pieces.report.cuts == 0)
     made.parts.push_back({hull, 0.0});  // its corners in the file's order
   else
@@ -165,11 +159,10 @@ void addSurface(const MeshPart& part, const CoordinateError& error, MeshSolid& m
   addLooks(part, closed, made.surface);
 }
 
-void addSurfaces(const ImportedMesh& mesh, double written_error_m, MeshSolid& made) {
+void addSurfaces(const ImportedMesh& mesh, MeshSolid& made) {
   const std::vector<MeshPart> surfaces = surfacesOf(mesh);
   try {
-    for (const MeshPart& surface : surfaces)
-      addSurface(surface, {mesh.coordinate_error_m, written_error_m}, made);
+    for (const MeshPart& surface : surfaces) addSurface(surface, mesh, made);
   } catch (const InputError& error) {
     throw InputError(
         std::string(error.what()) +
@@ -235,16 +228,18 @@ MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& reques
   for (MeshPart& part : mesh.parts)
     for (Vec3& p : part.vertices) p *= request.scale;
   mesh.coordinate_error_m *= request.scale;
+  mesh.written_error_m *= request.scale;
   try {
     if (request.fit_m) {
       const double factor = fitInto(mesh, *request.fit_m);
       mesh.coordinate_error_m *= factor;
+      mesh.written_error_m *= factor;
       report.scale *= factor;
     }
     if (request.as_hull)
       addHulls(mesh, made);
     else
-      addSurfaces(mesh, report.scale * writtenError(path), made);
+      addSurfaces(mesh, made);
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
   }

@@ -17,9 +17,9 @@ namespace {
 
 using namespace generated;
 
-std::string objText(const SurfaceMesh& mesh, int from = 0, int to = -1) {
+std::string objText(const SurfaceMesh& mesh, int from = 0, int to = -1, int digits = 9) {
   std::ostringstream text;
-  text.precision(9);
+  text.precision(digits);
   for (const Vec3& p : mesh.vertices) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
   const int count = static_cast<int>(mesh.triangles.size());
   for (int t = from; t < (to < 0 ? count : to); ++t) {
@@ -61,6 +61,38 @@ TEST(MeshSolid, ATorusOfSixDecimalsIsNotCutAtItsRounding) {
   const MeshSolid made = meshSolid(folder.file("torus.obj", objText(rounded)));
   EXPECT_EQ(made.report.pieces, 20);
   EXPECT_NEAR(made.report.volume_m3 / std::abs(surfaceMass(rounded).mass), 1.0, 1e-6);
+}
+
+TEST(MeshSolid, CoordinatesKeepTheirDigits) {
+  const TemporaryFolder folder;
+  const SurfaceMesh mesh = closedSurface(placed(torus(20, 10))).mesh;
+  const double volume = surfaceMass(mesh).mass;
+  std::ostringstream ply, off, stl;
+  for (std::ostringstream* text : {&ply, &off, &stl}) text->precision(17);
+  ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty double y\nproperty double x\nproperty double z\nelement face " << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  off << "OFF\n# by hand\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+  stl << "solid ring\n";
+  for (const Vec3& p : mesh.vertices) {
+    ply << p.y() << ' ' << p.x() << ' ' << p.z() << '\n';
+    off << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (std::ostringstream* text : {&ply, &off}) *text << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    stl << "facet normal 0 0 0\nouter loop\n";
+    for (const int v : t) stl << "vertex " << mesh.vertices[static_cast<std::size_t>(v)].transpose() << '\n';
+    stl << "endloop\nendfacet\n";
+  }
+  stl << "endsolid ring\n";
+  for (const auto& file :
+       {folder.file("ring.obj", objText(mesh, 0, -1, 17)), folder.file("ring.ply", ply.str()),
+        folder.file("ring.off", off.str()), folder.file("ring.stl", stl.str())}) {
+    const MeshSolid made = meshSolid(file);
+    EXPECT_NEAR(made.report.volume_m3 / volume, 1.0, 1e-14) << file;
+    EXPECT_EQ(made.report.pieces, 20) << file;
+    EXPECT_LT(made.report.tolerance_m, 1e-13) << file;
+  }
 }
 
 TEST(WrittenPrecision, IsHalfOfTheLastDigitThatIsCutOff) {
