@@ -9,7 +9,7 @@
 namespace carom {
 
 /// A place at which an edge goes through a triangle by more than `tolerance_m`; the surface may touch itself.
-/// Cost: a sort, and the pairs of triangles whose boxes meet.
+/// Cost: O(n log n), and the pairs of triangles whose boxes meet.
 std::optional<Vec3> findCrossing(const SurfaceMesh& mesh, double tolerance_m);
 
 }  // namespace carom
