@@ -20,7 +20,8 @@ struct SceneChoice {
   std::optional<double> duration_s;
   std::optional<std::uint64_t> seed;
   std::optional<std::filesystem::path> mesh;
-  int threads = 0;  ///< That step it; 0: one for each processor, at most eight.
+  bool as_hull = false;  ///< Of the mesh its convex hull.
+  int threads = 0;       ///< That step it; 0: one for each processor, at most eight.
 };
 int threadsOf(const SceneChoice& choice);
 /// Reads the scene and puts the chosen seed and duration in.

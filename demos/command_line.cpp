@@ -73,12 +73,18 @@ void requireHash(const std::string& text) {
   throw UsageError("--expect-hash " + text + ": accepted: the 16 hexadecimal digits that simulate prints");
 }
 
+void addMeshOptions(CLI::App& command, SceneChoice& choice) {
+  command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable ones");
+  command.add_flag("--hull", choice.as_hull,
+                   "Its convex hull, or that of each of its meshes, in place of the mesh");
+}
+
 void addSceneOptions(CLI::App& command, SceneChoice& choice) {
   command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")
       ->required();
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
   command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
-  command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+  addMeshOptions(command, choice);
 }
 
 void addThreadsOption(CLI::App& command, SceneChoice& choice) {
@@ -176,8 +182,7 @@ CommandLine::CommandLine() {
   check_command
       ->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")
       ->required();
-  check_command->add_option("--mesh", check_options.choice.mesh,
-                            "A mesh file in place of the scene's replaceable hulls");
+  addMeshOptions(*check_command, check_options.choice);
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
   addCompare();

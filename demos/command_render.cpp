@@ -456,6 +456,13 @@ std::optional<FrameNames> frameNames(const RenderOptions& options, const std::st
   return FrameNames(output.empty() ? "frames/" + scene + "/frame_%04d.png" : output);
 }
 
+Json meshesJson(const std::vector<std::pair<std::string, MeshReport>>& meshes) {
+  Json list = Json::array();
+  for (const auto& [body, report] : meshes)
+    list.push(Json::object({{"body", body}, {"mesh", report.json()}}));
+  return list;
+}
+
 }  // namespace
 
 ExitCode render(const RenderOptions& options) {
@@ -472,6 +479,7 @@ ExitCode render(const RenderOptions& options) {
   Manifest manifest = emptyManifest(options, plan);
 
   SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh, threadsOf(plan.choice));
+  if (!made.meshes.empty()) manifest.meshes = meshesJson(made.meshes);
   Overlays overlays({shown, options.focus, recording.has_value()}, made, plan.clock);
   manifest.overlays = overlays.identity();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);

@@ -75,6 +75,7 @@ void writeManifest(const Manifest& manifest, const std::filesystem::path& path) 
                             {"stepsPerSecond", manifest.steps_per_second},
                             {"camera", manifest.camera}});
   addUnusual(manifest, json);
+  if (manifest.meshes.kind() != Json::Kind::kNull) json.set("meshes", manifest.meshes);
   json.set("version", programVersion());
   json.set("build", buildName());
   json.set("gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}}));
