@@ -18,10 +18,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # One of these makes the GL context when frames are drawn; what draws nothing runs without.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6 | libegl1, libosmesa6 | libgl1-mesa-dri, fonts-dejavu-core")
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "rigid bodies on V-Clip, drawn off screen to PNG frames
- Simulates scenes of rigid bodies by impulses, with exact closest features
- between convex polyhedra and exact times of impact, and draws them to PNG
- frames on machines without display or graphics card.")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Simulates scenes of rigid bodies by impulses, with exact closest features
+between convex polyhedra and exact times of impact, and draws them to PNG
+frames on machines without display or graphics card.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -30,9 +29,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 if(ISAL_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libisal-dev")
 endif()
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "rigid bodies on V-Clip, development files
- Static libraries, headers, and files for CMake and pkg-config of Carom's
- engine of rigid bodies and of its off-screen renderer.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries, headers, and files for CMake and pkg-config of Carom's
+engine of rigid bodies and of its off-screen renderer.")
 
 # Debian wants a copyright, a changelog and compressed pages of each package.
 foreach(component program development)
