@@ -69,7 +69,7 @@ struct RenderOptions {
   std::string overlays;   ///< "closest,distance"; empty: none.
   std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
   bool portable = false;  ///< The same pixels on every CPU.
-  std::string gl = "osmesa";
+  std::string gl = "auto";
   int workers = 0;  ///< Processes that draw; 0: as many as are usual.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
@@ -145,7 +145,7 @@ struct BudgetOptions {
   std::filesystem::path trace;
   std::filesystem::path baseline;
   double tolerance_percent = 10.0;
-  std::string gl = "osmesa";
+  std::string gl = "auto";
   Telling telling;
 };
 ExitCode budget(const BudgetOptions& options);
@@ -158,7 +158,7 @@ struct FiguresOptions {
 ExitCode figures(const FiguresOptions& options);
 
 struct DoctorOptions {
-  std::string gl;  ///< What must draw; empty: OSMesa, and EGL is told of.
+  std::string gl = "auto";  ///< What must draw; "auto": the first that serves, and the other is told of.
 };
 ExitCode doctor(const DoctorOptions& options);
 

@@ -103,9 +103,13 @@ void addTellingOptions(CLI::App& command, Telling& telling) {
   command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
 }
 
-CLI::Option* addGlOption(CLI::App& command, std::string& gl) {
-  return command.add_option("--gl", gl, "Who makes the GL context: osmesa, or egl without a surface")
-      ->check(CLI::IsMember(renderer::backendNames()));
+void addGlOption(CLI::App& command, std::string& gl) {
+  command
+      .add_option(
+          "--gl", gl,
+          "Who makes the GL context: osmesa, egl without a surface, or auto: osmesa where it is, else egl")
+      ->check(CLI::IsMember(renderer::backendNames()))
+      ->capture_default_str();
 }
 
 void addPresetOption(CLI::App& command, std::string& preset) {
@@ -213,7 +217,7 @@ void CommandLine::addRender() {
   addOverlayOptions();
   render_command->add_flag("--portable", render_options.portable,
                            "The same pixels on every CPU, a third slower: golden frames");
-  addGlOption(*render_command, render_options.gl)->capture_default_str();
+  addGlOption(*render_command, render_options.gl);
   render_command
       ->add_option("--workers", render_options.workers,
                    "Processes that draw (0: one for each processor); frames are the same for any number")
@@ -389,7 +393,7 @@ void CommandLine::addBudget() {
   budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
       ->capture_default_str();
   budget_command->add_option("--size", budget_size, "WIDTHxHEIGHT in pixels (1280x720)");
-  addGlOption(*budget_command, options.gl)->capture_default_str();
+  addGlOption(*budget_command, options.gl);
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
   addPresetOption(*budget_command, options.preset);
   options.choice.threads = 1;  // what is measured is a frame on one thread

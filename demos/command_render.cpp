@@ -244,7 +244,8 @@ void tellStart(const Run& run) {
             << " frames at " << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera "
             << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
             << hexText(run.manifest.scene_hash) << '\n'
-            << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << '\n';
+            << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << ", by "
+            << renderer::nameOf(run.manifest.gl.backend) << " (" << run.manifest.gl.reason << ")\n";
 }
 
 /// "12 frames  0.41 s  29.3 fps end to end", of a run whose frames went through a pipe.

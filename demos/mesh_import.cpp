@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -158,7 +159,7 @@ Parts collectParts(const aiScene& scene) {
 
 // The answer of the process that reads: a letter, then an error's text, or the number of parts and of each
 // its four lists, with the number of their items before them.
-constexpr std::uint8_t kError = 'e', kParts = 'p';
+constexpr std::uint8_t kError = 'e', kParts = 'p', kRefused = 'r';  // of the last: the system's number
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -199,11 +200,14 @@ Bytes readFile(const fs::path& path) {
         importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices | aiProcess_Triangulate);
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    if (scene == nullptr) tryInputFile(path);  // assimp does not say whether the system refused the file
     if (scene == nullptr || scene->mRootNode == nullptr)
       return errorBytes("cannot be read as a mesh: " + reason);
     return partsBytes(collectParts(*scene));
   } catch (const Unsuitable& error) {
     return errorBytes(error.what());
+  } catch (const std::system_error& error) {
+    return {kRefused, static_cast<std::uint8_t>(error.code().value())};
   }
 }
 
@@ -274,6 +278,8 @@ ImportedMesh readApart(const fs::path& path) {
   const std::span<const std::uint8_t> bytes(answer.bytes);
   if (!bytes.empty() && bytes[0] == kError)
     throw InputError(place + std::string(bytes.begin() + 1, bytes.end()));
+  if (bytes.size() == 2 && bytes[0] == kRefused)
+    throw std::system_error(bytes[1], std::generic_category(), "cannot read '" + path.string() + "'");
   std::optional<ImportedMesh> mesh;
   if (!bytes.empty() && bytes[0] == kParts) mesh = AnswerReader(bytes.subspan(1)).mesh();
   if (!mesh) throw InputError(place + "cannot be read as a mesh: its reader gave no answer");
