@@ -69,6 +69,7 @@ struct RenderOptions {
   std::string overlays;   ///< "closest,distance"; empty: none.
   std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
   bool portable = false;  ///< The same pixels on every CPU.
+  bool states = false;    ///< A record beside the frames, by which `compare` names causes.
   std::string gl = "auto";
   int workers = 0;  ///< Processes that draw; 0: as many as are usual.
   Telling telling;

@@ -4,8 +4,11 @@
 
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include "demos/atomic_file.h"
+#include "demos/cause/cause.h"
+#include "demos/cause/cause_json.h"
 #include "demos/comparison_json.h"
 #include "demos/comparison_report.h"
 #include "demos/comparison_run.h"
@@ -45,6 +48,31 @@ std::vector<Comparison> compareAll(const CompareOptions& options, const Gate& ga
   return comparedPairs(pairs, gate, [&progress](int count) { progress.done(count); });
 }
 
+/// Gives every difference its cause, from the records beside the frames.
+void explain(std::vector<Comparison>& comparisons, const Gate& gate, RecordShelf& shelf) {
+  for (Comparison& c : comparisons) {
+    if (c.verdict != Verdict::kBeyond) continue;
+    throwIfInterrupted();
+    c.cause = causeOfDifference(c, gate, shelf);
+  }
+}
+
+/// What the frames of a folder pass without showing it.
+void noteUnseen(const std::vector<Comparison>& comparisons, RecordShelf& shelf) {
+  std::set<fs::path> told;
+  for (const Comparison& c : comparisons)
+    if (!c.passes()) told.insert(c.pair.golden.parent_path());
+  for (const Comparison& c : comparisons) {
+    const fs::path folder = c.pair.golden.parent_path();
+    if (!told.insert(folder).second) continue;
+    const MotionRecord *actual = shelf.of(c.pair.actual), *golden = shelf.of(c.pair.golden);
+    if (actual == nullptr || golden == nullptr) continue;
+    const Cause cause = causeInRecords(*actual, *golden);
+    if (cause.known())
+      std::cerr << "note: " << printable(folder.string() + " passes, but " + cause.headline) << '\n';
+  }
+}
+
 /// The report's path, or nothing when none is wanted.
 fs::path reportPath(const CompareOptions& options, bool passes) {
   if (options.report == "none") return {};
@@ -74,9 +102,11 @@ void writeJunit(const CompareOptions& options, const std::vector<Comparison>& co
 
 std::vector<Update> updateAll(const std::vector<Comparison>& comparisons) {
   std::vector<Update> updates;
+  std::set<fs::path> folders;
   for (const Comparison& c : comparisons) {
     throwIfInterrupted();
     updates.push_back(updateGolden(c));
+    if (folders.insert(c.pair.golden.parent_path()).second) updateRecord(c.pair);
   }
   return updates;
 }
@@ -89,6 +119,7 @@ void printLines(const ComparisonOutcome& outcome) {
     const std::string update =
         outcome.updates.empty() ? "" : std::string(updateName(outcome.updates[i])) + "  ";
     std::cout << update << printable(c.pair.name + "  " + comparisonLine(c, outcome.gate)) << '\n';
+    for (const std::string& line : causeLines(c.cause)) std::cout << "    " << printable(line) << '\n';
   }
   std::cout << tallyText(tallyOf(outcome.comparisons)) << '\n';
 }
@@ -165,7 +196,9 @@ ExitCode compare(const CompareOptions& options) {
   checkOptions(options);
   catchInterrupts();
   const Gate gate{options.tolerance, options.tolerance16, options.allowed_pixels};
-  const std::vector<Comparison> comparisons = compareAll(options, gate);
+  std::vector<Comparison> comparisons = compareAll(options, gate);
+  RecordShelf shelf;
+  explain(comparisons, gate, shelf);
   const Tally tally = tallyOf(comparisons);
   const fs::path report = reportPath(options, tally.passed == tally.total);
   if (!report.empty())
@@ -180,6 +213,10 @@ ExitCode compare(const CompareOptions& options) {
     std::cout << comparisonJson(outcome).text(2) << '\n';
   } else {
     printLines(outcome);
+  }
+  if (!options.telling.quiet) {
+    noteUnseen(comparisons, shelf);
+    for (const std::string& problem : shelf.problems()) std::cerr << "note: " << printable(problem) << '\n';
   }
   return options.update ? afterUpdate(outcome) : afterComparison(options, outcome);
 }

@@ -217,6 +217,9 @@ void CommandLine::addRender() {
   addOverlayOptions();
   render_command->add_flag("--portable", render_options.portable,
                            "The same pixels on every CPU, a third slower: golden frames");
+  render_command->add_flag("--states", render_options.states,
+                           "A record beside the frames (states.carom), by which compare names what changed;\n"
+                           "with --portable always");
   addGlOption(*render_command, render_options.gl);
   render_command
       ->add_option("--workers", render_options.workers,
@@ -580,6 +583,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     return ExitCode::kOk;
   }
   checkValues(line);
+  line.render_options.states = line.render_options.states || line.render_options.portable;
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);
   if (line.render_command->parsed()) return render(line.render_options);

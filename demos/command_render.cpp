@@ -16,6 +16,7 @@
 
 #include "demos/atomic_file.h"
 #include "demos/camera_path.h"
+#include "demos/cause/motion_recorder.h"
 #include "demos/content_hash.h"
 #include "demos/drawn_water.h"
 #include "demos/ffmpeg_video.h"
@@ -133,6 +134,7 @@ struct Run {
   const OutputScale& scale;
   Overlays& overlays;
   Manifest& manifest;
+  MotionRecorder* recorder;       ///< None: the frames get no record.
   std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
 };
 
@@ -192,6 +194,8 @@ void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob
   next.image = run.overlays.draw(pictures, job.state, job.frame, camera,
                                  drawnWater(run.plan.scene, next.record.time_s));
   drawOutputs(run, pictures, next);
+  if (run.recorder != nullptr && run.recorder->wantsPixels(run.manifest.width, run.manifest.height))
+    run.recorder->addPixels(pictures.surfaces(), run.manifest.width, run.manifest.height);
   next.record.timings.draw_ms = watch.lap_ms();
 }
 
@@ -199,6 +203,11 @@ FrameJob nextJob(Run& run, int frame) {
   throwIfInterrupted();
   Stopwatch watch;
   const FrameState state = run.overlays.advance(run.source, frame);
+  if (run.recorder != nullptr) {
+    const double time_s = run.plan.clock.time(frame);
+    run.recorder->addShot(run.names->file(frame).filename().string(), time_s, state,
+                          run.camera.at(time_s, state.bodies));
+  }
   return {frame, state, watch.lap_ms()};
 }
 
@@ -362,6 +371,7 @@ void drawPlanned(Run& run, const Artists& artists, const Sink& sink, const Telli
   run.manifest.wall_s = steadySeconds() - started_s;
   if (run.names != nullptr && !leavesNoManifest(ended_early)) writeManifest(run.manifest, manifest_file);
   if (ended_early) std::rethrow_exception(ended_early);
+  if (run.recorder != nullptr) run.recorder->write(run.names->folder(), run.manifest.gl);
 }
 
 /// "still.manifest.json", which does not take the place of the manifest of frames in the same folder.
@@ -449,6 +459,13 @@ int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& ov
   return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
+/// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
+/// have none.
+bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
+  return options.states && options.frames.empty() && options.shard.empty() && options.from.empty() &&
+         options.stream.empty() && options.ffmpeg.empty() && !options.at_s && !overlays.any();
+}
+
 /// None where the frames go into a stream or a video.
 std::optional<FrameNames> frameNames(const RenderOptions& options, const std::string& scene) {
   if (!options.stream.empty() || !options.ffmpeg.empty()) return std::nullopt;
@@ -501,12 +518,25 @@ ExitCode render(const RenderOptions& options) {
     manifest.gl = here->info();
   }
   RunFacts facts;
+  std::optional<MotionRecorder> recorder;
+  if (hasRecord(options, overlays)) recorder.emplace(plan.scene, made, settings);
   std::optional<FrameSource> source;
   if (recording)
     source.emplace(*recording);
   else
-    source.emplace(made, plan.clock, facts, overlays.phases());
-  Run run{plan, names ? &*names : nullptr, options.resume, made, *source, camera, scale, overlays, manifest,
+    source.emplace(made, plan.clock, facts, overlays.phases(), [&recorder](const World& world) {
+      if (recorder) recorder->follow(world);
+    });
+  Run run{plan,
+          names ? &*names : nullptr,
+          options.resume,
+          made,
+          *source,
+          camera,
+          scale,
+          overlays,
+          manifest,
+          recorder ? &*recorder : nullptr,
           {}};
   const Sink sink = sinkOf(options);
 

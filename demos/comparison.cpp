@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <tuple>
 
+#include "demos/cause/cause.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
 #include "renderer/png.h"
@@ -40,22 +40,6 @@ bool sameBytes(const std::filesystem::path& a, const std::filesystem::path& b) {
     if (!std::equal(chunk_a.begin(), chunk_a.begin() + in_a.gcount(), chunk_b.begin())) return false;
   } while (in_a && in_b);
   return in_a.eof() && in_b.eof();
-}
-
-/// `carom render` writes into every frame what it shows; the first of these that differs is the cause.
-std::string causeOf(const renderer::PngText& actual, const renderer::PngText& golden) {
-  const std::map<std::string, std::string> a(actual.begin(), actual.end());
-  const std::map<std::string, std::string> g(golden.begin(), golden.end());
-  const auto both = [&](const char* key) { return a.contains(key) && g.contains(key); };
-  const auto differs = [&](const char* key) { return both(key) && a.at(key) != g.at(key); };
-  const auto change = [&](const char* key) { return g.at(key) + " became " + a.at(key); };
-  if (differs("Scene")) return "the scene was edited";
-  if (differs("Camera")) return "another camera: " + change("Camera");
-  if (differs("Time")) return "another time: " + change("Time") + " s";
-  if (differs("State")) return "physics moved: state " + change("State");
-  if (!both("State")) return "";
-  return "the renderer changed: same state " + g.at("State") +
-         (differs("Renderer") ? ", " + change("Renderer") : "");
 }
 
 void judge(const DecodedRaster& actual, const DecodedRaster& golden, const Gate& gate, Comparison& result) {
@@ -114,7 +98,7 @@ Comparison compared(const ImagePair& pair, const Gate& gate) {
     result.verdict = Verdict::kExtra;
   } else {
     judge(*actual, *golden, gate, result);
-    if (result.verdict == Verdict::kBeyond) result.cause = causeOf(actual->text, golden->text);
+    if (result.verdict == Verdict::kBeyond) result.cause = causeByText(*actual, *golden);
   }
   return result;
 }
@@ -163,7 +147,7 @@ std::string comparisonLine(const Comparison& c, const Gate& gate) {
       line += shapeText(*c.golden_shape);
       break;
   }
-  return c.cause.empty() ? line : line + "  (" + c.cause + ")";
+  return c.cause.known() ? line + "  (" + c.cause.headline + ")" : line;
 }
 
 std::vector<std::size_t> bySeverity(const std::vector<Comparison>& comparisons) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "demos/cause/cause_facts.h"
 #include "demos/image_pairs.h"
 #include "renderer/image_difference.h"
 
@@ -40,7 +41,7 @@ struct Comparison {
   std::optional<renderer::RasterShape> actual_shape;  ///< Nothing when there is no such readable image.
   std::optional<renderer::RasterShape> golden_shape;
   renderer::ImageDifference difference;  ///< Of kBeyond, kWithin and kSame.
-  std::string cause;                     ///< "physics moved", "the renderer changed", or empty when unknown.
+  Cause cause;                           ///< Of a difference; empty when unknown.
   std::string problem;                   ///< Of kUnreadable.
 
   bool passes() const { return verdict == Verdict::kWithin || verdict == Verdict::kSame; }

@@ -1,5 +1,7 @@
 #include "demos/comparison_json.h"
 
+#include "demos/cause/cause_json.h"
+
 namespace carom::demos {
 namespace {
 
@@ -31,7 +33,10 @@ Json pairJson(const Comparison& c) {
   if (c.actual_shape) json.set("actual", shapeJson(*c.actual_shape));
   if (c.golden_shape) json.set("golden", shapeJson(*c.golden_shape));
   if (c.verdict >= Verdict::kBeyond) json.set("difference", differenceJson(c.difference));
-  if (!c.cause.empty()) json.set("cause", c.cause);
+  if (c.cause.known()) {
+    json.set("cause", c.cause.headline);
+    json.set("causes", causeJson(c.cause, CauseDetail::kFacts));
+  }
   if (!c.problem.empty()) json.set("problem", c.problem);
   return json;
 }

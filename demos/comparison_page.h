@@ -81,6 +81,13 @@ button:focus-visible, #stage:focus-visible, .filter:focus-within { outline: 2px 
   width: 30px; height: 30px; border-radius: 50%; background: #fff; color: #1c1b19; text-align: center;
   line-height: 30px; box-shadow: 0 1px 4px rgb(0 0 0 / .4); }
 #split[hidden] { display: none; }
+#cause { margin: 0 0 14px; padding: 10px 14px; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; }
+#cause[hidden] { display: none; }
+#cause ul { margin: 4px 0 0; padding-left: 20px; color: var(--soft); font-size: 13px; }
+#cause svg { display: block; width: 100%; max-width: 560px; margin-top: 8px; }
+#cause .then { fill: none; stroke: var(--soft); stroke-width: 1.5; stroke-dasharray: 5 4; }
+#cause .now { fill: none; stroke: #d55e00; stroke-width: 1.5; }
+#cause text { font-size: 11px; fill: var(--ink); }
 #note { margin: 10px 0 0; color: var(--soft); font-size: 13px; }
 .empty { padding: 60px 20px; text-align: center; color: var(--soft); border: 1px dashed var(--line);
   border-radius: 8px; }
@@ -108,6 +115,7 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
   <section id="viewer">
     <h2 class="name" id="name"></h2>
     <p id="about" aria-live="polite"></p>
+    <div id="cause" hidden></div>
     <div class="tools">
       <div class="tabs" role="tablist" aria-label="View">
         <button role="tab" data-view="swap">Swap</button>
@@ -207,11 +215,55 @@ function fillList() {
     return item;
   }));
 }
+// The paths of the bodies that moved, then and now, in the two directions in which they go farthest.
+function pathsOf(moved) {
+  const bodies = moved.filter(body => body.golden && body.golden.length);
+  if (!bodies.length) return null;
+  const points = list => Array.from({ length: list.length / 3 }, (_, i) => list.slice(3 * i, 3 * i + 3));
+  const all = bodies.flatMap(body => points(body.golden).concat(points(body.actual)));
+  const low = [0, 1, 2].map(k => Math.min(...all.map(p => p[k]))), high = [0, 1, 2].map(k => Math.max(...all.map(p => p[k])));
+  const order = [0, 1, 2].sort((i, j) => (high[j] - low[j]) - (high[i] - low[i])).slice(0, 2).sort();
+  const scale = 190 / Math.max(1e-6, (high[order[1]] - low[order[1]]), (high[order[0]] - low[order[0]]) / 2.4);
+  const place = p => [20 + scale * (p[order[0]] - low[order[0]]), 205 - scale * (p[order[1]] - low[order[1]])];
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 560 230");
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", "Paths then, dashed, and now");
+  const add = (tag, attributes, text) => {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    if (text) made.textContent = text;
+    svg.append(made);
+  };
+  for (const body of bodies) {
+    for (const [className, list] of [["then", body.golden], ["now", body.actual]]) {
+      const path = points(list).map(place);
+      add("polyline", { class: className, points: path.map(p => p.map(x => x.toFixed(1)).join(",")).join(" ") });
+      const end = path[path.length - 1];
+      add("circle", { class: className, cx: end[0].toFixed(1), cy: end[1].toFixed(1), r: 3 });
+    }
+    const end = place(points(body.actual).pop());
+    add("text", { x: (end[0] + 6).toFixed(1), y: (end[1] - 4).toFixed(1) }, body.name);
+  }
+  add("text", { x: 20, y: 225 }, "xyz"[order[0]] + " to the right, " + "xyz"[order[1]] + " upwards; dashed: golden");
+  return svg;
+}
+function fillCause(cause) {
+  const box = byId("cause");
+  box.hidden = !cause;
+  if (!cause) return;
+  const list = element("ul");
+  for (const change of cause.changes) list.append(element("li", "", change.part + ": " + change.text));
+  for (const line of cause.lines) list.append(element("li", "", line));
+  box.replaceChildren(element("strong", "", cause.headline), list);
+  const paths = pathsOf(cause.moved);
+  if (paths) box.append(paths);
+}
 function fillAbout(pair) {
   byId("name").textContent = pair.name;
   const about = byId("about");
   about.replaceChildren(element("strong", "", pair.verdict), document.createTextNode("  " + pair.detail.replaceAll("  ", " \u00b7 ")));
-  if (pair.cause) about.append(element("br"), element("strong", "", pair.cause));
+  fillCause(pair.cause);
   if (pair.update) about.append(element("br"), document.createTextNode("golden image " + pair.update));
 }
 function transformOf(pair) {

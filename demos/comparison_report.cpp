@@ -5,6 +5,7 @@
 
 #include "demos/atomic_file.h"
 #include "demos/base64.h"
+#include "demos/cause/cause_json.h"
 #include "demos/comparison_page.h"
 #include "demos/interrupt.h"
 #include "demos/json.h"
@@ -114,7 +115,7 @@ Json imagesOf(const Comparison& c, const ReportPlan& plan) {
 /// What comparisonLine says, without the verdict and the cause, which the page shows apart.
 std::string detailOf(const Comparison& c, const Gate& gate) {
   std::string line = comparisonLine(c, gate).substr(std::string(verdictName(c.verdict)).size() + 2);
-  if (!c.cause.empty()) line.resize(line.size() - c.cause.size() - 4);
+  if (c.cause.known()) line.resize(line.size() - c.cause.headline.size() - 4);
   return line;
 }
 
@@ -128,7 +129,7 @@ Json pairJson(const Comparison& c, bool embedded, const ReportPlan& plan) {
                             {"width", frame.width},
                             {"height", frame.height},
                             {"embedded", embedded}});
-  if (!c.cause.empty()) pair.set("cause", c.cause);
+  if (c.cause.known()) pair.set("cause", causeJson(c.cause, CauseDetail::kTracks));
   if (plan.updates && !c.passes()) pair.set("update", updateName(plannedUpdate(c)));
   if (c.verdict != Verdict::kBeyond && c.verdict != Verdict::kWithin) return pair;
   const renderer::ImageDifference& d = c.difference;

@@ -4,11 +4,13 @@
 
 namespace carom::demos {
 
-FrameSource::FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases)
+FrameSource::FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases,
+                         AfterStep watcher)
     : scene_(&scene) {
-  const auto after_step = [&scene, &facts](const World& world) {
+  const auto after_step = [&scene, &facts, watcher = std::move(watcher)](const World& world) {
     throwIfInterrupted();
     checkStep(world, world.audit(), scene.names, facts);
+    if (watcher) watcher(world);
   };
   states_.emplace(scene.world, clock, after_step, phases);
 }

@@ -2,6 +2,7 @@
 // Where the states of a run's frames come from: the world, stepped and checked, or a recording of it. Tested
 // in tests/demos/frame_source_test.cpp.
 
+#include <functional>
 #include <optional>
 
 #include "demos/frame_clock.h"
@@ -14,8 +15,11 @@ namespace carom::demos {
 
 class FrameSource {
  public:
-  /// Steps the world of `scene`, telling `phases`; all must outlive this.
-  FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases = nullptr);
+  using AfterStep = std::function<void(const World&)>;
+
+  /// Steps the world of `scene`, telling `phases` and, after every step, `watcher`; all must outlive this.
+  FrameSource(SceneWorld& scene, const FrameClock& clock, RunFacts& facts, PhaseClock* phases = nullptr,
+              AfterStep watcher = {});
   explicit FrameSource(RecordingReader& recording) : recording_(&recording) {}
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "demos/atomic_file.h"
+#include "demos/cause/motion_record.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
 
@@ -31,6 +32,13 @@ Update updateGolden(const Comparison& comparison) {
   if (update == Update::kReplaced || update == Update::kAdded)
     copyWhole(comparison.pair.actual, comparison.pair.golden);
   return update;
+}
+
+void updateRecord(const ImagePair& pair) {
+  const std::filesystem::path record = pair.actual.parent_path() / kRecordName;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(record, ignored))
+    copyWhole(record, pair.golden.parent_path() / kRecordName);
 }
 
 const char* updateName(Update update) {

@@ -23,6 +23,10 @@ Update plannedUpdate(const Comparison& comparison);
 /// has gone since it was compared.
 Update updateGolden(const Comparison& comparison);
 
+/// Puts the record of the actual frames' folder (cause/motion_record.h) beside the golden ones, where there
+/// is one. Throws CannotWrite.
+void updateRecord(const ImagePair& pair);
+
 /// "replaced", "added", "kept" or "" for none.
 const char* updateName(Update update);
 

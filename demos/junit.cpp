@@ -1,5 +1,7 @@
 #include "demos/junit.h"
 
+#include "demos/cause/cause_json.h"
+
 namespace carom::demos {
 namespace {
 
@@ -48,13 +50,20 @@ std::string attribute(const std::string& text) {
   return safe;
 }
 
+/// The end of the element, with the cause's lines in it where there are some.
+std::string details(const Comparison& c, const std::string& kind) {
+  std::string text;
+  for (const std::string& line : causeLines(c.cause)) text += attribute(line) + "\n";
+  return text.empty() ? "/>" : ">" + text + "</" + kind + ">";
+}
+
 std::string caseText(const std::string& suite, const Comparison& c, const Gate& gate) {
   const std::string opened =
       "    <testcase classname=\"" + attribute(suite) + "\" name=\"" + attribute(c.pair.name) + "\"";
   if (c.passes()) return opened + "/>\n";
   const std::string kind = c.verdict == Verdict::kUnreadable ? "error" : "failure";
   return opened + ">\n      <" + kind + " type=\"" + verdictName(c.verdict) + "\" message=\"" +
-         attribute(comparisonLine(c, gate)) + "\"/>\n    </testcase>\n";
+         attribute(comparisonLine(c, gate)) + "\"" + details(c, kind) + "\n    </testcase>\n";
 }
 
 }  // namespace

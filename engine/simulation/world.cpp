@@ -331,6 +331,7 @@ bool World::Impl::advance(PhaseClock* clock) {
 }
 
 void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
+  if (view != nullptr) view->begin_s = begin_s;
   // Impulses of lasting contact; what they press awake takes part in them. Then advance from one time of
   // impact to the next.
   for (solveContacts(clock); !advance(clock); solveContacts(clock)) planFlight(clock);

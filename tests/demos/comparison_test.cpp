@@ -89,13 +89,13 @@ TEST_F(Judged, PhysicsIsToldFromRendererByTheStateInTheFrames) {
   const Raster golden = flatRaster(8, 6, 9), actual = flatRaster(8, 6, 99);
   const PngText then{{"Scene", "ball 01"}, {"State", "aa"}};
   const auto cause = [&](const PngText& now, const PngText& before) {
-    return compared(pair(actual, golden, now, before), {}).cause;
+    return compared(pair(actual, golden, now, before), {}).cause.headline;
   };
   EXPECT_EQ(cause(then, then), "the renderer changed: same state aa");
   EXPECT_EQ(cause({{"Scene", "ball 01"}, {"State", "bb"}}, then), "physics moved: state aa became bb");
   EXPECT_EQ(cause({{"Scene", "ball 02"}, {"State", "bb"}}, then), "the scene was edited");
   EXPECT_EQ(cause({}, then), "");
-  EXPECT_EQ(compared(pair(golden, golden, {{"State", "bb"}}, then), {}).cause, "");  // nothing to explain
+  EXPECT_EQ(compared(pair(golden, golden, {{"State", "bb"}}, then), {}).cause.headline, "");  // nothing to explain
 }
 
 // Frames of another moment or camera have other states or pixels without anything having moved or changed.
@@ -106,7 +106,7 @@ TEST_F(Judged, AnotherCameraOrTimeIsNeitherPhysicsNorRenderer) {
     PngText now = then;
     for (auto& [name, text] : now)
       if (name == key) text = value;
-    return compared(pair(actual, golden, now, then), {}).cause;
+    return compared(pair(actual, golden, now, then), {}).cause.headline;
   };
   EXPECT_EQ(cause("Camera", "side"), "another camera: main became side");
   EXPECT_EQ(cause("Time", "0.4"), "another time: 0.5 became 0.4 s");

@@ -1,0 +1,26 @@
+#!/bin/bash
+# bash tests/gate/build_mutants.sh OUT [CMAKE OPTIONS]: carom programs with one constant changed each, for
+# seeded_faults.py: light, shader, tone-map and solver. The tree itself is not touched.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+out=$(mkdir -p "$1" && cd "$1" && pwd)
+shift
+copy=$out/tree
+mkdir -p "$copy"
+(cd "$root" && tar cf - --exclude=./build --exclude=./.git --exclude=./tests/golden .) | tar xf - -C "$copy"
+cmake -S "$copy" -B "$out/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$out/cmake.txt"
+
+# mutate NAME FILE OLD NEW: OLD must be there, once or more; its first place changes.
+mutate() {
+  grep -qF -- "$3" "$copy/$2" || { echo "build_mutants: $2 has no '$3'" >&2; exit 1; }
+  cp "$copy/$2" "$out/saved"
+  python3 -c 'import sys; p, a, b = sys.argv[1:]; t = open(p).read(); open(p, "w").write(t.replace(a, b, 1))' \
+    "$copy/$2" "$3" "$4"
+  nice cmake --build "$out/build" --target carom -j2 >"$out/$1.txt"
+  cp "$out/build/demos/carom" "$out/$1"
+  cp "$out/saved" "$copy/$2"
+}
+mutate light renderer/frame_renderer.h "to_light = Vec3(0.50, -0.50, 0.85)" "to_light = Vec3(0.55, -0.50, 0.85)"
+mutate shader renderer/shaders.h "kSkyLight = vec3(0.32," "kSkyLight = vec3(0.34,"
+mutate tone-map renderer/shaders.h "inversesqrt(1.0 + light * light)" "inversesqrt(1.1 + light * light)"
+mutate solver engine/foundation/tolerances.h "kRestGap = " "kRestGap = 1.1 * "
