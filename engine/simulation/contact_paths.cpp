@@ -35,17 +35,14 @@ class ContactPaths {
         counters_(counters),
         contacts_(contacts),
         step_s_(world.settings.step_s) {
-    std::vector<char> listed(world.bodies.size(), 0);
-    for (const std::size_t island : islands_) {
+    for (const std::size_t island : islands_)
       for (const LastingContacts::PairRows& pair : contacts_.pairsOf(contacts_.islands[island])) {
         pairs_.push_back(pair);
-        for (const int body : {contacts_.rows[pair.begin].a, contacts_.rows[pair.begin].b}) {
-          if (listed[at(body)]) continue;
-          listed[at(body)] = 1;
+        for (const int body : {contacts_.rows[pair.begin].a, contacts_.rows[pair.begin].b})
           bodies_.push_back(at(body));
-        }
       }
-    }
+    std::sort(bodies_.begin(), bodies_.end());
+    bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   }
 
   void set() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/foundation/contract.h"
@@ -327,7 +328,8 @@ bool World::Impl::advance(PhaseClock* clock) {
     return moved;
   };
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory, solve_landings);
+  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory,
+                   std::ref(solve_landings));  // so that it allocates nothing
 }
 
 void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
