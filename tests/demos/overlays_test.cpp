@@ -121,7 +121,7 @@ TEST_F(Block, ImpulsesAtRestShareTheWeight) {
     EXPECT_FALSE(run.inked(p_W + 1.3 * length * along, kOrange)) << p_W.transpose();
     EXPECT_FALSE(run.inked(p_W - 0.5 * length * along, kOrange)) << p_W.transpose();
   }
-  EXPECT_NEAR(sum, 0.7 * radius, 0.05 * radius) << "friction adds a little";
+  EXPECT_NEAR(sum, 0.7 * radius, 0.1 * radius) << "friction adds a little";
   EXPECT_GE(shown, 2);
 }
 
