@@ -37,8 +37,8 @@ inline constexpr double kSolverCoarseResidual = 1.0e-3;  // ... this is enough f
 inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
 inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
 inline constexpr double kSolverCrowdResidual = 2.0e-4;     // ... and this of crowds swept alone
-inline constexpr int kSolverMostVisits = 50000;        // of a step, where what moves has not come to the coarse one
-inline constexpr int kSolverMovingSweeps = 20;           // of what moves, where the budget is less
+inline constexpr int kSolverMostVisits = 50000;  // of a step, where what moves has not come to the coarse one
+inline constexpr int kSolverMovingSweeps = 20;   // of what moves, where the budget is less
 inline constexpr int kSolverStandingSweeps = 20;       // of what stands, before it is solved at once, and ...
 inline constexpr int kSolverCrowdStandingSweeps = 28;  // ... of a crowd that does
 // Crowds (focused_solver.h) are swept alone for a pause, to their own residual, when solving them at once
@@ -57,7 +57,8 @@ inline constexpr int kLivelyShare = 6;     // ... so many times as many.
 // Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
 // Of one step: so many poses are evaluated by the searches for times of impact for every body of the world, a
-// second's work for a thousand bodies, and so many at least (0.2 s); then what a look does not clear is frozen.
+// second's work for a thousand bodies, and so many at least (0.2 s); then what a look does not clear is
+// frozen.
 inline constexpr long kSearchWorkPerBody = 5000;
 inline constexpr long kLeastSearchWork = 1500000;
 inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events

@@ -103,8 +103,7 @@ class Assembly {
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
-        lasts[i] =
-            pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
+        lasts[i] = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
         if (!lasts[i]) pair.remembered.clear();
       }
     });
@@ -267,15 +266,18 @@ class Assembly {
 
   // The rows of all other pairs, which have been solved; what those of `pairs` gave is given back.
   void keepRows(std::span<const int> pairs, RowStretch& kept) {
-    std::vector<char> goes(world_.table.pairs().size(), 0);
-    std::vector<char> meets(world_.bodies.size(), 0);
+    std::vector<int> meeting;
     for (const int i : pairs) {
       const ShapePair& pair = world_.table.pairs()[at(i)];
-      goes[at(i)] = 1;
-      for (const int body : {pair.body_a, pair.body_b}) meets[at(body)] = moves(body);
+      for (const int body : {pair.body_a, pair.body_b})
+        if (moves(body)) meeting.push_back(body);
     }
+    std::sort(meeting.begin(), meeting.end());
+    const auto meets = [&](int body) { return std::binary_search(meeting.begin(), meeting.end(), body); };
     for (const LastingContacts::PairRows& of_pair : contacts_.pair_rows) {
-      if (goes[at(of_pair.pair)]) {
+      const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
+      const bool is_met = meets(pair.body_a) || meets(pair.body_b);
+      if (is_met && isOneOf(of_pair.pair, pairs)) {
         for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
           ContactRow given_back = contacts_.rows[i];
           given_back.impulse = -given_back.impulse;
@@ -284,25 +286,26 @@ class Assembly {
         }
         continue;
       }
-      const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
       kept.pairs.push_back({of_pair.pair, pair.body_a, pair.body_b, of_pair.end - of_pair.begin});
       for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
         kept.rows.push_back(contacts_.rows[i]);
-        kept.rows.back().seen_stir = meets[at(pair.body_a)] || meets[at(pair.body_b)] ? -1.0 : 0.0;
+        kept.rows.back().seen_stir = is_met ? -1.0 : 0.0;
         kept.sources.push_back(contacts_.sources[i]);
       }
     }
   }
 
+  static bool isOneOf(int pair, std::span<const int> pairs) {
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  }
+
+  // Those with the rows that have just been made.
   std::vector<std::size_t> islandsOf(std::span<const int> pairs) const {
-    std::vector<char> wanted(world_.table.pairs().size(), 0);
-    for (const int pair : pairs) wanted[at(pair)] = 1;
     std::vector<std::size_t> islands;
     for (std::size_t i = 0; i < contacts_.islands.size(); ++i) {
+      // The rows kept come first in their island, those just made last.
       const auto of_island = contacts_.pairsOf(contacts_.islands[i]);
-      if (std::any_of(of_island.begin(), of_island.end(),
-                      [&](const LastingContacts::PairRows& of_pair) { return wanted[at(of_pair.pair)]; }))
-        islands.push_back(i);
+      if (isOneOf(of_island.back().pair, pairs)) islands.push_back(i);
     }
     return islands;
   }
@@ -368,6 +371,16 @@ class Assembly {
 };
 
 }  // namespace
+
+std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) const {
+  std::vector<int> listed;
+  for (const std::size_t island : some)
+    for (const PairRows& pair : pairsOf(islands[island]))
+      for (const int body : {rows[pair.begin].a, rows[pair.begin].b}) listed.push_back(body);
+  std::sort(listed.begin(), listed.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+  return listed;
+}
 
 bool isLasting(const ShapePair& pair, double step_s) {
   return pair.closest.distance_m <= lastingHeight(pair, step_s);

@@ -73,6 +73,8 @@ struct LastingContacts {
   std::span<const PairRows> pairsOf(const Island& island) const {
     return std::span(pair_rows).subspan(island.pair_begin, island.pair_end - island.pair_begin);
   }
+  /// Of some islands, by index: all bodies that their rows have, ascending.
+  std::vector<int> bodiesOf(std::span<const std::size_t> some) const;
 
   std::vector<ContactRow> rows;
   std::vector<RowSource> sources;      ///< As long.
@@ -103,6 +105,32 @@ struct LastingWorld {
 /// So often can each of `rows` be visited within a step's budget.
 inline int sweepsInBudget(std::size_t rows) {
   return tolerance::kSolverRowVisits / std::max(1, static_cast<int>(rows));
+}
+
+/// Solves islands within a step's budget of row visits, by `solve(island, sweeps, again)`, which returns its
+/// report: each at first for its share, then those that have not come to `enough_mps` again, for what the
+/// others have left. Returns all row visits.
+template <typename Solve>
+long solveWithinBudget(const LastingContacts& contacts, std::span<const std::size_t> islands,
+                       double enough_mps, const Solve& solve) {
+  const auto rowsOf = [&](std::size_t island) {
+    return contacts.islands[island].row_end - contacts.islands[island].row_begin;
+  };
+  long visits = 0;
+  std::size_t unfinished_rows = 0;
+  std::vector<std::size_t> unfinished;
+  for (const std::size_t island : islands) {
+    const SolverReport report = solve(island, sweepsInBudget(contacts.rows.size()), false);
+    visits += report.visits;
+    if (report.residual_mps <= enough_mps) continue;
+    unfinished.push_back(island);
+    unfinished_rows += rowsOf(island);
+  }
+  if (unfinished.empty()) return visits;
+  const long sweeps = (tolerance::kSolverRowVisits - visits) / static_cast<long>(unfinished_rows);
+  if (sweeps < 1) return visits;
+  for (const std::size_t island : unfinished) visits += solve(island, static_cast<int>(sweeps), true).visits;
+  return visits;
 }
 
 /// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.

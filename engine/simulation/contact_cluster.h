@@ -129,7 +129,7 @@ class ContactCluster {
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
   void recallPoints();
   void releaseForces(int pair);
-  void releaseDistant();
+  void releaseDistant(int body);
   void takeOverForces(std::size_t first, std::size_t count);
   void keepForces();
   void findBends();

@@ -34,15 +34,12 @@ class ContactPaths {
         islands_(islands),
         counters_(counters),
         contacts_(contacts),
+        bodies_(contacts.bodiesOf(islands)),
         step_s_(world.settings.step_s) {
-    for (const std::size_t island : islands_)
-      for (const LastingContacts::PairRows& pair : contacts_.pairsOf(contacts_.islands[island])) {
-        pairs_.push_back(pair);
-        for (const int body : {contacts_.rows[pair.begin].a, contacts_.rows[pair.begin].b})
-          bodies_.push_back(at(body));
-      }
-    std::sort(bodies_.begin(), bodies_.end());
-    bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+    for (const std::size_t island : islands_) {
+      const auto of_island = contacts_.pairsOf(contacts_.islands[island]);
+      pairs_.insert(pairs_.end(), of_island.begin(), of_island.end());
+    }
   }
 
   void set() {
@@ -67,7 +64,7 @@ class ContactPaths {
   template <typename Work>
   void forBodies(const Work& work) {
     world_.crew.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(bodies_[i]);
+      for (std::size_t i = begin; i < end; ++i) work(at(bodies_[i]));
     });
   }
 
@@ -121,23 +118,25 @@ class ContactPaths {
     return raised;
   }
 
-  // Without friction; as finely as the world's budget of row visits goes. Where few sweeps do not do, one
-  // pass from the supports upwards leaves only what is wedged.
+  // Without friction. Where few sweeps do not do, one pass from the supports upwards leaves only what is
+  // wedged.
   void solve(double coarse_residual_mps) {
-    const int careful_sweeps = sweepsInBudget(contacts_.rows.size());
-    for (const std::size_t island : islands_) {
-      const std::span<ContactRow> rows = contacts_.rowsOf(contacts_.islands[island]);
-      const SolverReport report = solveContacts(rows, contacts_.paths,
-                                                {.sweeps = std::max(kPathSweeps, careful_sweeps),
+    std::vector<std::size_t> coarse;
+    const auto solveIsland = [&](std::size_t island, int sweeps, bool again) {
+      const SolverReport report = solveContacts(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths,
+                                                {.sweeps = again ? sweeps : std::max(kPathSweeps, sweeps),
                                                  .residual_mps = kPathResidual,
                                                  .friction = false,
-                                                 .careful_sweeps = careful_sweeps,
+                                                 .careful_sweeps = sweeps,
                                                  .coarse_residual_mps = coarse_residual_mps,
                                                  .crew = &world_.crew});
-      counters_.row_visits += report.visits;
-      if (report.residual_mps > coarse_residual_mps)
-        passUpwards(rows, contacts_.paths, -world_.settings.gravity);
-    }
+      if (again) std::erase(coarse, island);
+      if (report.residual_mps > coarse_residual_mps) coarse.push_back(island);
+      return report;
+    };
+    counters_.row_visits += solveWithinBudget(contacts_, islands_, kPathResidual, solveIsland);
+    for (const std::size_t island : coarse)
+      passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
   }
 
   void carry() {
@@ -180,9 +179,9 @@ class ContactPaths {
   LastingWorld world_;
   std::span<const std::size_t> islands_;
   std::vector<LastingContacts::PairRows> pairs_;  ///< Theirs.
-  std::vector<std::size_t> bodies_;
   StepCounters& counters_;
   LastingContacts& contacts_;
+  std::vector<int> bodies_;  ///< Of the islands.
   double step_s_;
 };
 

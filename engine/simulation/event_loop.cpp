@@ -280,7 +280,7 @@ class EventLoop {
       return;
     }
     ++counters_.events;
-    ++counters_.impacts;
+    counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     resolve(index, found);
   }
 
@@ -299,11 +299,18 @@ class EventLoop {
                            pair.tracked);
   }
 
-  // Whether what a look has found is no collision: a slow approach that is at the floor.
+  // Whether what a look has found is no collision: paths that are at the floor, while the momenta, which
+  // impulses act on, do not bring the bodies together fast.
   bool isSlow(int index) const {
     const TimeOfImpact& found = predictions_[at(index)].found;
-    return found.outcome == TimeOfImpact::Outcome::kStopped &&
-           separatingSpeedAt(index, found) >= -table_.pairs()[at(index)].collision_speed_mps;
+    if (found.outcome != TimeOfImpact::Outcome::kStopped) return false;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const auto velocityOf = [&](const Body& body, const Vec3& p_W) {
+      return body.velocityAt(found.time_s).at(p_W - body.path.positionAt(found.time_s));
+    };
+    const Vec3 parting = velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
+                         velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W);
+    return found.closest.n_W.dot(parting) >= -pair.collision_speed_mps;
   }
 
   // Leads two bodies apart that come slowly to the floor: solvers left that over, or turning. Only their

@@ -6,6 +6,7 @@
 
 #include "engine/modes/islands.h"
 #include "engine/response/conjugate_sweeps.h"
+#include "engine/response/energy_bound.h"
 #include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
 #include "engine/response/turning_resistance.h"
@@ -65,11 +66,6 @@ bool isStirred(std::span<const ContactRow> rows, std::span<const BodyMotion> mot
   });
 }
 
-// How many sweeps an island's share of row visits goes for.
-int shareOfSweeps(std::span<const ContactRow> rows) {
-  return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
-}
-
 // The least sweeps of an island that stands but for what moves in it.
 int fewestSweeps(std::span<const ContactRow> rows) {
   return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
@@ -83,20 +79,20 @@ int standingSweeps(std::span<const ContactRow> rows) {
 
 // Small islands are solved to the fine residual, large ones to a coarser one.
 double residualOf(std::span<const ContactRow> rows, double coarser) {
-  return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
+  return sweepsInBudget(rows.size()) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
 }
 
 // What lies still, all of it.
 SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
                               std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
   SolverSettings settings{
-      .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
+      .sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
       .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
       .crew = &crew};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
-    settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
+    settings.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows));
     settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
     settings.in_the_mean = true;
     patience.waitAStep();
@@ -118,39 +114,47 @@ SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const Bod
   if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
   return solveContactsFocused(
       rows, solver_bodies,
-      {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
+      {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
        .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
        .in_the_mean = rows.size() >= kFocusedRows,
        .crew = &crew});
 }
 
-// Carefully as far as the world's budget goes; a crowd in motion is solved on in the next step.
+// Carefully for its share of the budget, and coarsely for longer; a crowd in motion is solved on in the next
+// step.
 SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, int careful_sweeps,
                                int most_sweeps, double gravity_speed, Crew& crew) {
-  return solveContactsFinely(
-      rows, bodies,
-      {.sweeps = std::max({careful_sweeps, most_sweeps, tolerance::kSolverMovingSweeps}),
-       .residual_mps = tolerance::kSolverResidual * gravity_speed,
-       .careful_sweeps = careful_sweeps,
-       .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
-       .crew = &crew});
+  return solveContactsFinely(rows, bodies,
+                             {.sweeps = most_sweeps,
+                              .residual_mps = tolerance::kSolverResidual * gravity_speed,
+                              .careful_sweeps = careful_sweeps,
+                              .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                              .crew = &crew});
 }
 
 // With friction.
-void solveImpulses(LastingContacts& contacts, const LastingWorld& world, StepCounters& counters) {
+void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
+                   StepCounters& counters) {
   const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
   const std::span<const BodyMotion> motions = motionsOf(world, contacts);
-  const int careful_sweeps = sweepsInBudget(contacts.rows.size());
-  const int most_sweeps = tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size()));
-  for (const LastingContacts::Island& island : contacts.islands) {
-    const std::span<ContactRow> rows = contacts.rowsOf(island);
-    const SolverReport report =
-        stands(rows, motions)
-            ? solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew)
-            : solveMovingIsland(rows, contacts.bodies, careful_sweeps, most_sweeps, gravity_speed,
-                                world.crew);
-    counters.row_visits += report.visits;
-  }
+  const int most_sweeps =
+      std::max(tolerance::kSolverMovingSweeps,
+               tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size())));
+  const auto solve = [&](std::size_t island, int sweeps, bool again) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
+    if (!again && stands(rows, motions)) {
+      SolverReport report =
+          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew);
+      report.residual_mps = 0.0;  // it has budgets of its own
+      return report;
+    }
+    return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
+                             gravity_speed, world.crew);
+  };
+  counters.row_visits +=
+      solveWithinBudget(contacts, islands, tolerance::kSolverResidual * gravity_speed, solve);
+  for (const std::size_t island : islands)
+    takeBackGain(contacts.rowsOf(contacts.islands[island]), contacts.bodies);
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
@@ -167,32 +171,12 @@ void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const
   }
 }
 
-// Gives the bodies the impulses that rows begin with; those of an island so many times, at most once, that
-// they come nearest to what its bounds ask for, in the measure of energy. What an island remembers of another
-// arrangement may be far too much for this one, and few sweeps would leave some of that in its bodies.
+// Gives the bodies the impulses that rows begin with. What an island remembers of another arrangement may be
+// far too much for this one, and few sweeps would leave some of that in its bodies.
 void warmUp(LastingContacts& contacts) {
-  const auto missed = [&](std::span<const ContactRow> rows) {
-    double sum = 0.0;  // J: the impulses on the speeds missed
-    for (const ContactRow& row : rows)
-      if (!row.impulse.isZero(0.0)) sum += row.impulse.dot(rowMiss(row, contacts.bodies));
-    return sum;
-  };
-  for (const LastingContacts::Island& island : contacts.islands) {
-    const std::span<ContactRow> rows = contacts.rowsOf(island);
-    const double before = missed(rows);
-    for (const ContactRow& row : rows) applyLoad(row, contacts.bodies);
-    const double work = missed(rows) - before;  // twice the energy of what they make of the velocities
-    const double share = work > 0.0 ? std::clamp(-before / work, 0.0, 1.0) : 1.0;
-    if (share == 1.0) continue;
-    for (ContactRow& row : rows) {
-      ContactRow taken_back = row;
-      taken_back.impulse *= share - 1.0;
-      taken_back.torque *= share - 1.0;
-      applyLoad(taken_back, contacts.bodies);
-      row.impulse *= share;
-      row.torque *= share;
-    }
-  }
+  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
+  for (const LastingContacts::Island& island : contacts.islands)
+    takeBackGain(contacts.rowsOf(island), contacts.bodies);
 }
 
 // The moving bodies that some row presses.
@@ -251,16 +235,6 @@ void remember(const LastingContacts& contacts, std::span<const LastingContacts::
   });
 }
 
-// A body that nothing presses any more flies as it was planned.
-void letFly(int index, Body& body, const FlightPlanner& planner) {
-  body.travel = Travel::kBallistic;
-  body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  body.momentum_velocity = body.velocity;
-  body.solved_spin_B.setZero();
-  body.turning_B.setZero();
-  planner.plan(index, body);
-}
-
 }  // namespace
 
 void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad& load, double step_s,
@@ -298,40 +272,40 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
   assembleContacts(world, counters, contacts);
   giveEnvironment(contacts, world, planner);
   warmUp(contacts);
-  solveImpulses(contacts, world, counters);
+  std::vector<std::size_t> islands(contacts.islands.size());
+  std::iota(islands.begin(), islands.end(), std::size_t{0});
+  solveImpulses(contacts, islands, world, counters);
   findTouched(contacts, world);
   for (const int i : world.active.list())
     if (world.bodies[at(i)].moves()) foreseeContacts(contacts, i, world.bodies[at(i)], planner);
-  std::vector<std::size_t> islands(contacts.islands.size());
-  std::iota(islands.begin(), islands.end(), std::size_t{0});
   setContactPaths(world, islands, counters, contacts);
   remember(contacts, contacts.pair_rows, world);
   counters.contact_points = static_cast<int>(contacts.rows.size());
 }
 
 std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
-                                 const LastingContacts& contacts) {
+                                 LastingContacts& contacts) {
   const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
-  Islands islands(static_cast<int>(world.bodies.size()));
+  Islands& joined = contacts.room.joined;
+  joined.part(static_cast<int>(world.bodies.size()));
   const auto join = [&](int index) {
     const ShapePair& pair = world.table.pairs()[at(index)];
-    if (moves(pair.body_a) && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
+    if (moves(pair.body_a) && moves(pair.body_b)) joined.join(pair.body_a, pair.body_b);
   };
   for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) join(of_pair.pair);
   for (const int pair : pairs) join(pair);
-  const auto islandOf = [&](int index) {
+  std::vector<int> islands;  // of the pairs
+  for (const int index : pairs) {
     const ShapePair& pair = world.table.pairs()[at(index)];
-    return at(islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
-  };
-  std::vector<int> landings(world.bodies.size(), 0);
-  for (const int pair : pairs) ++landings[islandOf(pair)];
+    islands.push_back(joined.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  }
   const int most = sweepsInBudget(contacts.rows.size()) / kVisitsOfAnEvent;
   std::vector<int> crowded;
-  for (const int pair : pairs) {
-    if (landings[islandOf(pair)] > most)
-      crowded.push_back(pair);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (std::count(islands.begin(), islands.end(), islands[k]) > most)
+      crowded.push_back(pairs[k]);
     else
-      world.table.pairs()[at(pair)].landing.reset();
+      world.table.pairs()[at(pairs[k])].landing.reset();
   }
   return crowded;
 }
@@ -340,18 +314,10 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
                                const FlightPlanner& planner, StepCounters& counters,
                                LastingContacts& contacts) {
   const std::vector<std::size_t> islands = addLandings(world, pairs, counters, contacts);
-  std::vector<char> listed(world.bodies.size(), 0);
-  std::vector<int> bodies;
+  std::vector<int> bodies = contacts.bodiesOf(islands);
+  for (const int i : bodies) contacts.bodies[at(i)].stir = 0.0;
   for (const std::size_t i : islands) {
-    const LastingContacts::Island& island = contacts.islands[i];
-    const std::span<ContactRow> rows = contacts.rowsOf(island);
-    for (const ContactRow& row : rows)
-      for (const int body : {row.a, row.b}) {
-        contacts.bodies[at(body)].stir = 0.0;
-        if (listed[at(body)] || !world.bodies[at(body)].moves()) continue;
-        listed[at(body)] = 1;
-        bodies.push_back(body);
-      }
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
     const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
     const SolverReport report =
         solveContacts(rows, contacts.bodies,
@@ -359,12 +325,15 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
                        .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
                        .resumes = true,
                        .crew = &world.crew});
+    takeBackGain(rows, contacts.bodies);
     counters.row_visits += report.visits;
   }
   findTouched(contacts, world);
+  std::erase_if(bodies, [&](int i) { return !world.bodies[at(i)].moves(); });
   for (const int i : bodies) {
     Body& body = world.bodies[at(i)];
-    if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic) letFly(i, body, planner);
+    if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic)
+      planner.planStep(i, body);  // nothing presses it any more
     foreseeContacts(contacts, i, body, planner);
   }
   setContactPaths(world, islands, counters, contacts);

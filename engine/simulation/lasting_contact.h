@@ -25,7 +25,7 @@ void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planne
 /// that is solved ahead of its time takes from what holds the bodies until then: the error is first order in
 /// the step, and accuracy is bought while the budget of row visits lasts.
 std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
-                                 const LastingContacts& contacts);
+                                 LastingContacts& contacts);
 /// Solves them with their islands. Returns the moving bodies of these, whose paths are new.
 std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& world,
                                const FlightPlanner& planner, StepCounters& counters,

@@ -151,22 +151,24 @@ void World::Impl::makeShapes() {
   }
 }
 
+// The motion of a body that does not move in the step.
+void lieStill(Body& body) {
+  static_cast<StepMotion&>(body) = {};
+  body.path.X_WB = body.X_WB;
+}
+
 // Every active body starts the step as if it were in flight.
 void World::Impl::planFlight(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kForces);
   forActive([&](std::size_t i) {
     Body& body = bodies[i];
-    body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    body.momentum_velocity = body.velocity;
     body.events = 0;
     body.cleared = 0;
-    body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
-    body.acceleration.setZero();
-    body.torque.setZero();
-    body.solved_spin_B.setZero();
-    body.turning_B.setZero();
     body.X_end = body.X_WB;
-    if (body.moves()) planner.plan(static_cast<int>(i), body);
+    if (body.moves())
+      planner.planStep(static_cast<int>(i), body);
+    else
+      lieStill(body);
   });
 }
 
@@ -295,8 +297,10 @@ int World::Impl::substepsWanted() {
          settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
     wanted *= 2;
   const std::span<const int> list = active.list();
-  const bool stirred =
-      std::any_of(list.begin(), list.end(), [&](int i) { return !bodies[at(i)].liesStill(); });
+  // At its apex a body in flight is as slow as one that lies.
+  const bool stirred = std::any_of(list.begin(), list.end(), [&](int i) {
+    return !bodies[at(i)].liesStill() || !bodies[at(i)].supported;
+  });
   if (wanted == 1 || !stirred) return 1;
   int awake = 0;
   for (const int place : table.active()) {
