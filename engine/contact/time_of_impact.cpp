@@ -154,7 +154,7 @@ class Look {
   }
 
   Pose poseOf(const MovingPart& moving, double t) const {
-    work_ += 1 + (moving.path->tumbling.inertia != nullptr ? moving.path->tumbling.parts : 0);
+    ++work_;
     return moving.X_end != nullptr && t == search_.end_s ? *moving.X_end : moving.path->at(t);
   }
 
@@ -209,7 +209,7 @@ class Look {
   }
 
   static double turningSpeed(const Trajectory& path, const Vec3& n) {
-    return path.tumbling.inertia == nullptr ? n.cross(path.spin).norm() : path.fastestSpin();
+    return path.tumbling.empty() ? n.cross(path.spin).norm() : path.fastestSpin();
   }
 
   // A speed that no two points of the parts separate slower than along n, but for the curvature.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/foundation/elementary.h"
+#include "engine/motion/free_rotation.h"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// Mass and velocity of a rigid body, and torque-free rotation.
+// Mass and velocity of a rigid body.
 // Tested in tests/engine/motion/rigid_body_test.cpp.
 
 #include "engine/foundation/frames.h"
@@ -31,28 +31,6 @@ Vec3 angularMomentum(const Inertia& inertia, const Quat& R_WB, const Vec3& angul
 /// The angular velocity that carries angular momentum L in an orientation.
 Vec3 angularVelocity(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum);
 double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& velocity);
-
-/// The rotation of a free body that tumbles: where it leaves an orientation at any time after, smoothly in
-/// time.
-struct Tumbling {
-  const Inertia* inertia = nullptr;
-  Vec3 momentum = Vec3::Zero();  ///< Angular, kg m^2/s, world frame: conserved.
-  double fastest_spin = 0.0;     ///< rad/s: a bound, from the energy.
-  int parts = 1;                 ///< Steps of the integrator, whatever the time.
-};
-/// Accurate for times up to `longest_s`.
-Tumbling tumbling(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double longest_s);
-Quat rotationAfter(const Tumbling& tumbling, const Quat& R_WB, double dt_s);
-/// By how many radians, at most, constant spin misses the torque-free orientation on its way through `dt_s`:
-/// |d omega / dt| dt^2 / 8.
-double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
-
-/// The constant spin that carries a free body from `R_WB` to where `dt_s` seconds of torque-free rotation
-/// leave it, by splitting the kinetic energy into a part that turns the body about its angular momentum and
-/// two that turn it about principal axes, each solved exactly: time-reversible, fourth order, exact for a
-/// body with an axis of symmetry. With omega recomputed from the conserved angular momentum at the end, that
-/// momentum is exact and the energy bounded. Beyond two radians a step the spin of the first two is kept.
-Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
 
 /// The angular velocity, world frame, that has this energy of rotation and the angular momentum nearest to
 /// the one given. For a body whose orientation contacts have led elsewhere than its own rotation would have:

@@ -5,6 +5,7 @@
 
 #include "engine/foundation/elementary.h"
 #include "engine/foundation/frames.h"
+#include "engine/motion/free_rotation.h"
 #include "engine/motion/rigid_body.h"
 
 namespace carom {
@@ -14,8 +15,8 @@ struct Trajectory {
   Pose X_WB;                     ///< At `start_s`.
   Vec3 velocity = Vec3::Zero();  ///< Of the centre of mass at `start_s`.
   Vec3 acceleration = Vec3::Zero();
-  Vec3 spin = Vec3::Zero();  ///< rad/s, world frame, constant; of a body that tumbles, the mean.
-  Tumbling tumbling = {};    ///< Without inertia: it turns at its spin.
+  Vec3 spin = Vec3::Zero();    ///< rad/s, world frame, constant; of a body that tumbles, the mean.
+  FreeRotation tumbling = {};  ///< From `X_WB` on; empty: it turns at its spin.
 
   Vec3 positionAt(double t_s) const {
     const double t = t_s - start_s;
@@ -26,23 +27,22 @@ struct Trajectory {
     const double t = t_s - start_s;
     Pose X{X_WB.rotation, positionAt(t_s)};
     if (t == 0.0) return X;
-    if (tumbling.inertia != nullptr)
-      X.rotation = rotationAfter(tumbling, X_WB.rotation, t).normalized();
+    if (!tumbling.empty())
+      X.rotation = tumbling.after(t);
     else if (!spin.isZero(0.0))
       X.rotation = (rotationBy(t * spin) * X_WB.rotation).normalized();
     return X;
   }
   Vec3 velocityAt(double t_s) const { return velocity + (t_s - start_s) * acceleration; }
   Vec3 angularVelocityAt(double t_s) const {
-    if (tumbling.inertia == nullptr) return spin;
-    return angularVelocity(*tumbling.inertia, at(t_s).rotation, tumbling.momentum);
+    return tumbling.empty() ? spin : tumbling.angularVelocityIn(at(t_s).rotation);
   }
-  double fastestSpin() const { return tumbling.inertia == nullptr ? spin.norm() : tumbling.fastest_spin; }
+  double fastestSpin() const { return tumbling.empty() ? spin.norm() : tumbling.fastestSpin(); }
   /// What turning can accelerate a point by, m/s^2 for each metre from the centre of mass: centripetally by
   /// omega^2, and no more than that again by d omega / dt, as no principal moment exceeds the others' sum.
   double turningAcceleration() const {
-    return tumbling.inertia == nullptr ? spin.squaredNorm()
-                                       : 2.0 * tumbling.fastest_spin * tumbling.fastest_spin;
+    const double fastest = tumbling.fastestSpin();
+    return tumbling.empty() ? spin.squaredNorm() : 2.0 * fastest * fastest;
   }
   /// From now on at a constant spin.
   void turnAt(const Vec3& constant_spin) {

@@ -122,9 +122,10 @@ inline constexpr double kTumblingMiss = 1e-9;
 inline void turnFreely(Body& body, double dt_s) {
   const Quat& R = body.path.X_WB.rotation;
   const Vec3& omega = body.momentum_velocity.angular;
-  body.path.turnAt(torqueFreeSpin(body.inertia, R, omega, dt_s));
-  if (tumblingMiss(body.inertia, R, omega, dt_s) > kTumblingMiss)
-    body.path.tumbling = tumbling(body.inertia, R, omega, dt_s);
+  if (omega.isZero(0.0) || dt_s == 0.0) return body.path.turnAt(omega);
+  const FreeRotation free(body.inertia, R, omega);
+  body.path.turnAt(free.meanSpin(R, dt_s));
+  if (tumblingMiss(body.inertia, R, omega, dt_s) > kTumblingMiss) body.path.tumbling = free;
 }
 
 /// So many bodies are worked on by one thread: to wait for another takes as long.

@@ -1,6 +1,7 @@
 #include "engine/simulation/half_turn.h"
 
 #include "engine/foundation/elementary.h"
+#include "engine/motion/free_rotation.h"
 
 namespace carom {
 namespace {

@@ -119,7 +119,6 @@ struct World::Impl {
   }
   void makeShapes();
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
-  bool hangsInAir(int body) const;
   int substepsWanted();
   void divideStep(int count);
   bool advance(PhaseClock* clock);
@@ -290,16 +289,6 @@ void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock
   findPairs(clock);
 }
 
-// At its apex a body in flight is as slow as one that lies.
-bool World::Impl::hangsInAir(int body) const {
-  if (bodies[at(body)].supported) return false;
-  const std::vector<int>& places = table.pairsOf(body);
-  return std::none_of(places.begin(), places.end(), [&](int place) {
-    const ShapePair& pair = table.pairs()[at(place)];
-    return pair.closest.distance_m <= pair.window.ceiling;
-  });
-}
-
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
 // is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
 int World::Impl::substepsWanted() {
@@ -308,8 +297,10 @@ int World::Impl::substepsWanted() {
          settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
     wanted *= 2;
   const std::span<const int> list = active.list();
-  const bool stirred = std::any_of(list.begin(), list.end(),
-                                   [&](int i) { return !bodies[at(i)].liesStill() || hangsInAir(i); });
+  // At its apex a body in flight is as slow as one that lies, and so is one that has just been put down.
+  const bool stirred = std::any_of(list.begin(), list.end(), [&](int i) {
+    return !bodies[at(i)].liesStill() || !bodies[at(i)].supported;
+  });
   if (wanted == 1 || !stirred) return 1;
   int awake = 0;
   for (const int place : table.active()) {

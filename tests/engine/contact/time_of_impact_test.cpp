@@ -405,7 +405,7 @@ TEST(TimeOfImpact, OfATumblingBody_IsProvenAllTheWay) {
     const double end = 0.1;
     const Vec3 w = random.logUniform(2, 60) * random.direction();
     body.path.spin = torqueFreeSpin(inertia, X.rotation, w, end);
-    body.path.tumbling = tumbling(inertia, X.rotation, w, end);
+    body.path.tumbling = FreeRotation(inertia, X.rotation, w);
     if (closestAt(post, body, 0.0).distance_m < 0.01) continue;
     const ImpactSearch search = searchOf(post, body, end);
     const TimeOfImpact found = find(post, body, search);
