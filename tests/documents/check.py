@@ -1,5 +1,6 @@
 """The documents' checks from the command line:
     check.py ROOT CHECK                      one of checks.CHECKS
+    check.py ROOT reference                  Doxygen's
     check.py ROOT scenes PROGRAM             members of scenes that are shown
     check.py ROOT commands PROGRAM DOCUMENT  the commands of one document
 Prints each finding and ends with 1 when there is one."""
@@ -11,6 +12,8 @@ import checks
 
 
 def findings(root, what, arguments, work):
+    if what == "reference":
+        return checks.reference(root, work)
     if what == "scenes":
         return checks.scenes(root, arguments[0], work)
     if what == "commands":

@@ -157,6 +157,15 @@ def scenes(root, program, work):
                     yield f"{block.place}: {run.stderr.strip()}"
 
 
+def reference(root, work):
+    """The API reference is made of the headers without a warning."""
+    settings = (root / "engine/Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {work}\n"
+    run = subprocess.run(["doxygen", "-"], input=settings, cwd=root, capture_output=True, text=True)
+    if run.returncode:
+        yield f"doxygen ended with {run.returncode}"
+    yield from (line for line in run.stderr.splitlines() if line.strip())
+
+
 def copy_of_the_tree(root, work):
     """A copy in which commands may write what they like."""
     target = pathlib.Path(work) / "carom"

@@ -1,5 +1,6 @@
 """Each check of the documents finds what it is for: a tree with one fault each, and one without. Run by ctest."""
 import pathlib
+import shutil
 import sys
 import tempfile
 import unittest
@@ -115,6 +116,22 @@ class Checks(Tree):
     def test_a_line_that_its_file_no_longer_has_is_found(self):
         self.put("README.md", "```cpp part-of: engine/a.h\nint steps = 2001;\n```\n")
         self.assertEqual(self.found("parts"), ["README.md:1: not in engine/a.h: int steps = 2001;"])
+
+
+@unittest.skipUnless(shutil.which("doxygen"), "no doxygen")
+class Reference(Tree):
+    def found(self):
+        self.put("engine/Doxyfile", "INPUT = engine\nFILE_PATTERNS = *.h\nQUIET = YES\nHAVE_DOT = NO\nGENERATE_LATEX = NO\nEXTRACT_ALL = YES\n")
+        with tempfile.TemporaryDirectory() as work:
+            return list(checks.reference(self.root, work))
+
+    def test_a_header_without_fault_has_no_warning(self):
+        self.put("engine/b.h", "/// Twice x.\nint twice(int x);\n")
+        self.assertEqual(self.found(), [])
+
+    def test_a_parameter_that_is_not_there_is_found(self):
+        self.put("engine/b.h", "/// Twice.\n/// @param y what\nint twice(int x);\n")
+        self.assertIn("argument 'y'", " ".join(self.found()))
 
 
 class Commands(Tree):
