@@ -47,10 +47,11 @@ def commit():
 def section(name):
     title, command, _ = TABLES[name]
     run = subprocess.run(command, shell=True, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    printed = "\n".join(line for line in run.stdout.splitlines() if not line.startswith(("configuring ", "building ", "installing ")))
     now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
     load = os.getloadavg()[0]
     return (f"<!-- {name} -->\n## {title}\n\n{now}; {machine()}; load {load:.1f} at the end; commit {commit()}.\n"
-            f"`{command}` ended with {run.returncode}.\n\n```text\n{run.stdout.rstrip()}\n```\n<!-- /{name} -->\n")
+            f"`{command}` ended with {run.returncode}.\n\n```text\n{printed.rstrip()}\n```\n<!-- /{name} -->\n")
 
 
 def main():
