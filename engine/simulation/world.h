@@ -4,7 +4,7 @@
 //   -> modes
 // A long step in which few bodies move in contact goes through them several times, in substeps (DEVIATES: the
 // paper has one length of step for all). Invariant: after `start` has accepted the bodies, every pair keeps a
-// gap > 0 at every instant (DESIGN: the collision window). Deterministic: the same calls give the same bits.
+// gap > 0 at every instant (collision_window.h). Deterministic: the same calls give the same bits.
 // Nothing in here draws, prints or reads a clock. Tested in tests/engine/simulation/ and tests/physics/.
 
 #include <cstdint>

@@ -113,8 +113,11 @@ def citations(root):
 
 
 def remarks(root):
-    """Blocks say of what language they are, and commands that are not run why not."""
+    """Blocks say of what language they are, and commands that are not run why not; no command hides in indented text."""
     for name, text in texts(root).items():
+        for line in doc.blocks_of(name, text)[1].splitlines():
+            if re.match(r"(?: {4}|\t)\s*(?:\$ )?(?:bash|carom|cmake|ctest|python3|doxygen|npm|apt-get|make) ", line):
+                yield f"{name}: a command outside a block: {line.strip()}"
         for block in doc.blocks_of(name, text)[0]:
             if not block.language:
                 yield f"{block.place}: a block without a language"

@@ -109,6 +109,10 @@ class Checks(Tree):
         self.put("README.md", "```\nx\n```\n")
         self.assertEqual(self.found("remarks"), ["README.md:1: a block without a language"])
 
+    def test_a_command_outside_a_block_is_found(self):
+        self.put("README.md", "So:\n\n    carom list\n")
+        self.assertEqual(self.found("remarks"), ["README.md: a command outside a block: carom list"])
+
     def test_a_command_that_is_not_run_needs_a_reason(self):
         self.put("README.md", "```sh not-run: no\nx\n```\n")
         self.assertEqual(self.found("remarks"), ["README.md:1: not run, without a reason"])
