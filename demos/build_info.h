@@ -7,7 +7,7 @@
 
 namespace carom::demos {
 
-/// "0.1.0"
+/// "0.2.0"
 std::string programVersion();
 /// "gcc 12.2.0, Release"
 std::string buildName();

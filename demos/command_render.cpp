@@ -452,18 +452,19 @@ void requireStreamable(const RenderOptions& options, const std::vector<FrameOutp
     throw UsageError("--stream rgb24 has 8 bits a sample; accepted with --aov: png or ppm");
 }
 
-/// Overlays need the engine itself, and so does a still.
-int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& overlays) {
-  const int frames = static_cast<int>(plan.frames.size());
-  if (overlays.any() || options.at_s || frames < 2) return 1;
-  return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
-}
-
 /// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
   return options.states && options.frames.empty() && options.shard.empty() && options.from.empty() &&
          options.stream.empty() && options.ffmpeg.empty() && !options.at_s && !overlays.any();
+}
+
+/// Overlays need the engine itself, and so does a still. A record holds pixels, which are drawn where it is
+/// kept.
+int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& overlays) {
+  const int frames = static_cast<int>(plan.frames.size());
+  if (overlays.any() || options.at_s || hasRecord(options, overlays) || frames < 2) return 1;
+  return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
 /// None where the frames go into a stream or a video.

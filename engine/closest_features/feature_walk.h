@@ -2,8 +2,8 @@
 // V-Clip's walk (paper §2; Mirtich 1997): from a feature pair to a neighbouring pair that is closer, until
 // each witness lies in the V-region of the other's feature.
 //
-// Why it ends, in floating point too. Every move lowers, in lexicographic order, three pure functions of the
-// pair:
+// Why it ends, in floating point too (DEVIATES: the paper's "never cycles" is true in exact arithmetic only).
+// Every move lowers, in lexicographic order, three pure functions of the pair:
 // - the lowest distance seen so far, which falls only as often as there are feature pairs;
 // - at a distance equal to that to rounding: the dimensions that the two features lack, at most four;
 // - at as many dimensions: the room between the support planes and the distance.

@@ -1,6 +1,7 @@
 #pragma once
 // The collision window of paper §2.3, fig. 7: two distances epsilon1 < epsilon2. Between them a collision is
-// solved directly, without root finding; below epsilon1 no pair ever gets. Tested in
+// solved directly, without root finding; below epsilon1 no pair ever gets. DEVIATES: what will not bounce is
+// struck at the landing gap, where it is then held, not anywhere in the window. Tested in
 // tests/engine/contact/collision_window_test.cpp.
 
 #include <algorithm>

@@ -2,20 +2,21 @@
 // Collision time searching (paper §2.3, figs. 6 and 7): the first time at which two moving parts come into
 // the collision window fast enough to collide, or can be carried no further without leaving it downwards.
 //
-// The search never trusts d(t) between two looks at it. The gap between the parts along any direction n(t)
-// bounds d(t) from below. Where n stands still, every vertex moves along it with a second derivative of at
-// most M = |acceleration| + spin_A^2 r_A + spin_B^2 r_B (twice the latter for bodies that tumble). A function
-// with that bound stays above its chord less M t (dt - t) / 2, so from the gap at the two ends of an interval
-// follows a lower bound for all of it. What slides over a face that turns stays near it, but not along a
-// direction that stands still, in which the face's far corners dip at once: there n turns with the face's
-// part, and M holds what a turning frame adds. Newton's step towards the landing gap (with the paper's linear
-// correction as its guard) only proposes the interval. Invariant: up to the returned time the distance is >=
-// the floor. Valid for any speed and any rotation.
+// The search never trusts d(t) between two looks at it (DEVIATES: the paper finds the root by Newton's
+// method). The gap between the parts along any direction n(t) bounds d(t) from below. Where n stands still,
+// every vertex moves along it with a second derivative of at most M = |acceleration| + spin_A^2 r_A +
+// spin_B^2 r_B (twice the latter for bodies that tumble). A function with that bound stays above its chord
+// less M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower bound for all of it.
+// What slides over a face that turns stays near it, but not along a direction that stands still, in which the
+// face's far corners dip at once: there n turns with the face's part, and M holds what a turning frame adds.
+// Newton's step towards the landing gap (with the paper's linear correction as its guard) only proposes the
+// interval. Invariant: up to the returned time the distance is >= the floor. Valid for any speed and any
+// rotation.
 //
-// The floor decides whether there is an impact, the window where it is struck. What comes into the window
-// fast is an impact only if the parts' own paths lead below the floor: a box that slides over a seam, or past
-// the edge of a lower step, approaches that edge obliquely, but passes it. Tested in
-// tests/engine/contact/time_of_impact_test.cpp.
+// The floor decides whether there is an impact, the window where it is struck (DEVIATES: in the paper every
+// approach in the window is a collision). What comes into the window fast is an impact only if the parts' own
+// paths lead below the floor: a box that slides over a seam, or past the edge of a lower step, approaches
+// that edge obliquely, but passes it. Tested in tests/engine/contact/time_of_impact_test.cpp.
 
 #include "engine/closest_features/vclip.h"
 #include "engine/contact/collision_window.h"

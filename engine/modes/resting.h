@@ -2,10 +2,11 @@
 // Resting mode (paper §2.5). An island that has lain still for a while rests when (1) the effective force on
 // each of its bodies that stand on level contacts passes through the body's support polygon, and (2) the
 // contacts can balance gravity within their friction cones, as far as places of contact are known: gaps are
-// held in a band. DEVIATES: the paper asks only for (1) and low kinetic energy, which would freeze a box on a
-// steep incline. (2) is asked of the contact solver itself: from zero velocity, one step's gravity (in air
-// and water: all that they do) must leave zero velocity, or turning that such places could stop. Tested in
-// tests/engine/modes/resting_test.cpp and tests/physics/stick_slip_test.cpp and toppling_test.cpp.
+// held in a band (DEVIATES: the paper knows the places exactly). DEVIATES: the paper asks only for (1) and
+// low kinetic energy, which would freeze a box on a steep incline. (2) is asked of the contact solver itself:
+// from zero velocity, one step's gravity (in air and water: all that they do) must leave zero velocity, or
+// turning that such places could stop. Tested in tests/engine/modes/resting_test.cpp and
+// tests/physics/stick_slip_test.cpp and toppling_test.cpp.
 
 #include <span>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The impulse of one contact point (paper §2.1, after Baraff): how bodies answer to an impulse at a point,
-// and the frictionless j of the paper's formula. DEVIATES: -(1 + e) for the printed -(1 - e), and n . [(J^-1
-// (r x n)) x r] with the world-frame tensor for the printed (r x n)^2 / J. Tested in
+// and the frictionless j of the paper's formula. DEVIATES: -(1 + e) for the printed -(1 - e). DEVIATES: n .
+// [(J^-1 (r x n)) x r] with the world-frame tensor for the printed (r x n)^2 / J. Tested in
 // tests/engine/response/impulse_test.cpp.
 
 #include "engine/motion/rigid_body.h"

@@ -1,8 +1,8 @@
 #pragma once
 // The path of a body in lasting contact. Its forces act evenly, so its momentum changes evenly and its path
-// bends with it: struck at any instant, the body has the energy that it has fallen, or slid, for. Where a
-// bent path would dip towards another body on its way, it is straight. Internal to the simulation floor.
-// Tested in tests/physics/carried_energy_test.cpp.
+// bends with it (DEVIATES: the paper applies the step's gravity at its beginning): struck at any instant, the
+// body has the energy that it has fallen, or slid, for. Where a bent path would dip towards another body on
+// its way, it is straight. Internal to the simulation floor. Tested in tests/physics/carried_energy_test.cpp.
 
 #include <span>
 #include <vector>

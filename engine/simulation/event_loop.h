@@ -1,11 +1,12 @@
 #pragma once
-// Advancing to the next time of impact (paper §1 and §2.3), pair by pair: an event brings only the bodies
-// that its impulses reach to its time and gives them new paths from there; only their pairs are searched
-// anew, and every search only as far as events come. The others wait on their own paths. What will not bounce
-// and would come down in a crowd is handed to the lasting contacts before anything moves. A slow approach at
-// the floor is no event: the two paths are led apart, and no impulse acts. A body that has had its budget of
-// either is held at its last safe time: accuracy is lost and counted, the gap is not. Internal to the
-// simulation floor. Tested in tests/physics/pile_test.cpp and through tests/engine/simulation/.
+// Advancing to the next time of impact (paper §1 and §2.3), pair by pair (DEVIATES: the paper merges the
+// collisions of all bodies to the world's first): an event brings only the bodies that its impulses reach to
+// its time and gives them new paths from there; only their pairs are searched anew, and every search only as
+// far as events come. The others wait on their own paths. What will not bounce and would come down in a crowd
+// is handed to the lasting contacts before anything moves. A slow approach at the floor is no event: the two
+// paths are led apart, and no impulse acts. A body that has had its budget of either is held at its last safe
+// time: accuracy is lost and counted, the gap is not. Internal to the simulation floor. Tested in
+// tests/physics/pile_test.cpp and through tests/engine/simulation/.
 
 #include <functional>
 #include <optional>

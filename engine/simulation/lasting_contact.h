@@ -1,8 +1,9 @@
 #pragma once
 // Lasting contact (paper §2.4): bodies close together that approach slowly get gravity once per step and an
 // impulse at every point of contact, solved together; their paths for the step follow. Faster approaches are
-// left to the time of impact, which gives them their restitution. Internal to the simulation floor. Tested
-// through tests/engine/simulation/ and tests/physics/.
+// left to the time of impact, which gives them their restitution. DEVIATES: landings of many bodies in one
+// step, each an event in the paper, are solved here as well. Internal to the simulation floor. Tested through
+// tests/engine/simulation/ and tests/physics/.
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 #pragma once
 // Rows of bodies that turn, in the middle of their step. While a body turns about a contact, the arm to the
-// contact turns too: what holds the contact at the beginning of a step lets it move at the end. Impulses do
-// work on the mean of the velocities before and after, so their rows stand where the bodies are in mid-step,
-// and ask there for the velocity that will be nought at the step's end: a block rocks on its edge, a coin on
-// its rim, without gain or loss (to third order in the step). Internal to the simulation floor. Tested in
-// tests/physics/rocking_block_test.cpp.
+// contact turns too (DEVIATES: the paper takes contacts where the step begins): what holds the contact at the
+// beginning of a step lets it move at the end. Impulses do work on the mean of the velocities before and
+// after, so their rows stand where the bodies are in mid-step, and ask there for the velocity that will be
+// nought at the step's end: a block rocks on its edge, a coin on its rim, without gain or loss (to third
+// order in the step). Internal to the simulation floor. Tested in tests/physics/rocking_block_test.cpp.
 
 #include <span>
 

@@ -2,10 +2,10 @@
 // The world: bodies that share solids, and the fixed step of the paper:
 //   external forces -> candidate pairs -> closest features -> impulses -> advance to the next time of impact
 //   -> modes
-// A long step in which few bodies move in contact goes through them several times, in substeps.
-// Invariant: after `start` has accepted the bodies, every pair keeps a gap > 0 at every instant (DESIGN: the
-// collision window). Deterministic: the same calls give the same bits. Nothing in here draws, prints or reads
-// a clock. Tested in tests/engine/simulation/ and tests/physics/.
+// A long step in which few bodies move in contact goes through them several times, in substeps (DEVIATES: the
+// paper has one length of step for all). Invariant: after `start` has accepted the bodies, every pair keeps a
+// gap > 0 at every instant (collision_window.h). Deterministic: the same calls give the same bits.
+// Nothing in here draws, prints or reads a clock. Tested in tests/engine/simulation/ and tests/physics/.
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 // What one seed does: five in six make a random world, the sixth a sequence of closest-feature queries. Every
 // tenth world is replayed, every twentieth also run with two and three threads. Tested in
-// tests/explore/seed_trial_test.cpp.
+// tests/explore/guarded_run_test.cpp.
 
 #include <cstdint>
 #include <string>

@@ -65,6 +65,19 @@ TEST_F(CauseOfAFault, TheRecordFitsAndIsTheSameOnEveryRunAndIsAcceptedWithTheFra
   EXPECT_EQ(readTextFile(at("golden") / kRecordName), readTextFile(at("actual") / kRecordName));
 }
 
+// Worker processes have no record to put pixels into: the first version ended by a signal.
+TEST_F(CauseOfAFault, ARecordedRunOfManyFramesIsTheSameForAnyNumberOfWorkers) {
+  const fs::path scene = folder_.file(
+      "crate.json", std::string(kScene).replace(std::string(kScene).find("RESTITUTION"), 11, "0.2"));
+  for (const char* workers : {"1", "3"}) {
+    const ProgramEnd end =
+        runCarom({"render", scene.string(), "--states", "--size", "64x36", "--fps", "30", "-q", "--workers",
+                  workers, "-o", (at(workers) / "frame_%04d.png").string()});
+    ASSERT_EQ(end.code, 0) << end.err;
+  }
+  EXPECT_EQ(readTextFile(at("1") / kRecordName), readTextFile(at("3") / kRecordName));
+}
+
 TEST_F(CauseOfAFault, ThatNoPixelShowsIsNoted) {
   ASSERT_EQ(render("golden", "0.2").code, 0);
   ASSERT_EQ(render("actual", "0.2000001").code, 0);
