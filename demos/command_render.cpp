@@ -458,10 +458,10 @@ int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& ov
   return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
-/// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
+/// A record tells of a run: shards, streams, recordings and overlays, which watch the world themselves,
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
-  return options.states && options.frames.empty() && options.shard.empty() && options.from.empty() &&
+  return options.states && options.shard.empty() && options.from.empty() &&
          options.stream.empty() && options.ffmpeg.empty() && !options.at_s && !overlays.any();
 }
 

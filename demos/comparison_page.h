@@ -88,6 +88,8 @@ button:focus-visible, #stage:focus-visible, .filter:focus-within { outline: 2px 
 #cause .then { fill: none; stroke: var(--soft); stroke-width: 1.5; stroke-dasharray: 5 4; }
 #cause .now { fill: none; stroke: #d55e00; stroke-width: 1.5; }
 #cause text { font-size: 11px; fill: var(--ink); }
+#list li { position: relative; } #list input { position: absolute; right: 10px; bottom: 10px; }
+#accept { padding: 10px 14px; font-size: 13px; overflow-wrap: anywhere; } #accept[hidden] { display: none; }
 #note { margin: 10px 0 0; color: var(--soft); font-size: 13px; }
 .empty { padding: 60px 20px; text-align: center; color: var(--soft); border: 1px dashed var(--line);
   border-radius: 8px; }
@@ -111,6 +113,7 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
   <nav aria-label="Pairs of images, worst first">
     <label class="filter" id="filter"><input type="checkbox" id="passing"> <span id="passing-text"></span></label>
     <ol id="list"></ol>
+    <p id="accept" hidden>accept the chosen with<br><code id="accept-command"></code></p>
   </nav>
   <section id="viewer">
     <h2 class="name" id="name"></h2>
@@ -197,6 +200,13 @@ function fillHeader() {
   byId("filter").hidden = failing === 0 || failing === pairs.length;
   byId("passing-text").textContent = "also show the " + grouped(pairs.length - failing) + " that pass";
 }
+const chosen = new Set();
+const quoted = name => /^[A-Za-z0-9_.\/-]+$/.test(name) ? name : "'" + name.replaceAll("'", "'\\''") + "'";
+function fillAccept() {
+  byId("accept").hidden = chosen.size === 0;
+  const names = [...chosen].sort((a, b) => a - b).map(i => quoted(pairs[i].name));
+  byId("accept-command").textContent = facts.accept + names.join(",");
+}
 function fillList() {
   byId("list").replaceChildren(...listed().map(i => {
     const pair = pairs[i], button = element("button"), row = element("div", "row"), item = element("li");
@@ -212,6 +222,14 @@ function fillList() {
     button.dataset.pair = i;
     button.addEventListener("click", () => select(i));
     item.append(button);
+    if (pair.acceptable && facts.accept) {
+      const box = element("input");
+      box.type = "checkbox";
+      box.title = "accept " + pair.name;
+      box.checked = chosen.has(i);
+      box.addEventListener("change", () => { box.checked ? chosen.add(i) : chosen.delete(i); fillAccept(); });
+      item.append(box);
+    }
     return item;
   }));
 }
@@ -264,6 +282,7 @@ function fillAbout(pair) {
   const about = byId("about");
   about.replaceChildren(element("strong", "", pair.verdict), document.createTextNode("  " + pair.detail.replaceAll("  ", " \u00b7 ")));
   fillCause(pair.cause);
+  if (pair.variant) about.append(element("br"), document.createTextNode("nearest of several accepted: " + pair.variant));
   if (pair.update) about.append(element("br"), document.createTextNode("golden image " + pair.update));
 }
 function transformOf(pair) {

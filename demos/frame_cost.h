@@ -33,6 +33,39 @@ constexpr FramePhase framePhase(StepPhase phase) {
 }
 static_assert(framePhase(StepPhase::kModes) == FramePhase::kModes && kStepPhases == 6);
 
+/// What there was to do, exactly: the same for any number of threads, on any machine, under any load.
+enum class Work : std::uint8_t {
+  kSteps,  ///< With substeps.
+  kPairs,
+  kQueries,
+  kContactPoints,
+  kEvents,
+  kImpacts,
+  kNewtonSteps,
+  kTriangles,
+  kPixels,
+  kShadowTexels,
+  kBytes  ///< Of the PNG.
+};
+inline constexpr std::size_t kWorkKinds = 11;
+/// A kind's name and the phase that it costs time in.
+struct WorkKind {
+  const char* name;
+  FramePhase phase;
+};
+inline constexpr std::array<WorkKind, kWorkKinds> kWork = {{{"steps", FramePhase::kForces},
+                                                            {"candidate pairs", FramePhase::kBroadPhase},
+                                                            {"queries", FramePhase::kClosestFeatures},
+                                                            {"contact points", FramePhase::kImpulses},
+                                                            {"events", FramePhase::kTimeOfImpact},
+                                                            {"impacts", FramePhase::kTimeOfImpact},
+                                                            {"newton steps", FramePhase::kTimeOfImpact},
+                                                            {"triangles", FramePhase::kDraw},
+                                                            {"pixels drawn", FramePhase::kDraw},
+                                                            {"shadow texels", FramePhase::kDraw},
+                                                            {"bytes packed", FramePhase::kEncode}}};
+using WorkCounts = std::array<std::int64_t, kWorkKinds>;
+
 struct FrameCost {
   int frame = 0;
   double time_s = 0.0;           ///< Of the scene.
@@ -43,6 +76,8 @@ struct FrameCost {
   int pairs = 0;          ///< Candidate pairs; the most in a step of the frame.
   int queries = 0;        ///< Closest-feature queries of all its steps.
   int events = 0;         ///< Times of impact of all its steps.
+  WorkCounts work{};      ///< Sums over all its steps.
+  std::int64_t& worked(Work kind) { return work[static_cast<std::size_t>(kind)]; }
 };
 
 /// A stretch of one phase on the clock; stretches nest.

@@ -53,6 +53,8 @@ constexpr char kVisitor[] = R"html(<script>
   const box = document.getElementById("passing");
   box.click();
   notes.push("listed " + document.querySelectorAll("#list button").length);
+  document.querySelector("#list input").click();
+  notes.push(document.getElementById("accept-command").textContent);
   const fetched = performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:"));
   notes.push("outside " + fetched.length);
   document.body.setAttribute("data-notes", JSON.stringify(notes));
@@ -94,7 +96,8 @@ fs::path visitedReport(const TemporaryFolder& folder) {
   add("little.png", changed(golden, 50, 40, 60));
   add("much.png", flatRaster(64, 48, 160));
   add("small.png", flatRaster(32, 24, 100));
-  writeComparisonReport(folder.path() / "report.html", all, {"a", "g", {}, 20, 16, false});
+  writeComparisonReport(folder.path() / "report.html", all,
+                        {"a", "g", {}, 20, 16, false, {}, "carom compare a g --accept "});
   std::string html = readTextFile(folder.path() / "report.html");
   html.replace(html.rfind("</body>"), 7, kVisitor);
   return folder.file("visited.html", html);
@@ -126,6 +129,7 @@ TEST(ReportInChromium, ShowsEveryViewByKeyboardAndPointer) {
       "much.png difference difference",
       "zoomed true",
       "listed 4",
+      "carom compare a g --accept small.png",
       "outside 0"};
   const std::vector<std::string> notes =
       notesIn(outputOf("timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" +
