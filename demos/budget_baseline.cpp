@@ -106,6 +106,18 @@ std::vector<WorkChange> workChanges(const BudgetResult& result, const Baseline& 
   return changes;
 }
 
+/// Whether anything was counted at all.
+bool tellsOfWork(const Baseline& baseline) {
+  for (const std::vector<std::int64_t>& counts : baseline.work)
+    for (const std::int64_t count : counts)
+      if (count != 0) return true;
+  return false;
+}
+bool tellsOfWork(const BudgetResult& result) {
+  return std::any_of(result.least.begin(), result.least.end(),
+                     [](const FrameCost& f) { return f.work != WorkCounts{}; });
+}
+
 std::string growthText(const WorkChange& c) {
   char text[64];
   if (c.before == 0) return "new";
@@ -238,7 +250,7 @@ BaselineComparison comparedToBaseline(const BudgetResult& result, const Baseline
   comparison.tolerance_percent = tolerance_percent;
   comparison.work_tolerance_percent = work_tolerance_percent;
   comparison.other_machine = otherMachine(baseline, result.subject);
-  comparison.has_work = baseline.hasWork();
+  comparison.has_work = baseline.hasWork() && (tellsOfWork(baseline) || tellsOfWork(result));
   comparison.work = workChanges(result, baseline, work_tolerance_percent);
   comparison.other_states = comparison.has_work && baseline.final_state != result.least.back().state_hash;
   for (const WorkChange& c : comparison.work)
