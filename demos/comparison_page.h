@@ -119,6 +119,7 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
     <h2 class="name" id="name"></h2>
     <p id="about" aria-live="polite"></p>
     <div id="cause" hidden></div>
+    <svg id="ink" width="0" height="0" aria-hidden="true"></svg>
     <div class="tools">
       <div class="tabs" role="tablist" aria-label="View">
         <button role="tab" data-view="swap">Swap</button>
@@ -243,12 +244,12 @@ function pathsOf(moved) {
   const order = [0, 1, 2].sort((i, j) => (high[j] - low[j]) - (high[i] - low[i])).slice(0, 2).sort();
   const scale = 190 / Math.max(1e-6, (high[order[1]] - low[order[1]]), (high[order[0]] - low[order[0]]) / 2.4);
   const place = p => [20 + scale * (p[order[0]] - low[order[0]]), 205 - scale * (p[order[1]] - low[order[1]])];
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const svg = document.createElementNS(byId("ink").namespaceURI, "svg");
   svg.setAttribute("viewBox", "0 0 560 230");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "Paths then, dashed, and now");
   const add = (tag, attributes, text) => {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    const made = document.createElementNS(byId("ink").namespaceURI, tag);
     for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
     if (text) made.textContent = text;
     svg.append(made);
