@@ -165,17 +165,20 @@ std::vector<std::string> pacedWords(const BudgetOptions& options, const std::vec
 AgainstRound playedRound(const BudgetOptions& options, const std::vector<std::string>& other, int round,
                          Progress& progress, int& done) {
   AgainstRound played;
-  PacedProgram a(pacedWords(options, {"/proc/self/exe"}), "carom");
-  PacedProgram b(pacedWords(options, other), other[0]);
-  const int frames = a.awaitReady();
-  if (const int others = b.awaitReady(); others != frames)
+  // Who starts first changes from round to round as well.
+  std::optional<PacedProgram> a, b;
+  if (round % 2 == 0) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom");
+  b.emplace(pacedWords(options, other), other[0]);
+  if (!a) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom");
+  const int frames = a->awaitReady();
+  if (const int others = b->awaitReady(); others != frames)
     throw InputError("--against: " + other[0] + " has " + std::to_string(others) + " frames, not " +
                      std::to_string(frames) + "; accepted: the same scene at the same --fps and --duration");
   for (int frame = 0; frame < frames; ++frame) {
     const bool a_first = (frame + round) % 2 == 0;
-    if (a_first) played.now.push_back(a.next());
-    played.other.push_back(b.next());
-    if (!a_first) played.now.push_back(a.next());
+    if (a_first) played.now.push_back(a->next());
+    played.other.push_back(b->next());
+    if (!a_first) played.now.push_back(a->next());
     progress.done(++done);
   }
   return played;

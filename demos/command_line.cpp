@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "demos/against/against_result.h"
 #include "demos/build_info.h"
 #include "demos/command.h"
 #include "demos/manual_page.h"
@@ -415,7 +416,7 @@ void CommandLine::addBudget() {
       ->capture_default_str();
   budget_command
       ->add_option("--replays", options.replays,
-                   "Runs of the same scene; a frame counts with the least of its times")
+                   "Runs of the same scene; a frame counts with the least of its times (--against: 21)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
@@ -583,6 +584,8 @@ void checkBudget(CommandLine& line) {
     options.work_tolerance_percent = readPercentage("--work-tolerance", line.budget_work_tolerance);
     if (options.baseline.empty()) throw UsageError("--work-tolerance is of --baseline, which is missing");
   }
+  if (!options.against.empty() && line.budget_command->count("--replays") == 0)
+    options.replays = kFewestRounds;
   if (!options.against.empty() &&
       (!options.baseline.empty() || !options.trace.empty() || !options.csv.empty()))
     throw UsageError(

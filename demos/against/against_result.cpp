@@ -28,8 +28,7 @@ double difference(double now_ms, double other_ms) {
 SpeedChange changeOf(const std::string& name, const std::vector<AgainstRound>& rounds, const TimeOf& timeOf) {
   SpeedChange change;
   change.name = name;
-  std::vector<double> now, other, all;
-  int faster = 0;
+  std::vector<double> now, other, all, medians;
   for (const AgainstRound& round : rounds) {
     std::vector<double> within;
     for (std::size_t i = 0; i < round.now.size(); ++i) {
@@ -40,18 +39,20 @@ SpeedChange changeOf(const std::string& name, const std::vector<AgainstRound>& r
     all.insert(all.end(), within.begin(), within.end());
     const double median = medianOf(within);
     change.rounds_slower += median > 0.0 ? 1 : 0;
-    faster += median < 0.0 ? 1 : 0;
+    medians.push_back(median);
   }
-  const SignTest test = signTest(all, kFalseAlarm);
+  const SignTest test = signTest(all, kFalseAlarm), by_round = signTest(medians, kFalseAlarm);
   change.now_ms = medianOf(now);
   change.other_ms = medianOf(other);
   change.change = std::expm1(test.median);
-  change.smallest = std::max(kLeastEffect, std::expm1(test.smallest_effect));
-  change.log_chance = test.log_chance;
-  const auto count = static_cast<int>(rounds.size());
-  if (!test.finds(kFalseAlarm) || std::abs(change.change) < kLeastEffect) return change;
-  if (change.rounds_slower == count && change.change > 0.0) change.speed = Speed::kSlower;
-  if (faster == count && change.change < 0.0) change.speed = Speed::kFaster;
+  change.smallest =
+      std::max({kLeastEffect, std::expm1(test.smallest_effect), std::expm1(by_round.smallest_effect)});
+  change.log_chance = std::max(test.log_chance, by_round.log_chance);
+  const bool agree = (test.median > 0.0) == (by_round.median > 0.0);
+  if (!test.finds(kFalseAlarm) || !by_round.finds(kFalseAlarm) || !agree ||
+      std::abs(change.change) < kLeastEffect)
+    return change;
+  change.speed = change.change > 0.0 ? Speed::kSlower : Speed::kFaster;
   return change;
 }
 

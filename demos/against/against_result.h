@@ -2,7 +2,10 @@
 // Two programs that took turns frame by frame: whether this one is slower or faster than the other, in which
 // phase, and the smallest difference that would have been seen. A verdict takes three things: an exact sign
 // test over all paired frames, every round of fresh processes on the same side, and a size above what the
-// layout of memory alone is known to do. Tested in tests/demos/against/against_result_test.cpp.
+// layout of memory alone is known to do. Frames of a round share two
+// processes, and where the pages of a process come to lie makes some of them slower by a few percent
+// throughout: so the rounds are put to the sign test as well, and their number decides what can be told.
+// Tested in tests/demos/against/against_result_test.cpp.
 
 #include <string>
 #include <vector>
@@ -15,6 +18,8 @@ namespace carom::demos {
 
 /// A false "slower" comes once in a million.
 inline constexpr double kFalseAlarm = 1e-6;
+/// The fewest rounds that can tell at that chance: 2^-20 is the first below it.
+inline constexpr int kFewestRounds = 21;
 /// Differences below this share of the phase's time are told, but no verdict: where a page of memory comes to
 /// lie makes as much.
 inline constexpr double kLeastEffect = 0.005;

@@ -294,10 +294,13 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--mutants", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--kinds", help="only these, comma separated: " + ", ".join(KINDS + list(MUTANTS)))
     options = parser.parse_args()
     work = options.out or pathlib.Path(tempfile.mkdtemp(prefix="carom-faults-"))
     work.mkdir(parents=True, exist_ok=True)
     kinds = KINDS + ([k for k in MUTANTS if (options.mutants / k).exists()] if options.mutants else [])
+    if options.kinds:
+        kinds = [k for k in kinds if k in options.kinds.split(",")]
     gate = Gate(os.path.abspath(options.carom), options.mutants and options.mutants.resolve(), work.resolve())
     table = {kind: {} for kind in kinds}
     twins_failed = 0

@@ -27,7 +27,8 @@ TEST(BudgetAgainst, ItselfIsNeverSlowerAndStatesAreEqual) {
 }
 
 TEST(BudgetAgainst, TheSameProgramWithADearerPresetIsFasterAndNamesDrawing) {
-  const ProgramEnd end = runCarom(against(std::string(CAROM_BINARY) + " --preset cinematic"));
+  const ProgramEnd end = runCarom({"budget", "bouncing-ball", "-q", "--size", "64x48", "--duration", "0.2",
+                                   "--against", std::string(CAROM_BINARY) + " --preset cinematic"});
   EXPECT_NE(end.out.find("faster: draw by "), std::string::npos) << end.out << end.err;
   EXPECT_NE(end.out.find("faster: frame by "), std::string::npos) << end.out;
   EXPECT_NE(end.out.find("other work: "), std::string::npos) << end.out;

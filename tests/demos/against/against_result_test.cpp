@@ -1,5 +1,6 @@
 #include "demos/against/against_result.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -11,24 +12,29 @@
 namespace carom::demos {
 namespace {
 
-/// Rounds of 60 frames, 1 ms a phase, each time with noise that only adds; `slow` is a phase's factor now.
+/// Rounds of 20 frames, 1 ms a phase, each time with noise that only adds; `slow` is a phase's factor now.
 std::vector<AgainstRound> played(unsigned seed, double slow = 1.0, FramePhase phase = FramePhase::kDraw,
-                                 int rounds = 5) {
+                                 double bias = 0.0) {
   std::mt19937 random(seed);
   const auto noise = [&] { return 1.0 + 0.3 * std::pow(static_cast<double>(random() % 1000) / 1000.0, 4.0); };
-  std::vector<AgainstRound> all(static_cast<std::size_t>(rounds));
-  for (AgainstRound& round : all)
-    for (int i = 0; i < 60; ++i)
+  std::vector<AgainstRound> all(kFewestRounds);
+  for (AgainstRound& round : all) {
+    // Of each process and phase.
+    std::array<std::array<double, kFramePhases>, 2> lie;
+    for (auto& process : lie)
+      for (double& factor : process) factor = 1.0 + bias * static_cast<double>(random() % 1000) / 1000.0;
+    for (int i = 0; i < 20; ++i)
       for (std::vector<FrameCost>* side : {&round.now, &round.other}) {
         FrameCost cost;
         cost.state_hash = static_cast<std::uint64_t>(i);
         for (std::size_t p = 0; p < kFramePhases; ++p) {
-          cost.phase_ms[p] = noise();
+          cost.phase_ms[p] = noise() * lie[side == &round.now ? 0 : 1][p];
           if (side == &round.now && p == static_cast<std::size_t>(phase)) cost.phase_ms[p] *= slow;
           cost.total_ms += cost.phase_ms[p];
         }
         side->push_back(cost);
       }
+  }
   return all;
 }
 
@@ -39,6 +45,16 @@ AgainstResult result(const std::vector<AgainstRound>& rounds) {
 TEST(Against, AThousandPairsOfTheSameProgramAreNeverSlowerNorFaster) {
   for (unsigned seed = 0; seed < 1000; ++seed) {
     const AgainstResult r = result(played(seed));
+    EXPECT_EQ(r.frame.speed, Speed::kSame) << seed;
+    for (const SpeedChange& phase : r.phases) EXPECT_EQ(phase.speed, Speed::kSame) << seed << phase.name;
+  }
+}
+
+// Some processes come to lie badly in memory and are slower in every frame of their round: of five rounds all
+// were so for one in sixteen phases.
+TEST(Against, AThousandPairsOfTheSameProgramInProcessesOfUnevenLuckAreNeverSlowerNorFaster) {
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    const AgainstResult r = result(played(seed, 1.0, FramePhase::kDraw, 0.05));
     EXPECT_EQ(r.frame.speed, Speed::kSame) << seed;
     for (const SpeedChange& phase : r.phases) EXPECT_EQ(phase.speed, Speed::kSame) << seed << phase.name;
   }
@@ -55,13 +71,11 @@ TEST(Against, APhaseThatTakesLongerIsNamedAndNoOther) {
   EXPECT_EQ(result(played(1, 0.8)).phases[static_cast<std::size_t>(FramePhase::kDraw)].speed, Speed::kFaster);
 }
 
-// One process of five that came to lie badly in memory is no slower program.
-TEST(Against, OneRoundThatIsSlowerThanTheOthersIsNoVerdict) {
+TEST(Against, OfTheFewestRoundsAllMustAgree) {
   std::vector<AgainstRound> rounds = played(3);
-  for (FrameCost& f : rounds[0].now) f.total_ms *= 3.0;
-  for (FrameCost& f : rounds[1].now) f.total_ms *= 3.0;
-  for (FrameCost& f : rounds[2].now) f.total_ms *= 3.0;
-  for (FrameCost& f : rounds[3].now) f.total_ms *= 3.0;
+  for (std::size_t r = 1; r < rounds.size(); ++r)
+    for (FrameCost& f : rounds[r].now) f.total_ms *= 3.0;
+  for (FrameCost& f : rounds[0].now) f.total_ms *= 0.5;
   EXPECT_EQ(result(rounds).frame.speed, Speed::kSame);
 }
 
