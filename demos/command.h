@@ -21,7 +21,8 @@ struct SceneChoice {
   std::optional<double> duration_s;
   std::optional<std::uint64_t> seed;
   std::optional<std::filesystem::path> mesh;
-  int threads = 0;  ///< That step it; 0: one for each processor, at most eight.
+  bool as_hull = false;  ///< Of the mesh its convex hull.
+  int threads = 0;       ///< That step it; 0: one for each processor, at most eight.
 };
 int threadsOf(const SceneChoice& choice);
 /// Reads the scene and puts the chosen seed and duration in.
@@ -70,7 +71,7 @@ struct RenderOptions {
   std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
   bool portable = false;  ///< The same pixels on every CPU.
   bool states = false;    ///< A record beside the frames, by which `compare` names causes.
-  std::string gl = "osmesa";
+  std::string gl = "auto";
   int workers = 0;  ///< Processes that draw; 0: as many as are usual.
   Telling telling;
   std::string command_line;  ///< As typed, for the manifest.
@@ -166,7 +167,7 @@ struct BudgetOptions {
   std::string against;             ///< Another carom with options of its own, as a command line.
   bool paced = false;              ///< Draws a frame a line of standard input.
   std::vector<std::string> words;  ///< As typed, for the other program.
-  std::string gl = "osmesa";
+  std::string gl = "auto";
   Telling telling;
 };
 ExitCode budget(const BudgetOptions& options);
@@ -179,7 +180,7 @@ struct FiguresOptions {
 ExitCode figures(const FiguresOptions& options);
 
 struct DoctorOptions {
-  std::string gl;  ///< What must draw; empty: OSMesa, and EGL is told of.
+  std::string gl = "auto";  ///< What must draw; "auto": the first that serves, and the other is told of.
 };
 ExitCode doctor(const DoctorOptions& options);
 

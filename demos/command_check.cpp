@@ -5,9 +5,9 @@
 
 #include "demos/asset_path.h"
 #include "demos/content_hash.h"
+#include "demos/mesh_solid.h"
 #include "demos/scene_file.h"
 #include "demos/scene_world.h"
-#include "demos/shape_solid.h"
 
 namespace carom::demos {
 namespace {
@@ -31,23 +31,22 @@ void checkScene(const SceneChoice& choice) {
             << " move)  " << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  "
             << scene.duration_s << " s at " << scene.rate_hz << " steps/s  scene hash "
             << hexText(sceneHash(scene, choice.mesh)) << '\n';
+  for (const auto& [body, mesh] : made.meshes)
+    std::cout << "  \"" << body << "\": " << mesh.file << ": " << mesh.text() << '\n';
 }
 
-void checkMesh(const std::filesystem::path& path) {
-  MeshSolid mesh = meshParts(path, 1.0, std::nullopt);
-  const int flat_parts = mesh.flat_parts;
+void checkMesh(const std::filesystem::path& path, bool as_hull) {
+  MeshSolid mesh = meshSolid(path, {.as_hull = as_hull});
   int vertices = 0, faces = 0;
   for (const ConvexPart& part : mesh.parts) {
     vertices += part.core.vertexCount();
     faces += part.core.faceCount();
   }
-  const Solid solid(std::move(mesh.parts));
+  const Solid solid(std::move(mesh.parts), std::move(mesh.surface));
   std::cout << path.string() << ": ok  " << solid.parts().size()
             << (solid.parts().size() == 1 ? " part  " : " parts  ") << vertices << " vertices  " << faces
             << " faces  volume " << solid.volume() << "  radius " << solid.radius() << "  centre of mass "
-            << (-solid.origin_B()).transpose();
-  if (flat_parts > 0) std::cout << "  left out as flat: " << flat_parts;
-  std::cout << '\n';
+            << (-solid.origin_B()).transpose() << "  " << mesh.report.text() << '\n';
 }
 
 /// A scene is a .json file or a shipped name; any other file is a mesh.
@@ -61,7 +60,7 @@ bool isMesh(const std::string& what) {
 
 ExitCode check(const CheckOptions& options) {
   if (isMesh(options.choice.scene)) {
-    checkMesh(options.choice.scene);
+    checkMesh(options.choice.scene, options.choice.as_hull);
   } else {
     checkScene(options.choice);
   }

@@ -74,12 +74,18 @@ void requireHash(const std::string& text) {
   throw UsageError("--expect-hash " + text + ": accepted: the 16 hexadecimal digits that simulate prints");
 }
 
+void addMeshOptions(CLI::App& command, SceneChoice& choice) {
+  command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable ones");
+  command.add_flag("--hull", choice.as_hull,
+                   "Its convex hull, or that of each of its meshes, in place of the mesh");
+}
+
 void addSceneOptions(CLI::App& command, SceneChoice& choice) {
   command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")
       ->required();
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
   command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
-  command.add_option("--mesh", choice.mesh, "A mesh file in place of the scene's replaceable hulls");
+  addMeshOptions(command, choice);
 }
 
 void addThreadsOption(CLI::App& command, SceneChoice& choice) {
@@ -98,9 +104,13 @@ void addTellingOptions(CLI::App& command, Telling& telling) {
   command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
 }
 
-CLI::Option* addGlOption(CLI::App& command, std::string& gl) {
-  return command.add_option("--gl", gl, "Who makes the GL context: osmesa, or egl without a surface")
-      ->check(CLI::IsMember(renderer::backendNames()));
+void addGlOption(CLI::App& command, std::string& gl) {
+  command
+      .add_option(
+          "--gl", gl,
+          "Who makes the GL context: osmesa, egl without a surface, or auto: osmesa where it is, else egl")
+      ->check(CLI::IsMember(renderer::backendNames()))
+      ->capture_default_str();
 }
 
 void addPresetOption(CLI::App& command, std::string& preset) {
@@ -181,8 +191,7 @@ CommandLine::CommandLine() {
   check_command
       ->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")
       ->required();
-  check_command->add_option("--mesh", check_options.choice.mesh,
-                            "A mesh file in place of the scene's replaceable hulls");
+  addMeshOptions(*check_command, check_options.choice);
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
   addCompare();
@@ -217,7 +226,7 @@ void CommandLine::addRender() {
   render_command->add_flag("--states", render_options.states,
                            "A record beside the frames (states.carom), by which compare names what changed;\n"
                            "with --portable always");
-  addGlOption(*render_command, render_options.gl)->capture_default_str();
+  addGlOption(*render_command, render_options.gl);
   render_command
       ->add_option("--workers", render_options.workers,
                    "Processes that draw (0: one for each processor); frames are the same for any number")
@@ -422,7 +431,7 @@ void CommandLine::addBudget() {
   budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
       ->capture_default_str();
   budget_command->add_option("--size", budget_size, "WIDTHxHEIGHT in pixels (1280x720)");
-  addGlOption(*budget_command, options.gl)->capture_default_str();
+  addGlOption(*budget_command, options.gl);
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
   addPresetOption(*budget_command, options.preset);
   options.choice.threads = 1;  // what is measured is a frame on one thread

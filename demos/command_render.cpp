@@ -253,7 +253,8 @@ void tellStart(const Run& run) {
             << " frames at " << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera "
             << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
             << hexText(run.manifest.scene_hash) << '\n'
-            << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << '\n';
+            << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << ", by "
+            << renderer::nameOf(run.manifest.gl.backend) << " (" << run.manifest.gl.reason << ")\n";
 }
 
 /// "12 frames  0.41 s  29.3 fps end to end", of a run whose frames went through a pipe.
@@ -473,6 +474,13 @@ std::optional<FrameNames> frameNames(const RenderOptions& options, const std::st
   return FrameNames(output.empty() ? "frames/" + scene + "/frame_%04d.png" : output);
 }
 
+Json meshesJson(const std::vector<std::pair<std::string, MeshReport>>& meshes) {
+  Json list = Json::array();
+  for (const auto& [body, report] : meshes)
+    list.push(Json::object({{"body", body}, {"mesh", report.json()}}));
+  return list;
+}
+
 }  // namespace
 
 ExitCode render(const RenderOptions& options) {
@@ -489,6 +497,7 @@ ExitCode render(const RenderOptions& options) {
   Manifest manifest = emptyManifest(options, plan);
 
   SceneWorld made = makeSceneWorld(plan.scene, plan.choice.mesh, threadsOf(plan.choice));
+  if (!made.meshes.empty()) manifest.meshes = meshesJson(made.meshes);
   Overlays overlays({shown, options.focus, recording.has_value()}, made, plan.clock);
   manifest.overlays = overlays.identity();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);

@@ -21,8 +21,10 @@ Failure bug(const std::string& line) {
 
 /// What the standard library throws where a thread or another resource of the system is refused.
 bool isRefusal(const std::system_error& error) {
-  return error.code() == std::errc::resource_unavailable_try_again ||
-         error.code() == std::errc::not_enough_memory;
+  for (const std::errc refusal : {std::errc::resource_unavailable_try_again, std::errc::not_enough_memory,
+                                  std::errc::too_many_files_open, std::errc::too_many_files_open_in_system})
+    if (error.code() == refusal) return true;
+  return false;
 }
 
 }  // namespace
@@ -53,7 +55,10 @@ Failure failureOf(const std::exception_ptr& thrown) {
             "interrupted; what has been written is whole", false};
   } catch (const std::system_error& error) {
     if (!isRefusal(error)) return bug(error.what());
-    return failure(ExitCode::kCannotWrite, std::string("the system gives no more threads: ") + error.what());
+    const bool is_thread = error.code() == std::errc::resource_unavailable_try_again;
+    return failure(ExitCode::kCannotWrite, std::string("the system gives no more ") +
+                                               (is_thread ? "threads: " : "memory or files: ") +
+                                               error.what());
   } catch (const std::exception& error) {
     return bug(error.what());
   }

@@ -108,6 +108,7 @@ void work(const ParentLine& parent, const FrameWorkers::Start& start) {
     const FrameWorkers::Draw draw = start(gl);
     MessageWriter ready;
     ready.put(Answer::kReady).put(gl.renderer).put(gl.version).put(gl.max_samples);
+    ready.put(gl.backend).put(gl.reason);
     if (!parent.send(ready.bytes())) return;
     std::vector<BodyState> bodies;
     while (const std::optional<Message> message = parent.receive())
@@ -170,6 +171,8 @@ void FrameWorkers::takeReady(const Message& message) {
   gl_.renderer = from.takeText();
   gl_.version = from.takeText();
   gl_.max_samples = from.take<int>();
+  gl_.backend = from.take<renderer::GlBackend>();
+  gl_.reason = from.takeText();
   ++ready_;
 }
 

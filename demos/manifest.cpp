@@ -75,9 +75,13 @@ void writeManifest(const Manifest& manifest, const std::filesystem::path& path) 
                             {"stepsPerSecond", manifest.steps_per_second},
                             {"camera", manifest.camera}});
   addUnusual(manifest, json);
+  if (manifest.meshes.kind() != Json::Kind::kNull) json.set("meshes", manifest.meshes);
   json.set("version", programVersion());
   json.set("build", buildName());
-  json.set("gl", Json::object({{"renderer", manifest.gl.renderer}, {"version", manifest.gl.version}}));
+  json.set("gl", Json::object({{"renderer", manifest.gl.renderer},
+                               {"version", manifest.gl.version},
+                               {"context", renderer::nameOf(manifest.gl.backend)},
+                               {"reason", manifest.gl.reason}}));
   json.set("cpu", cpuClass());
   json.set("framesPlanned", manifest.frames_planned);
   json.set("wall_s", roundedToMicroseconds(manifest.wall_s));

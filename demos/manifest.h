@@ -52,6 +52,7 @@ struct Manifest {
   std::string camera;
   renderer::Preset preset = renderer::Preset::kRealtime;
   renderer::Style style = renderer::Style::kDaylight;
+  Json meshes;           ///< What was made of mesh files; null: there are none.
   Json outputs;          ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
   std::string overlays;  ///< Names and focus; empty: none.
   renderer::ContextInfo gl;

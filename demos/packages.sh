@@ -1,55 +1,96 @@
-# What the build needs on Debian 12, in one place: sourced by demos/run.sh, tests/run.sh and tests/bench/run.sh.
-# install_missing_packages [PACKAGE...] installs what is missing (root or sudo); without the right to, one line says what is missing.
+# What the build needs, by Debian's and Ubuntu's names, in one place: sourced by demos/run.sh, tests/run.sh and
+# tests/bench/run.sh. install_missing_packages [PACKAGE...] installs what is missing (root or sudo); without the right to,
+# one line says what is missing. Where there is no apt-get, configuring says what is missing. CAROM_BUILD names another
+# folder than build/ for what is built, when the checkout cannot be written to.
 
-carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libosmesa6-dev libegl-dev libassimp-dev libpng-dev libqhull-dev
-  libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev)
+# "a,b|c": a and b, or where the distribution has not both of them, c.
+carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgl-dev libegl-dev libassimp-dev libpng-dev libqhull-dev
+  libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev
+  "libosmesa6|libegl1,libegl-mesa0,libgl1-mesa-dri")  # Mesa has had no OSMesa since 25.1
 # ISA-L packs frames five times as fast as zlib; it is for these processors, and the build does without.
 case "$(uname -m)" in x86_64 | aarch64) carom_packages+=(libisal-dev) ;; esac
 # What the benchmarks compare with; each can be missing.
 benchmark_peers=(libfcl-dev libccd-dev libbullet-dev libode-dev)
 
-install_missing_packages() {
-  local wanted=("$@") missing=() package as_root=()
-  [ $# -gt 0 ] || wanted=("${carom_packages[@]}")
-  for package in "${wanted[@]}"; do
-    [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
+# are_installed PACKAGE...
+are_installed() {
+  local package
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || return 1
   done
+}
+
+# are_offered PACKAGE...: whether apt knows a version of each.
+are_offered() {
+  local package
+  for package in "$@"; do
+    apt-cache policy "$package" 2>/dev/null | grep -q 'Candidate: [^(]' || return 1
+  done
+}
+
+# needed_of "a,b|c": the packages of the first choice that is offered; nothing when one of them is installed.
+needed_of() {
+  local choice choices packages
+  IFS='|' read -ra choices <<<"$1"
+  for choice in "${choices[@]}"; do
+    IFS=, read -ra packages <<<"$choice"
+    if are_installed "${packages[@]}"; then return 0; fi
+  done
+  for choice in "${choices[@]}"; do
+    IFS=, read -ra packages <<<"$choice"
+    if are_offered "${packages[@]}"; then break; fi
+  done
+  echo "${packages[@]}"
+}
+
+install_missing_packages() {
+  local wanted=("$@") missing=() entry as_root=()
+  [ $# -gt 0 ] || wanted=("${carom_packages[@]}")
+  command -v apt-get >/dev/null || return 0
+  for entry in "${wanted[@]}"; do [ -z "$(needed_of "$entry")" ] || missing+=("$entry"); done
   [ ${#missing[@]} -gt 0 ] || return 0
   if [ "$(id -u)" -ne 0 ]; then
     # sudo counts when it asks for nothing, or when there is a person to answer.
     if ! command -v sudo >/dev/null || { [ ! -t 0 ] && ! sudo -n true 2>/dev/null; }; then
-      echo "missing packages, and no right to install them: apt-get install ${missing[*]}" >&2
+      echo "missing packages, and no right to install them: apt-get install $(for entry in "${missing[@]}"; do needed_of "$entry"; done | xargs)" >&2
       return 1
     fi
     as_root=(sudo)
   fi
-  echo "installing ${missing[*]}"
-  local log
+  local log packages=()
   log=$(mktemp)
-  if ! { "${as_root[@]}" apt-get update -qq &&
-         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } \
-       >"$log" 2>&1; then
+  "${as_root[@]}" apt-get update -qq >"$log" 2>&1 || true  # what is offered may be known all the same
+  for entry in "${missing[@]}"; do packages+=($(needed_of "$entry")); done
+  echo "installing ${packages[*]}"
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" \
+       >>"$log" 2>&1; then
     tail -n 20 "$log" >&2
     rm -f "$log"
-    echo "could not install: ${missing[*]}" >&2
+    echo "could not install: ${packages[*]}" >&2
     return 1
   fi
   rm -f "$log"
 }
 
+# build_folder PRESET: where that preset is built.
+build_folder() { echo "${CAROM_BUILD:-build}/$1"; }
+
 # build_release TARGET...: configures the release preset and builds the targets.
 build_release() { build_preset release "$@"; }
 
 # build_preset PRESET TARGET...: configures the preset and builds the targets, in the checkout's root. Speaks only of
-# phases unless something fails.
+# phases unless something fails. Warnings are errors where CAROM_WARNINGS_ARE_ERRORS says so, or a developer has
+# configured the folder by the preset alone.
 build_preset() {
-  local preset=$1 log
+  local preset=$1 folder log strict=${CAROM_WARNINGS_ARE_ERRORS:-OFF}
+  folder=$(build_folder "$preset")
+  ! grep -qs '^CAROM_WARNINGS_ARE_ERRORS:[A-Z]*=ON' "$folder/CMakeCache.txt" || strict=ON
   shift
   log=$(mktemp)
-  echo "configuring build/$preset"
-  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
+  echo "configuring $folder"
+  cmake --preset "$preset" -B "$folder" -DCAROM_WARNINGS_ARE_ERRORS="$strict" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
   echo "building $* with $(nproc) jobs"
-  cmake --build --preset "$preset" -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
+  cmake --build "$folder" -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
     { grep -vE '^\[[0-9]+/[0-9]+\]' "$log" | head -n 60 >&2; rm -f "$log"; echo "building failed" >&2; return 1; }
   rm -f "$log"
 }

@@ -1,5 +1,6 @@
 #include "demos/recording.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -206,6 +207,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& path) : path_(path
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed))
     throw InputError("cannot read " + path.string() + ": it is a folder");
+  file_ = openInputFile(path_);
   start();
   check();
   start();
@@ -224,11 +226,12 @@ std::string RecordingReader::take(std::size_t count) {
   return bytes;
 }
 
+// The file is opened once: another of its name may take its place while it is checked.
 void RecordingReader::start() {
-  file_ = openInputFile(path_);
-  std::error_code failed;
-  left_ = std::filesystem::file_size(path_, failed);
-  if (failed) throw InputError("cannot read '" + path_.string() + "': " + failed.message());
+  file_.clear();
+  file_.seekg(0, std::ios::end);
+  left_ = static_cast<std::uintmax_t>(std::max<std::streamoff>(file_.tellg(), 0));
+  file_.seekg(0);
   sum_ = ContentHash();
   frame_ = -1;
   if (left_ < kMagicSize || take(kMagicSize) != kMagic)

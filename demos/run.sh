@@ -17,15 +17,16 @@ install_missing_packages
 build_release carom
 built=$SECONDS
 
-carom=build/release/demos/carom
+carom=$(build_folder release)/demos/carom
+out=${CAROM_BUILD:+$CAROM_BUILD/}frames
 frames=0
 for scene in "${scenes[@]}"; do
   echo "rendering $scene"
-  report=$("$carom" render "$scene")
+  report=$("$carom" render "$scene" -o "$out/$scene/frame_%04d.png")
   echo "  $report"
   written=${report#*.png  }
   frames=$((frames + ${written%% *}))
 done
 
-echo "$frames frames in $PWD/frames/<scene>/frame_%04d.png, timings in each manifest.json"
+echo "$frames frames in $(realpath "$out")/<scene>/frame_%04d.png, timings in each manifest.json"
 echo "set-up and build $((built - started)) s, rendering $((SECONDS - built)) s"

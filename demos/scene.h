@@ -43,13 +43,16 @@ struct CapsuleShape {
   double radius_m = 0.5;
   double length_m = 1.0;
 };
-/// The convex hull of points, or of each mesh of a file.
+/// The convex hull of points, or a mesh file: as it is, or the hull of each of its meshes.
 struct HullShape {
   std::filesystem::path file;  ///< Empty when `points` are given.
   std::vector<Vec3> points;
   double scale = 1.0;
   std::optional<double> fit_m;  ///< Scaled so that the longest side is this, and centred on its bounding box.
   bool replaceable = false;     ///< The mesh of the command line (--mesh) takes the place of `file`.
+  bool as_hull = true;          ///< Of a file: its meshes' hulls instead of what they are.
+  bool told_hull = false;       ///< The command line said so, not the scene.
+  std::optional<bool> y_up;     ///< Of a file: whether y is up in it; not given: what its format says.
 };
 struct CompoundPart;
 struct CompoundShape {

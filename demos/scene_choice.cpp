@@ -16,10 +16,24 @@ int threadsOf(const SceneChoice& choice) {
   return choice.threads > 0 ? choice.threads : std::min(processors(), kMost);
 }
 
+namespace {
+
+void takeHull(Shape& shape) {
+  if (auto* compound = std::get_if<CompoundShape>(&shape.form))
+    for (CompoundPart& part : compound->parts) takeHull(part.shape);
+  auto* hull = std::get_if<HullShape>(&shape.form);
+  if (hull == nullptr || !hull->replaceable || hull->as_hull) return;
+  hull->as_hull = hull->told_hull = true;
+}
+
+}  // namespace
+
 Scene chosenScene(const SceneChoice& choice) {
   Scene scene = readSceneFile(findScene(choice.scene));
   if (choice.seed) scene.seed = *choice.seed;
   if (choice.duration_s) scene.duration_s = *choice.duration_s;
+  for (Body& body : scene.bodies)
+    if (choice.as_hull) takeHull(body.shape);
   return scene;
 }
 

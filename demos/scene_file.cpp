@@ -188,11 +188,19 @@ NamedMaterial chooseMaterial(const Json& json, const Materials& materials) {
   json.fail("unknown material \"" + name + "\"" + acceptedNames(name, names));
 }
 
-// Shapes: one of box, sphere, capsule, hull, compound.
+// Shapes: one of box, sphere, capsule, hull, mesh, compound.
 
-HullShape readHull(const Json& json, const std::filesystem::path& scene_file) {
-  json.onlyKeys({"file", "points", "scale", "fit", "replaceable"});
+/// A "hull", of points or a file; a "mesh" is a file as it is, or with "hull": true its hull.
+HullShape readHull(const Json& json, const std::filesystem::path& scene_file, bool is_mesh) {
   HullShape hull;
+  if (is_mesh) {
+    json.onlyKeys({"file", "scale", "fit", "up", "hull", "replaceable"});
+    json.at("file");
+    const Json* as_hull = json.find("hull");
+    hull.as_hull = as_hull != nullptr && as_hull->asBoolean();
+  } else {
+    json.onlyKeys({"file", "points", "scale", "fit", "up", "replaceable"});
+  }
   const Json* file = json.find("file");
   const Json* points = json.find("points");
   if ((file == nullptr) == (points == nullptr)) json.fail("accepted: either \"file\" or \"points\"");
@@ -207,6 +215,11 @@ HullShape readHull(const Json& json, const std::filesystem::path& scene_file) {
   if (const Json* fit = json.find("fit")) {
     if (json.find("scale") != nullptr) fit->fail("given together with \"scale\"; accepted: one of them");
     hull.fit_m = readNumber(*fit, kLength);
+  }
+  if (const Json* up = json.find("up")) {
+    if (file == nullptr) up->fail("only a \"file\" has an axis that is up");
+    if (up->asString() != "y" && up->asString() != "z") up->fail(up->shown() + "; accepted: \"y\", \"z\"");
+    hull.y_up = up->asString() == "y";
   }
   if (const Json* replaceable = json.find("replaceable")) {
     hull.replaceable = replaceable->asBoolean();
@@ -231,8 +244,9 @@ CompoundShape readCompound(const Json& json, const std::filesystem::path& file) 
 }
 
 Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound) {
-  json.onlyKeys({"box", "sphere", "capsule", "hull", "compound"});
-  if (json.members().size() != 1) json.fail("accepted: exactly one of box, sphere, capsule, hull, compound");
+  json.onlyKeys({"box", "sphere", "capsule", "hull", "mesh", "compound"});
+  if (json.members().size() != 1)
+    json.fail("accepted: exactly one of box, sphere, capsule, hull, mesh, compound");
   const auto& [kind, value] = json.members().front();
   Shape shape;
   shape.place = placeOf(value, file);
@@ -246,10 +260,12 @@ Shape readShape(const Json& json, const std::filesystem::path& file, bool inside
     shape.form =
         CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
   } else if (kind == "hull") {
-    shape.form = readHull(value, file);
+    shape.form = readHull(value, file, false);
+  } else if (kind == "mesh") {
+    shape.form = readHull(value, file, true);
   } else {
     if (inside_compound)
-      value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull");
+      value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull, mesh");
     shape.form = readCompound(value, file);
   }
   return shape;

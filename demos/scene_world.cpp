@@ -81,12 +81,14 @@ bool isReplaceable(const Shape& shape) {
 void requireReplaceableHull(const Scene& scene) {
   for (const Body& body : scene.bodies)
     if (isReplaceable(body.shape)) return;
-  throw InputError(scene.file.string() + ": takes no --mesh: no hull in it says \"replaceable\": true");
+  throw InputError(scene.file.string() + ": takes no --mesh: no mesh in it says \"replaceable\": true");
 }
 
 void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh) {
   const Body& body = scene.bodies[index];
-  const int solid = made.world.addSolid(makeSolid(body.shape, mesh));
+  std::vector<MeshReport> reports;
+  const int solid = made.world.addSolid(makeSolid(body.shape, mesh, &reports));
+  for (MeshReport& report : reports) made.meshes.emplace_back(body.name, std::move(report));
   const Pose X_SB{Quat::Identity(), -made.world.solids()[static_cast<std::size_t>(solid)].origin_B()};
   for (int copy = 0; copy < body.repeat.total(); ++copy) {
     BodyDescription description;
@@ -101,6 +103,10 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
     made.looks.push_back(body.look);
     if (!body.look.has_color && !body.is_static && !body.look.checker)
       made.looks.back().color = paletteColor(made.looks.size() - 1);
+    // What a mesh's colours are multiplied by, unless the scene says otherwise.
+    if (!body.look.has_color &&
+        !made.world.solids()[static_cast<std::size_t>(solid)].surface().colors.empty())
+      made.looks.back().color = {1.0f, 1.0f, 1.0f};
     if (!body.colors.empty())
       made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
   }
@@ -154,6 +160,7 @@ std::vector<Overlap> startedWith(SceneWorld& made, const Scene& scene) {
 void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {
   if (const auto* hull = std::get_if<HullShape>(&shape.form)) {
     if (!hull->file.empty()) hash.add(readTextFile(hull->replaceable && mesh ? *mesh : hull->file));
+    if (hull->told_hull) hash.add("hull");
   } else if (const auto* compound = std::get_if<CompoundShape>(&shape.form)) {
     for (const CompoundPart& part : compound->parts) addMeshFiles(hash, part.shape, mesh);
   }
@@ -169,7 +176,7 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   settings.air = scene.air;
   settings.threads = threads;
   for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
-  SceneWorld made{World(settings), {}, {}};
+  SceneWorld made{World(settings), {}, {}, {}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);
   requireFewParts(made, scene);
   const std::vector<Overlap> overlaps = startedWith(made, scene);

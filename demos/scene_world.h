@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "demos/mesh_solid.h"
 #include "demos/scene.h"
 #include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
@@ -21,6 +22,8 @@ struct SceneWorld {
   World world;
   std::vector<std::string> names;  ///< "crate", or "crate[7]" for the copies of a repeated body.
   std::vector<SurfaceLook> looks;
+  std::vector<std::pair<std::string, MeshReport>> meshes =
+      {};  ///< What was made of mesh files, by the body's name.
 };
 
 /// A scene whose bodies overlap, or that touch and have no room to part.

@@ -13,17 +13,19 @@ namespace {
 
 using Mesh = std::optional<std::filesystem::path>;
 
-/// Returns the factor that the parts were scaled by.
-double fitInto(std::vector<std::vector<Vec3>>& parts, double longest_m) {
+/// What a shape is made of, in its own frame.
+struct ShapeParts {
+  std::vector<ConvexPart> parts;
+  BoundingSurface surface;
+};
+
+void fitInto(std::vector<Vec3>& points, double longest_m) {
   Eigen::AlignedBox3d bounds;
-  for (const std::vector<Vec3>& part : parts)
-    for (const Vec3& p : part) bounds.extend(p);
+  for (const Vec3& p : points) bounds.extend(p);
   const double longest = bounds.sizes().maxCoeff();
   if (!(longest > 0.0)) throw InputError("all vertices coincide");
   const Vec3 middle = bounds.center();
-  for (std::vector<Vec3>& part : parts)
-    for (Vec3& p : part) p = (p - middle) * (longest_m / longest);
-  return longest_m / longest;
+  for (Vec3& p : points) p = (p - middle) * (longest_m / longest);
 }
 
 /// A hull of a body has the size of any other shape, and lies as near.
@@ -56,77 +58,96 @@ ConvexPart placed(const ConvexPart& part, const Pose& X_SP) {
   return {ConvexPolyhedron::fromFaces(std::move(vertices), loops), part.radius_m};
 }
 
-std::vector<ConvexPart> makeParts(const Shape& shape, const Mesh& mesh);
+/// Where the shapes of a compound are put together.
+class PartMaker {
+ public:
+  PartMaker(const Mesh& mesh, std::vector<MeshReport>* reports) : mesh_(mesh), reports_(reports) {}
 
-std::vector<ConvexPart> partsOf(const BoxShape& box, const Mesh&) {
-  return {{boxPolyhedron(box.size_m), 0.0}};
-}
-
-std::vector<ConvexPart> partsOf(const SphereShape& sphere, const Mesh&) {
-  return {{ConvexPolyhedron::point(Vec3::Zero()), sphere.radius_m}};
-}
-
-std::vector<ConvexPart> partsOf(const CapsuleShape& capsule, const Mesh&) {
-  const Vec3 half(0.0, 0.0, 0.5 * capsule.length_m);
-  return {{ConvexPolyhedron::segment(-half, half), capsule.radius_m}};
-}
-
-std::vector<ConvexPart> partsOf(const HullShape& hull, const Mesh& mesh) {
-  std::vector<ConvexPart> parts;
-  if (!hull.file.empty()) {
-    parts = meshParts(hull.replaceable && mesh ? *mesh : hull.file, hull.scale, hull.fit_m).parts;
-  } else {
-    std::vector<std::vector<Vec3>> points{hull.points};
-    for (Vec3& p : points[0]) p *= hull.scale;
-    if (hull.fit_m) fitInto(points, *hull.fit_m);
-    parts.push_back({convexHull(points[0]).polyhedron, 0.0});
+  ShapeParts partsOf(const Shape& shape) const {
+    return std::visit([this](const auto& form) { return (*this)(form); }, shape.form);
   }
-  requireLengths(parts);
-  return parts;
-}
 
-std::vector<ConvexPart> partsOf(const CompoundShape& compound, const Mesh& mesh) {
-  std::vector<ConvexPart> parts;
-  for (const CompoundPart& member : compound.parts)
-    for (const ConvexPart& part : makeParts(member.shape, mesh)) parts.push_back(placed(part, member.X_SP));
-  return parts;
-}
+ private:
+  ShapeParts operator()(const BoxShape& box) const { return {{{boxPolyhedron(box.size_m), 0.0}}, {}}; }
+  ShapeParts operator()(const SphereShape& sphere) const {
+    return {{{ConvexPolyhedron::point(Vec3::Zero()), sphere.radius_m}}, {}};
+  }
+  ShapeParts operator()(const CapsuleShape& capsule) const {
+    const Vec3 half(0.0, 0.0, 0.5 * capsule.length_m);
+    return {{{ConvexPolyhedron::segment(-half, half), capsule.radius_m}}, {}};
+  }
 
-std::vector<ConvexPart> makeParts(const Shape& shape, const Mesh& mesh) {
-  return std::visit([&mesh](const auto& form) { return partsOf(form, mesh); }, shape.form);
-}
+  ShapeParts operator()(const HullShape& hull) const {
+    ShapeParts made;
+    if (!hull.file.empty()) {
+      MeshSolid solid = meshSolid(hull.replaceable && mesh_ ? *mesh_ : hull.file,
+                                  {hull.scale, hull.fit_m, hull.y_up, hull.as_hull});
+      if (reports_ != nullptr) reports_->push_back(solid.report);
+      made = {std::move(solid.parts), std::move(solid.surface)};
+    } else {
+      std::vector<Vec3> points = hull.points;
+      for (Vec3& p : points) p *= hull.scale;
+      if (hull.fit_m) fitInto(points, *hull.fit_m);
+      made.parts.push_back({convexHull(points).polyhedron, 0.0});
+    }
+    requireLengths(made.parts);
+    return made;
+  }
+
+  ShapeParts operator()(const CompoundShape& compound) const {
+    ShapeParts made;
+    for (const CompoundPart& member : compound.parts) append(partsOf(member.shape), member.X_SP, made);
+    return made;
+  }
+
+  static void append(const ShapeParts& member, const Pose& X_SP, ShapeParts& made) {
+    const BoundingSurface& from = member.surface;
+    BoundingSurface& to = made.surface;
+    for (std::size_t i = 0; i < member.parts.size(); ++i) {
+      made.parts.push_back(placed(member.parts[i], X_SP));
+      to.of_part.push_back(from.of_part.empty() ? char{0} : from.of_part[i]);
+    }
+    if (from.mesh.triangles.empty()) return;
+    // What has no normals or colours of its own gets those that change nothing.
+    const std::size_t before = to.mesh.triangles.size(), added = from.mesh.triangles.size();
+    if (!from.colors.empty() || !to.colors.empty()) {
+      to.colors.resize(before, Vec3::Ones());
+      to.colors.insert(to.colors.end(), from.colors.begin(), from.colors.end());
+      to.colors.resize(before + added, Vec3::Ones());
+    }
+    if (!from.normals.empty() || !to.normals.empty()) {
+      if (to.normals.empty()) to.normals = flatNormals(to.mesh);
+      for (const Vec3& n : from.normals.empty() ? flatNormals(from.mesh) : from.normals)
+        to.normals.push_back(X_SP.rotation * n);
+    }
+    const int first = static_cast<int>(to.mesh.vertices.size());
+    for (const Vec3& p : from.mesh.vertices) to.mesh.vertices.push_back(X_SP * p);
+    for (const Triangle& t : from.mesh.triangles)
+      to.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+
+  static std::vector<Vec3> flatNormals(const SurfaceMesh& mesh) {
+    std::vector<Vec3> normals;
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+      const Vec3 b = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
+      const Vec3 c = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
+      normals.insert(normals.end(), 3, b.cross(c).normalized());
+    }
+    return normals;
+  }
+
+  const Mesh& mesh_;
+  std::vector<MeshReport>* reports_;
+};
 
 }  // namespace
-
-MeshSolid meshParts(const std::filesystem::path& path, double scale, const std::optional<double>& fit_m) {
-  auto [meshes, coordinate_error_m] = importMesh(path);
-  for (std::vector<Vec3>& mesh : meshes)
-    for (Vec3& p : mesh) p *= scale;
-  coordinate_error_m *= scale;
-  MeshSolid solid;
-  std::string reason;
-  try {
-    if (fit_m) coordinate_error_m *= fitInto(meshes, *fit_m);
-  } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
-  }
-  for (const std::vector<Vec3>& mesh : meshes) {
-    try {
-      const HullSettings settings{.coordinate_error_m = coordinate_error_m};
-      solid.parts.push_back({convexHull(mesh, settings).polyhedron, 0.0});
-    } catch (const InputError& error) {
-      ++solid.flat_parts;
-      reason = error.what();
-    }
-  }
-  if (solid.parts.empty()) throw InputError(path.string() + ": " + reason);
-  return solid;
-}
 
 ConvexPolyhedron meshHull(const std::filesystem::path& path) {
   const ImportedMesh file = importMesh(path);
   std::vector<Vec3> points;
-  for (const std::vector<Vec3>& mesh : file.parts) points.insert(points.end(), mesh.begin(), mesh.end());
+  for (const MeshPart& mesh : file.parts)
+    points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());
   try {
     return convexHull(points, {.coordinate_error_m = file.coordinate_error_m}).polyhedron;
   } catch (const InputError& error) {
@@ -134,9 +155,10 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path) {
   }
 }
 
-Solid makeSolid(const Shape& shape, const Mesh& mesh) {
+Solid makeSolid(const Shape& shape, const Mesh& mesh, std::vector<MeshReport>* reports) {
   try {
-    return Solid(makeParts(shape, mesh));
+    ShapeParts made = PartMaker(mesh, reports).partsOf(shape);
+    return Solid(std::move(made.parts), std::move(made.surface));
   } catch (const InputError& error) {
     throw InputError(shape.place + ": " + error.what());
   }

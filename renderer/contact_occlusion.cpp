@@ -84,7 +84,10 @@ PlacedBody place(const OcclusionBody& body) {
     const RoundedBox& box = body.boxes[i];
     const Pose X_ER = body.X_EB * box.X_BR;
     placed.parts.push_back({X_ER.rotation.toRotationMatrix().transpose(), X_ER.position, &box,
-                            facesToTheEye(body.solid->parts()[i].core, placed.R_EB, body.X_EB.position)});
+                            box.part < 0
+                                ? std::vector<Facing>{}
+                                : facesToTheEye(body.solid->parts()[static_cast<std::size_t>(box.part)].core,
+                                                placed.R_EB, body.X_EB.position)});
     placed.outreach = std::max(placed.outreach, kReach * box.size());
   }
   return placed;
@@ -140,7 +143,8 @@ class Collector {
       const double reach = (plain ? kReach : kApartReach) * size, seen = kSeen * reach;
       if (gap >= seen || strength == 0.0) continue;
       const Reach reaches{reach, seen, std::sqrt(seen * seen - gap * gap), strength};
-      darkenFace(receiver, receiver.body->solid->parts()[part].core, facing, height, reaches, occluder);
+      const auto index = static_cast<std::size_t>(receiver.parts[part].box->part);
+      darkenFace(receiver, receiver.body->solid->parts()[index].core, facing, height, reaches, occluder);
     }
   }
 

@@ -28,7 +28,7 @@ using OcclusionTriangle = std::array<OcclusionVertex, 3>;
 /// A body as seen by this pass.
 struct OcclusionBody {
   const Solid* solid = nullptr;
-  std::span<const RoundedBox> boxes;  ///< One a part.
+  std::span<const RoundedBox> boxes;  ///< See occludingBoxes.
   Pose X_EB;                          ///< World axes, origin at the eye.
   double radius_m = 0.0;              ///< About the solid's origin.
   bool endless_ground = false;        ///< Its upward faces count as unbounded; it darkens nothing itself.

@@ -1,5 +1,6 @@
-// The context that EGL makes without a surface (EGL_MESA_platform_surfaceless): for Mesa from 25.1 on, which
-// has no OSMesa. libEGL is opened when it is asked for, so that the program starts without it. Tested in
+// The context that EGL makes without a surface, for Mesa from 25.1 on, which has no OSMesa: on the display
+// that is no display (EGL_MESA_platform_surfaceless), else on the software device (EGL_EXT_platform_device).
+// libEGL is opened when it is asked for, so that the program starts without it. Tested in
 // tests/renderer/offscreen_context_test.cpp.
 #include "renderer/offscreen_context.h"
 
@@ -7,7 +8,11 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
+#include <array>
+#include <string_view>
 #include <utility>
+
+#include "renderer/gl_library.h"
 
 namespace carom::renderer {
 namespace {
@@ -17,6 +22,7 @@ namespace {
   X(GetProcAddress, PFNEGLGETPROCADDRESSPROC)         \
   X(GetPlatformDisplay, PFNEGLGETPLATFORMDISPLAYPROC) \
   X(Initialize, PFNEGLINITIALIZEPROC)                 \
+  X(QueryString, PFNEGLQUERYSTRINGPROC)               \
   X(BindAPI, PFNEGLBINDAPIPROC)                       \
   X(ChooseConfig, PFNEGLCHOOSECONFIGPROC)             \
   X(CreateContext, PFNEGLCREATECONTEXTPROC)           \
@@ -30,10 +36,8 @@ struct EglFunctions {
 #undef CAROM_EGL_MEMBER
 };
 
-// The library stays open: Mesa's threads and exit handlers live in it.
 EglFunctions loadEgl() {
-  void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw NoRenderer("there is no libEGL.so.1 here");
+  void* library = openLibrary("libEGL.so.1");
   EglFunctions egl;
 #define CAROM_EGL_LOAD(name, type)                                \
   egl.name = reinterpret_cast<type>(dlsym(library, "egl" #name)); \
@@ -48,7 +52,7 @@ class EglContext final : public OffscreenContext {
   EglContext() : egl_(loadEgl()), display_(openDisplay()), context_(create()) {
     try {
       makeCurrent();
-      examine("EGL", egl_.GetProcAddress);
+      examine(GlBackend::kEgl, "EGL", egl_.GetProcAddress);
     } catch (...) {
       destroy();
       throw;
@@ -67,12 +71,38 @@ class EglContext final : public OffscreenContext {
  private:
   // All contexts of a process share the display, so that none of them terminates it.
   EGLDisplay openDisplay() const {
-    const EGLDisplay display =
+    const EGLDisplay surfaceless =
         egl_.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display == EGL_NO_DISPLAY || egl_.Initialize(display, nullptr, nullptr) != EGL_TRUE)
-      throw NoRenderer(
-          "EGL has no surfaceless display here (Mesa's libegl-mesa0 and libgl1-mesa-dri are needed)");
-    return display;
+    if (isMesas(surfaceless)) return surfaceless;
+    const EGLDisplay device = egl_.GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, softwareDevice(), nullptr);
+    if (isMesas(device)) return device;
+    throw NoRenderer(
+        "EGL has no surfaceless display here (Mesa's libegl-mesa0 and libgl1-mesa-dri are needed)");
+  }
+
+  // A graphics card's own EGL may answer first, and draws other pixels.
+  bool isMesas(EGLDisplay display) const {
+    if (display == EGL_NO_DISPLAY || egl_.Initialize(display, nullptr, nullptr) != EGL_TRUE) return false;
+    const char* vendor = egl_.QueryString(display, EGL_VENDOR);
+    return vendor != nullptr && std::string_view(vendor).find("Mesa") != std::string_view::npos;
+  }
+
+  EGLDeviceEXT softwareDevice() const {
+    const auto query = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl_.GetProcAddress("eglQueryDevicesEXT"));
+    const auto tell =
+        reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(egl_.GetProcAddress("eglQueryDeviceStringEXT"));
+    std::array<EGLDeviceEXT, 32> devices{};
+    EGLint count = 0;
+    if (query == nullptr || tell == nullptr ||
+        query(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE)
+      return EGL_NO_DEVICE_EXT;
+    for (EGLint i = 0; i < count; ++i) {
+      const char* extensions = tell(devices[static_cast<std::size_t>(i)], EGL_EXTENSIONS);
+      if (extensions != nullptr &&
+          std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos)
+        return devices[static_cast<std::size_t>(i)];
+    }
+    return EGL_NO_DEVICE_EXT;
   }
 
   EGLContext create() const {

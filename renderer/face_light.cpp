@@ -119,7 +119,8 @@ FaceMask facingTheEye(const Placed& placed) {
 FaceLight lightOn(const Placed& placed, const Vec3& to_light) {
   const Solid& solid = *placed.body->solid;
   if (!hasLitFaces(solid)) {
-    const bool sunlit = placed.open == kAllFaces && solid.parts().size() == 1;  // Several darken each other.
+    // Several parts darken each other, and a surface itself.
+    const bool sunlit = placed.open == kAllFaces && solid.parts().size() == 1 && !solid.hasSurface();
     return sunlit ? FaceLight{kAllFaces, 0, 0} : FaceLight{0, 0, kAllFaces};
   }
   const FaceMask facing = facingTheEye(placed);
@@ -142,7 +143,7 @@ FaceLight lightOn(const Placed& placed, const Vec3& to_light) {
 }  // namespace
 
 bool hasLitFaces(const Solid& solid) {
-  if (solid.parts().size() != 1) return false;
+  if (solid.parts().size() != 1 || solid.hasSurface()) return false;
   const ConvexPart& part = solid.parts().front();
   return part.radius_m == 0.0 && part.core.faceCount() > 0 && part.core.faceCount() <= kNoFace;
 }

@@ -20,6 +20,7 @@
 #include "renderer/mirror_pass.h"
 #include "renderer/multiple_exposure.h"
 #include "renderer/occlusion_pass.h"
+#include "renderer/offscreen_context.h"
 #include "renderer/scene_geometry.h"
 #include "renderer/scissor.h"
 #include "renderer/shader_program.h"

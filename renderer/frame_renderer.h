@@ -13,8 +13,8 @@
 #include "engine/foundation/frames.h"
 #include "engine/solid/solid.h"
 #include "renderer/color.h"
+#include "renderer/gl_backend.h"
 #include "renderer/image.h"
-#include "renderer/offscreen_context.h"
 #include "renderer/preset.h"
 #include "renderer/projection.h"
 #include "renderer/surface_image.h"
@@ -45,7 +45,7 @@ struct Settings {
       PixelPolicy::kFast;  ///< kPortable for golden frames; the first renderer of a process decides.
   Preset preset = Preset::kRealtime;
   Style style = Style::kDaylight;
-  GlBackend backend = GlBackend::kOsmesa;
+  GlBackend backend = GlBackend::kAuto;
   int gl_threads =
       0;  ///< That fill pixels; 0: as many as Mesa likes. The first renderer of a process decides.
 };

@@ -75,19 +75,41 @@ void setMesaEnvironment(PixelPolicy policy, int threads) {
   setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
 }
 
+std::unique_ptr<OffscreenContext> createAsked(GlBackend backend) {
+  std::unique_ptr<OffscreenContext> context =
+      backend == GlBackend::kEgl ? createEglContext() : createOsmesaContext();
+  context->giveReason("asked for");
+  return context;
+}
+
+/// OSMesa where it serves, for it starts sooner (no display to open); else EGL. A wrong driver is wrong for
+/// both.
+std::unique_ptr<OffscreenContext> firstThatServes() {
+  std::string no_osmesa;
+  try {
+    std::unique_ptr<OffscreenContext> context = createOsmesaContext();
+    context->giveReason("the first choice, and it is here");
+    return context;
+  } catch (const WrongDriver&) {
+    throw;
+  } catch (const NoRenderer& error) {
+    no_osmesa = error.what();
+  }
+  try {
+    std::unique_ptr<OffscreenContext> context = createEglContext();
+    context->giveReason(no_osmesa);
+    return context;
+  } catch (const WrongDriver&) {
+    throw;
+  } catch (const NoRenderer& error) {
+    throw NoRenderer(no_osmesa + "; " + error.what());
+  }
+}
+
 }  // namespace
 
-const std::vector<std::string>& backendNames() {
-  static const std::vector<std::string> names{"osmesa", "egl"};
-  return names;
-}
-
-GlBackend backendOf(const std::string& name) {
-  REQUIRE(name == "osmesa" || name == "egl", name);
-  return name == "egl" ? GlBackend::kEgl : GlBackend::kOsmesa;
-}
-
-void OffscreenContext::examine(const std::string& maker, FindFunction find) {
+void OffscreenContext::examine(GlBackend backend, const std::string& maker, FindFunction find) {
+  info_.backend = backend;
 #define CAROM_GL_LOAD(name, type)                      \
   gl_.name = reinterpret_cast<type>(find("gl" #name)); \
   if (gl_.name == nullptr) throw NoRenderer(maker + " lacks gl" #name);
@@ -116,7 +138,7 @@ void OffscreenContext::examine(const std::string& maker, FindFunction find) {
 std::unique_ptr<OffscreenContext> createOffscreenContext(PixelPolicy policy, GlBackend backend, int threads) {
   setMesaEnvironment(policy, threads);
   requireThreads(threads);
-  return backend == GlBackend::kEgl ? createEglContext() : createOsmesaContext();
+  return backend == GlBackend::kAuto ? firstThatServes() : createAsked(backend);
 }
 
 }  // namespace carom::renderer

@@ -39,11 +39,7 @@ double bevelCap(std::span<const Solid> solids) {
   constexpr double kUncapped = std::numeric_limits<double>::infinity();
   if (solids.empty()) return kUncapped;
   std::vector<double> bevels;
-  for (const Solid& solid : solids) {
-    double width = kUncapped;
-    for (const ConvexPart& part : solid.parts()) width = std::min(width, part.width());
-    bevels.push_back(kBevelCapFraction * width);
-  }
+  for (const Solid& solid : solids) bevels.push_back(kBevelCapFraction * thinnestPart(solid));
   const auto middle = bevels.begin() + static_cast<std::ptrdiff_t>((bevels.size() - 1) / 2);
   std::nth_element(bevels.begin(), middle, bevels.end());
   return *middle;
@@ -74,7 +70,7 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   SolidGeometry geometry;
   geometry.extent = solidExtent(solid);
   geometry.is_round = hasRoundPart(solid);
-  for (const ConvexPart& part : solid.parts()) geometry.boxes.push_back(roundedBox(part));
+  geometry.boxes = occludingBoxes(solid);
   geometry.flat_parts = pool.add(buildFlatMesh(solid));
   const double bevel = bevelWidth(solid, bevel_cap_m);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
@@ -123,6 +119,8 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                          offset(offsetof(MeshVertex, position)));
   gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, normal)));
   gl.VertexAttribPointer(6, 4, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), offset(offsetof(MeshVertex, bend)));
+  gl.VertexAttribPointer(10, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(MeshVertex),
+                         offset(offsetof(MeshVertex, tint)));
   gl.VertexAttribIPointer(7, 1, GL_UNSIGNED_INT, sizeof(MeshVertex), offset(offsetof(MeshVertex, face)));
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(pool.indices.size() * sizeof(std::uint32_t)),
@@ -139,7 +137,7 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
   gl.VertexAttribIPointer(9, 1, GL_UNSIGNED_INT, sizeof(InstanceRecord),
                           offset(offsetof(InstanceRecord, sunlit)));
   for (const GLuint i : {8u, 9u}) gl.VertexAttribDivisor(i, 1);
-  for (GLuint i = 0; i < 10; ++i) gl.EnableVertexAttribArray(i);
+  for (GLuint i = 0; i < 11; ++i) gl.EnableVertexAttribArray(i);
 }
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {

@@ -38,7 +38,7 @@ struct SolidGeometry {
   std::array<MeshRange, kDetailLevels> casting;  ///< What casts the shadow of each level.
   MeshRange flat_parts;                          ///< The parts without rounding, unbevelled.
   Extent extent;
-  std::vector<RoundedBox> boxes;  ///< One a part.
+  std::vector<RoundedBox> boxes;  ///< What darkens others: see occludingBoxes.
   bool is_round = false;          ///< Has a ball or capsule among its parts.
 };
 

@@ -128,6 +128,7 @@ layout(location = 6) in vec4 bend_and_nearness;
 layout(location = 7) in uint face;
 layout(location = 8) in uint faces;
 layout(location = 9) in uint sunlit_faces;
+layout(location = 10) in vec4 tint;
 out vec3 p_E;
 out vec3 n_E;
 flat out vec3 bend;
@@ -151,7 +152,7 @@ void main() {
   bend = vec3(dot(row0.xyz, bend_and_nearness.xyz), dot(row1.xyz, bend_and_nearness.xyz),
               dot(row2.xyz, bend_and_nearness.xyz));
   nearness = bend_and_nearness.w;
-  albedo = color;
+  albedo = vec4(color.rgb * tint.rgb, color.w);
 #ifdef MIRROR
   float height = p_E.z - ground.x;
   gl_Position = clip_from_E * vec4(p_E.xy + height * mirror.xy, ground.x - height, 1.0);

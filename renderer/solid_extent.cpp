@@ -74,4 +74,13 @@ RoundedBox roundedBox(const ConvexPart& part) {
   return box;
 }
 
+std::vector<RoundedBox> occludingBoxes(const Solid& solid) {
+  std::vector<RoundedBox> boxes;
+  for (std::size_t i = 0; i < solid.parts().size(); ++i) {
+    boxes.push_back(roundedBox(solid.parts()[i]));
+    boxes.back().part = solid.isPiece(i) ? -1 : static_cast<int>(i);
+  }
+  return boxes;
+}
+
 }  // namespace carom::renderer

@@ -3,6 +3,8 @@
 // which stands for the part where only its rough form matters (contact shadows). Exact for balls, capsules
 // and boxes. Tested in tests/renderer/solid_extent_test.cpp.
 
+#include <vector>
+
 #include "engine/solid/solid.h"
 
 namespace carom::renderer {
@@ -19,6 +21,7 @@ struct RoundedBox {
   Pose X_BR;
   Vec3 half = Vec3::Zero();
   double radius = 0.0;
+  int part = 0;  ///< Whose faces others darken; -1: none, as those of a surface's piece are not all seen.
 
   /// Half the smallest width, metres.
   double size() const { return half.minCoeff() + radius; }
@@ -26,5 +29,8 @@ struct RoundedBox {
   double span() const { return half.maxCoeff() + radius; }
 };
 RoundedBox roundedBox(const ConvexPart& part);
+
+/// One of each part.
+std::vector<RoundedBox> occludingBoxes(const Solid& solid);
 
 }  // namespace carom::renderer

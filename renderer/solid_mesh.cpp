@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 
 #include "renderer/rounded_part_mesh.h"
@@ -236,11 +238,42 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
     for (int f = 0; f < core.faceCount(); ++f) addShadedFace(mesh, core, f, detail.bevel_m);
 }
 
+// Corners of equal place, normal and colour are one.
+void addSurface(TriangleMesh& mesh, const BoundingSurface& surface) {
+  std::map<std::array<double, 7>, std::uint32_t> known;
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const Triangle& triangle = surface.mesh.triangles[t];
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return surface.mesh.vertices[static_cast<std::size_t>(triangle[k])];
+    };
+    const Vec3 flat = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    const Vec3 color = surface.colors.empty() ? Vec3(Vec3::Ones()) : surface.colors[t];
+    std::array<std::uint32_t, 3> indices{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& n = surface.normals.empty() ? flat : surface.normals[3 * t + k];
+      const std::uint32_t packed = static_cast<std::uint32_t>(std::lround(255.0 * color.x())) << 16 |
+                                   static_cast<std::uint32_t>(std::lround(255.0 * color.y())) << 8 |
+                                   static_cast<std::uint32_t>(std::lround(255.0 * color.z()));
+      const Vec3& p = corner(k);
+      const auto [found, is_new] =
+          known.insert({{p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), static_cast<double>(packed)}, 0});
+      if (is_new) {
+        found->second = mesh.addVertex(p, n);
+        std::uint8_t* tint = mesh.vertices.back().tint;
+        for (int i = 0; i < 3; ++i) tint[i] = static_cast<std::uint8_t>(packed >> (16 - 8 * i) & 255);
+      }
+      indices[k] = found->second;
+    }
+    mesh.addTriangle(indices[0], indices[1], indices[2]);
+  }
+}
+
 }  // namespace
 
 std::uint32_t TriangleMesh::addVertex(const Vec3& p, const Vec3& n) {
   const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-  vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace});
+  vertices.push_back(
+      {{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace, {255, 255, 255, 255}});
   return static_cast<std::uint32_t>(vertices.size() - 1);
 }
 
@@ -254,21 +287,29 @@ void TriangleMesh::addFan(std::span<const std::uint32_t> loop) {
 
 TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail) {
   TriangleMesh mesh;
-  for (const ConvexPart& part : solid.parts()) addPart(mesh, part, detail);
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i)) addPart(mesh, solid.parts()[i], detail);
+  addSurface(mesh, solid.surface());
   return mesh;
 }
 
 TriangleMesh buildFlatMesh(const Solid& solid) {
   TriangleMesh mesh;
-  for (const ConvexPart& part : solid.parts())
-    if (part.radius_m == 0.0) addSharpPart(mesh, part.core);
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i) && solid.parts()[i].radius_m == 0.0) addSharpPart(mesh, solid.parts()[i].core);
+  addSurface(mesh, solid.surface());
   return mesh;
 }
 
+double thinnestPart(const Solid& solid) {
+  double width = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i)) width = std::min(width, solid.parts()[i].width());
+  return std::isfinite(width) ? width : solid.width();
+}
+
 double bevelWidth(const Solid& solid, double cap_m) {
-  double width = solid.parts().front().width();
-  for (const ConvexPart& part : solid.parts()) width = std::min(width, part.width());
-  return std::min(kBevelFraction * width, cap_m);
+  return std::min(kBevelFraction * thinnestPart(solid), cap_m);
 }
 
 }  // namespace carom::renderer

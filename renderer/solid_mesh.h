@@ -20,6 +20,8 @@ struct MeshVertex {
   float bend[3];       ///< What is added to the normal at the edge, before it is made a unit again.
   float nearness;      ///< How much of it a pixel adds: 1 at the edge, 0 or less from a bevel's width on.
   std::uint32_t face;  ///< Its face's number; kNoFace where it has none or shares one, and from there on.
+  std::uint8_t tint[4] = {255, 255, 255,
+                          255};  ///< What the body's colour is multiplied by; the last is unused.
 };
 
 struct TriangleMesh {
@@ -46,11 +48,15 @@ struct MeshDetail {
   int segments = 32;     ///< Around a ball or capsule; even.
 };
 
-/// All parts of the solid in one mesh, in the solid's frame.
+/// All parts of the solid in one mesh, in the solid's frame; its surface as it is in place of those that are
+/// pieces of it.
 TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail);
 
-/// The parts without rounding alone, with sharp edges: the solid's exact faces.
+/// The parts without rounding alone, with sharp edges, and the surface: the solid's exact faces.
 TriangleMesh buildFlatMesh(const Solid& solid);
+
+/// The smallest width of the parts that are drawn; of what is drawn as a surface the solid's own, metres.
+double thinnestPart(const Solid& solid);
 
 /// The bevel that suits a solid: a small fraction of its smallest part's width, and not more than `cap_m`.
 double bevelWidth(const Solid& solid, double cap_m);

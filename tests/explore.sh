@@ -10,4 +10,4 @@ source demos/packages.sh
 
 install_missing_packages
 build_release explore
-exec build/release/tests/explore --jobs "$(nproc)" --open tests/explore/open.txt --cases tests/explore/cases "$@"
+exec "$(build_folder release)/tests/explore" --jobs "$(nproc)" --open tests/explore/open.txt --cases tests/explore/cases "$@"

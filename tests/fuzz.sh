@@ -15,4 +15,5 @@ more=()
 [[ " $* " == *" --models "* || ! -d $models ]] || more=(--models "$models")
 # Readers may be refused memory; that is an answer, not an end.
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=0:${ASAN_OPTIONS-}"
-exec build/asan+ubsan/tests/fuzz --program build/asan+ubsan/demos/carom "${more[@]}" "$@"
+build=$(build_folder asan+ubsan)
+exec "$build/tests/fuzz" --program "$build/demos/carom" "${more[@]}" "$@"

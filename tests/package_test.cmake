@@ -1,6 +1,7 @@
-# Installs the build into a folder of its own, then configures, builds and tests tests/package_example against
-# it, as another project would; then moves a body of the example's scene and expects its visual test to fail.
-# Takes `build`, `source`, `work` (a folder that may be emptied), `generator`, `compiler`, `build_type`.
+# Installs the build into a folder of its own, then configures, builds and tests tests/package_example against it, as
+# another project would; moves a body of the scene and expects its visual test to fail; builds by pkg-config; and
+# removes what was installed. Every path holds a blank. Takes `build`, `source`, `work` (a folder that may be emptied), `generator`, `compiler`,
+# `build_type`, `sanitize`.
 
 # run(TEXT command...): runs a command that must succeed; its output is left in TEXT.
 function(run text)
@@ -22,6 +23,7 @@ set(prefix ${work}/prefix)
 set(example ${work}/example)
 file(REMOVE_RECURSE ${work})
 run(out ${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
+file(COPY_FILE ${build}/install_manifest.txt ${work}/installed.txt)
 
 # The package stands on its own: nothing in it points back to the tree it came from.
 file(GLOB_RECURSE package_files ${prefix}/*.cmake)
@@ -61,7 +63,7 @@ if(ending EQUAL 0)
   message(FATAL_ERROR "a moved domino passed:\n${out}")
 endif()
 expect("${out}" "the scene was edited")
-expect("${out}" "carom compare ${example}/build/carom/dominoes/frames ${example}/golden/dominoes --update")
+expect("${out}" "/bin/carom' compare '${example}/build/carom/dominoes/frames' '${example}/golden/dominoes' --update")
 if(NOT EXISTS ${example}/build/carom/dominoes/report.html)
   message(FATAL_ERROR "there is no report")
 endif()
@@ -70,6 +72,17 @@ endif()
 run(out ${prefix}/bin/carom compare ${example}/build/carom/dominoes/frames ${example}/golden/dominoes --update)
 run(out ${CMAKE_CTEST_COMMAND} --test-dir ${example}/build --output-on-failure -R dominoes)
 
+# By pkg-config, too.
+file(GLOB_RECURSE pc ${prefix}/*/carom-renderer.pc)
+get_filename_component(pc "${pc}" DIRECTORY)
+run(flags ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} pkg-config --cflags --libs carom-renderer)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+if(sanitize)
+  list(PREPEND flags -fsanitize=${sanitize})
+endif()
+run(out ${compiler} -O1 ${example}/falling_ball.cpp -o ${work}/falling_ball ${flags})
+run(out ${work}/falling_ball)
+
 # The program alone needs none of the libraries' dependencies, nor a language.
 file(WRITE ${work}/program_only/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.24)\nproject(p LANGUAGES NONE)\n"
@@ -77,4 +90,25 @@ file(WRITE ${work}/program_only/CMakeLists.txt
   "if(TARGET carom::engine OR NOT TARGET carom::carom)\n  message(FATAL_ERROR wrong)\nendif()\n")
 run(out ${CMAKE_COMMAND} -S ${work}/program_only -B ${work}/program_only/build -G ${generator}
   -DCMAKE_PREFIX_PATH=${prefix})
+
+# What was installed goes again, and its folders with it; what is another's stays.
+file(WRITE ${prefix}/bin/another "another program")
+run(out ${CMAKE_COMMAND} -Dmanifest=${work}/installed.txt -P ${source}/demos/package/uninstall.cmake)
+file(GLOB_RECURSE left RELATIVE ${prefix} ${prefix}/*)
+file(GLOB_RECURSE left_folders LIST_DIRECTORIES true RELATIVE ${prefix} ${prefix}/*)
+list(FILTER left_folders INCLUDE REGEX "carom")
+if(NOT left STREQUAL "bin/another" OR left_folders)
+  message(FATAL_ERROR "uninstall left ${left} ${left_folders}")
+endif()
+
+# Of what is not built, nothing is installed.
+run(out ${CMAKE_COMMAND} -S ${source} -B ${work}/unbuilt -G ${generator} -DCMAKE_CXX_COMPILER=${compiler}
+  -DCAROM_BUILD_TESTS=OFF)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${work}/unbuilt --prefix ${work}/nothing
+  RESULT_VARIABLE ending OUTPUT_VARIABLE out ERROR_VARIABLE out)
+string(REGEX REPLACE "[ \n]+" " " out "${out}")
+expect("${out}" "is not built yet: cmake --build")
+if(ending EQUAL 0 OR EXISTS ${work}/nothing)
+  message(FATAL_ERROR "a build that is not there was installed:\n${out}")
+endif()
 file(REMOVE_RECURSE ${work})

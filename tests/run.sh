@@ -6,4 +6,4 @@ source demos/packages.sh
 
 install_missing_packages
 build_release all
-ctest --preset release -j2 "$@"
+ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@"

@@ -1,96 +1,195 @@
 #include "engine/broad_phase/bounds_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <numeric>
 
 namespace carom {
 namespace {
 
-constexpr std::size_t kMostInLeaf = 8;
+constexpr double kWorn = 2.0;  // times the surface that was built: queries cost in proportion to it
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
+Bounds together(const Bounds& a, const Bounds& b) {
+  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 
-Bounds nothing() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
-}
-
-void include(Bounds& bounds, const Bounds& other) {
-  bounds.low = bounds.low.cwiseMin(other.low);
-  bounds.high = bounds.high.cwiseMax(other.high);
-}
-
-// The axis along which the bounds begin farthest apart.
-Eigen::Index splitAxis(std::span<const Proxy> proxies, std::span<const int> members) {
-  Bounds begins = nothing();
-  for (int i : members) include(begins, {proxies[at(i)].bounds.low, proxies[at(i)].bounds.low});
-  Eigen::Index axis = 0;
-  (begins.high - begins.low).maxCoeff(&axis);
-  return axis;
+// Half the surface: what a random query meets is in proportion.
+double surface(const Bounds& bounds) {
+  const Vec3 size = bounds.high - bounds.low;
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
 }  // namespace
 
-void BoundsTree::build(std::span<const Proxy> proxies) {
-  leaves_ = std::bit_ceil((proxies.size() + kMostInLeaf - 1) / kMostInLeaf);
-  order_.resize(proxies.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  for (std::size_t node = 1; node < leaves_; ++node) split(proxies, node);
-
-  nodes_.assign(2 * leaves_, nothing());
-  leaf_of_.resize(proxies.size());
-  for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
-    for (std::size_t k = firstOfLeaf(leaf); k < firstOfLeaf(leaf + 1); ++k) {
-      leaf_of_[at(order_[k])] = leaves_ + leaf;
-      include(nodes_[leaves_ + leaf], proxies[at(order_[k])].bounds);
-    }
-  for (std::size_t node = 2 * leaves_ - 1; node > 1; --node) include(nodes_[node / 2], nodes_[node]);
+void BoundsTree::build(std::span<const Bounds> bounds) {
+  leaves_ = static_cast<int>(bounds.size());
+  nodes_.assign(bounds.empty() ? 0 : 2 * bounds.size() - 1, {});
+  for (int i = 0; i < leaves_; ++i) node(i).bounds = bounds[static_cast<std::size_t>(i)];
+  root_ = -1;
+  if (bounds.empty()) return;
+  std::vector<int> things(bounds.size());
+  std::iota(things.begin(), things.end(), 0);
+  int next = leaves_;
+  root_ = buildNode(things, next);
+  built_surface_ = fitAll();
 }
 
-// The lower half of what the node holds goes to its first child.
-void BoundsTree::split(std::span<const Proxy> proxies, std::size_t node) {
-  const std::size_t level = std::bit_floor(node);
-  const std::size_t leaves = leaves_ / level;
-  const std::size_t leaf = (node - level) * leaves;
-  const std::size_t begin = firstOfLeaf(leaf);
-  const std::size_t middle = firstOfLeaf(leaf + leaves / 2);
-  const std::size_t end = firstOfLeaf(leaf + leaves);
-  const std::span<int> members = std::span(order_).subspan(begin, end - begin);
-  const Eigen::Index axis = splitAxis(proxies, members);
-  std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(middle - begin),
-                   members.end(), [&](int i, int j) {
-                     const double low_i = proxies[at(i)].bounds.low[axis];
-                     const double low_j = proxies[at(j)].bounds.low[axis];
-                     return low_i < low_j || (low_i == low_j && i < j);
-                   });
+void BoundsTree::moveAll(std::span<const Bounds> bounds) {
+  if (static_cast<int>(bounds.size()) != leaves_) {
+    build(bounds);
+    return;
+  }
+  for (int i = 0; i < leaves_; ++i) node(i).bounds = bounds[static_cast<std::size_t>(i)];
+  if (!(fitAll() <= kWorn * built_surface_)) build(bounds);
 }
 
-void BoundsTree::grow(int proxy, const Bounds& bounds) {
-  for (std::size_t node = leaf_of_[at(proxy)]; node > 0 && !nodes_[node].contains(bounds); node /= 2)
-    include(nodes_[node], bounds);
-}
-
-void BoundsTree::findPartners(std::span<const Proxy> proxies, int proxy, std::vector<int>& found) const {
-  found.clear();
-  const Proxy& mine = proxies[at(proxy)];
-  std::size_t node = 1;
-  do {
-    const bool meets = nodes_[node].overlaps(mine.bounds);
-    if (meets && node < leaves_) {
-      node *= 2;
+// Children first. Returns the surface of all nodes above leaves.
+double BoundsTree::fitAll() {
+  double sum = 0.0;
+  const auto firstLeafBelow = [&](int i) {
+    while (!isLeaf(i)) i = node(i).children[0];
+    return i;
+  };
+  for (int i = root_ < 0 ? -1 : firstLeafBelow(root_); i >= 0 && node(i).parent >= 0;) {
+    const int parent = node(i).parent;
+    if (side(i) == 0) {
+      i = firstLeafBelow(node(parent).children[1]);
       continue;
     }
-    if (meets)
-      for (std::size_t k = firstOfLeaf(node - leaves_); k < firstOfLeaf(node - leaves_ + 1); ++k)
-        if (canPair(mine, proxies[at(order_[k])])) found.push_back(order_[k]);
-    // On to the next that is not below this one: past the last of a level that is the root.
-    ++node;
-    node >>= std::countr_zero(node);
-  } while (node != 1);
+    fit(parent);
+    sum += surface(node(parent).bounds);
+    i = parent;
+  }
+  return sum;
+}
+
+// The lower half of the things goes to the first child: as deep as the logarithm of their number.
+int BoundsTree::buildNode(std::span<int> things, int& next) {
+  if (things.size() == 1) return things.front();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Bounds begins{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+  for (const int i : things) begins = together(begins, {node(i).bounds.low, node(i).bounds.low});
+  Eigen::Index axis = 0;
+  (begins.high - begins.low).maxCoeff(&axis);
+  const auto middle = static_cast<std::ptrdiff_t>(things.size() / 2);
+  std::nth_element(things.begin(), things.begin() + middle, things.end(), [&](int i, int j) {
+    const double low_i = node(i).bounds.low[axis];
+    const double low_j = node(j).bounds.low[axis];
+    return low_i < low_j || (low_i == low_j && i < j);
+  });
+  const int built = next++;
+  link(built, 0, buildNode(things.first(things.size() / 2), next));
+  link(built, 1, buildNode(things.subspan(things.size() / 2), next));
+  fit(built);
+  rotate(built);
+  return built;
+}
+
+void BoundsTree::fit(int i) {
+  node(i).bounds = together(node(node(i).children[0]).bounds, node(node(i).children[1]).bounds);
+}
+
+// No parent: the child is the root.
+void BoundsTree::link(int parent, int side, int child) {
+  node(child).parent = parent;
+  if (parent < 0)
+    root_ = child;
+  else
+    node(parent).children[static_cast<std::size_t>(side)] = child;
+}
+
+// Its sibling takes the place of the node above both.
+void BoundsTree::takeOut(int thing) {
+  const int above = node(thing).parent;
+  const int sibling = node(above).children[static_cast<std::size_t>(1 - side(thing))];
+  const int parent = node(above).parent;
+  link(parent, parent < 0 ? 0 : side(above), sibling);
+  refitFrom(parent);
+}
+
+// Down to where a new node above bounds and sibling adds least to the surfaces of all nodes.
+int BoundsTree::bestSibling(const Bounds& bounds) const {
+  int best = root_;
+  while (!isLeaf(best)) {
+    const double here = surface(together(node(best).bounds, bounds));
+    const double inherited = here - surface(node(best).bounds);  // by all that is below
+    const auto below = [&](int child) {
+      const double grown = surface(together(node(child).bounds, bounds)) + inherited;
+      return isLeaf(child) ? grown : grown - surface(node(child).bounds);
+    };
+    const std::array<double, 2> cost{below(node(best).children[0]), below(node(best).children[1])};
+    if (here <= cost[0] && here <= cost[1]) break;
+    best = node(best).children[cost[1] < cost[0] ? 1 : 0];
+  }
+  return best;
+}
+
+// A child of the node changes places with a child of the other where that makes the other smaller most.
+void BoundsTree::rotate(int i) {
+  double most = 0.0;
+  int down = -1, up = -1;
+  for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+    const int other = node(i).children[1 - side];
+    if (isLeaf(other)) continue;
+    for (const std::size_t stays : {std::size_t{0}, std::size_t{1}}) {
+      const Bounds fitted =
+          together(node(node(i).children[side]).bounds, node(node(other).children[stays]).bounds);
+      const double gain = surface(node(other).bounds) - surface(fitted);
+      if (!(gain > most)) continue;
+      most = gain;
+      down = node(i).children[side];
+      up = node(other).children[1 - stays];
+    }
+  }
+  if (down < 0) return;
+  const int other = node(up).parent;
+  const int side_down = side(down), side_up = side(up);
+  link(i, side_down, up);
+  link(other, side_up, down);
+  fit(other);
+}
+
+void BoundsTree::refitFrom(int i) {
+  for (; i >= 0; i = node(i).parent) {
+    fit(i);
+    rotate(i);
+  }
+}
+
+void BoundsTree::move(int thing, const Bounds& bounds) {
+  if (leaves_ == 1) {
+    node(thing).bounds = bounds;
+    return;
+  }
+  const int freed = node(thing).parent;
+  takeOut(thing);
+  node(thing).bounds = bounds;
+  const int sibling = bestSibling(bounds);
+  const int parent = node(sibling).parent;
+  link(parent, parent < 0 ? 0 : side(sibling), freed);
+  link(freed, 0, sibling);
+  link(freed, 1, thing);
+  refitFrom(freed);
+}
+
+void BoundsTree::grow(int thing, const Bounds& bounds) {
+  for (int i = thing; i >= 0 && !node(i).bounds.contains(bounds); i = node(i).parent)
+    node(i).bounds = together(node(i).bounds, bounds);
+}
+
+void BoundsTree::find(const Bounds& bounds, std::vector<int>& found) const {
+  found.clear();
+  for (int i = root_; i >= 0;) {
+    const bool meets = node(i).bounds.overlaps(bounds);
+    if (meets && !isLeaf(i)) {
+      i = node(i).children[0];
+      continue;
+    }
+    if (meets) found.push_back(i);
+    // On to the next that is not below this one.
+    while (node(i).parent >= 0 && side(i) == 1) i = node(i).parent;
+    i = node(i).parent >= 0 ? node(node(i).parent).children[1] : -1;
+  }
   std::sort(found.begin(), found.end());
 }
 

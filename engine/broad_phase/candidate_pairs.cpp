@@ -7,10 +7,6 @@
 namespace carom {
 namespace {
 
-constexpr double kRoom = 0.1;                      // of the smallest width, on every side of what moves
-constexpr std::size_t kMostNear = 4 * kMostPairs;  // with room: eight bytes each
-constexpr std::size_t kFewIn = 50;  // one in so many, or fewer, are paired anew with each of the others
-
 // The axis along which the proxies' centres are spread most: it separates best.
 Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
   Vec3 sum = Vec3::Zero();
@@ -25,16 +21,6 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
   Eigen::Index axis = 0;
   spread.maxCoeff(&axis);
   return axis;
-}
-
-Proxy withRoom(Proxy proxy) {
-  if (!proxy.moves) return proxy;
-  proxy.bounds = widened(proxy.bounds, kRoom * (proxy.bounds.high - proxy.bounds.low).minCoeff());
-  return proxy;
-}
-
-bool hasLeft(const Proxy& proxy, const Proxy& roomy) {
-  return proxy.group != roomy.group || proxy.moves != roomy.moves || !roomy.bounds.contains(proxy.bounds);
 }
 
 void add(std::vector<IndexPair>& pairs, const IndexPair& pair, std::size_t most) {
@@ -70,47 +56,6 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_
         add(pairs, {std::min(order[i], order[j]), std::max(order[i], order[j])}, most);
   }
   std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-void PairFinder::startAgain(std::span<const Proxy> proxies) {
-  roomy_.clear();
-  for (const Proxy& proxy : proxies) roomy_.push_back(withRoom(proxy));
-  near_ = candidatePairs(roomy_, kMostNear);
-}
-
-void PairFinder::pairAnew(std::span<const Proxy> proxies, std::span<const std::size_t> left) {
-  std::vector<char> is_new(proxies.size(), 0);
-  for (const std::size_t i : left) {
-    roomy_[i] = withRoom(proxies[i]);
-    is_new[i] = 1;
-  }
-  const auto isNew = [&](int i) { return is_new[static_cast<std::size_t>(i)] != 0; };
-  std::erase_if(near_, [&](const IndexPair& pair) { return isNew(pair.a) || isNew(pair.b); });
-  const auto known = static_cast<std::ptrdiff_t>(near_.size());
-  for (const std::size_t i : left)
-    for (std::size_t j = 0; j < roomy_.size(); ++j) {
-      const bool once = is_new[j] == 0 || i < j;
-      if (once && canPair(roomy_[i], roomy_[j]))
-        add(near_, {static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))}, kMostNear);
-    }
-  std::sort(near_.begin() + known, near_.end());
-  std::inplace_merge(near_.begin(), near_.begin() + known, near_.end());
-}
-
-std::vector<IndexPair> PairFinder::find(std::span<const Proxy> proxies) {
-  std::vector<std::size_t> left;
-  const bool known = roomy_.size() == proxies.size();
-  for (std::size_t i = 0; known && i < proxies.size(); ++i)
-    if (hasLeft(proxies[i], roomy_[i])) left.push_back(i);
-  if (!known || left.size() > proxies.size() / kFewIn)
-    startAgain(proxies);
-  else if (!left.empty())
-    pairAnew(proxies, left);
-  std::vector<IndexPair> pairs;
-  for (const IndexPair& pair : near_)
-    if (canPair(proxies[static_cast<std::size_t>(pair.a)], proxies[static_cast<std::size_t>(pair.b)]))
-      add(pairs, pair, kMostPairs);
   return pairs;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping; from step
-// to step, among those that overlapped with room to spare. Tested in
+// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping. Worlds
+// that go on from step to step have pair_finder.h. Tested in
 // tests/engine/broad_phase/candidate_pairs_test.cpp.
 
 #include <span>
@@ -60,20 +60,5 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_
 inline bool canPair(const Proxy& p, const Proxy& q) {
   return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
 }
-
-/// The same for proxies that come again with every step: what has left the room that it was given is paired
-/// anew, with room; of the pairs that overlap with theirs, those that overlap without are the candidates.
-/// Throws TooManyPairs.
-class PairFinder {
- public:
-  std::vector<IndexPair> find(std::span<const Proxy> proxies);
-
- private:
-  void startAgain(std::span<const Proxy> proxies);
-  void pairAnew(std::span<const Proxy> proxies, std::span<const std::size_t> left);
-
-  std::vector<Proxy> roomy_;
-  std::vector<IndexPair> near_;  ///< Of the roomy proxies, ascending.
-};
 
 }  // namespace carom

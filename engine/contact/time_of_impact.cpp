@@ -56,10 +56,10 @@ class Look {
   }
 
   // Follows a fast approach from the time and the features of `found` along the paths, Newton's step after
-  // step, as if the step had no end: whether it leads to the floor. Where parts move without turning the gap
-  // is a convex function of the time, so that the steps never leap over its root; else that costs nothing but
-  // the height at which the impact is struck, as what is proven does not hang on it. An approach that slows
-  // down below the collision speed before is past; `passes_until_s` says when.
+  // step: whether it leads to the floor; as if the step had no end, unless it `ends_held`. Where parts move
+  // without turning the gap is a convex function of the time, so that the steps never leap over its root;
+  // else that costs nothing but the height at which the impact is struck, as what is proven does not hang on
+  // it. An approach that slows down below the collision speed before is past; `passes_until_s` says when.
   bool comesToFloor(TimeOfImpact& found, FeaturePair tracked) const {
     double t = found.time_s;
     double gap = found.closest.distance_m;
@@ -67,11 +67,17 @@ class Look {
     const double reached = (1.0 + kFloorSlack) * found.floor;
     for (int i = 0; i < kFollowed && gap > reached; ++i) {
       t += (gap - found.floor) / -speed;
+      const bool ends = search_.ends_held && t >= search_.end_s;
+      if (ends) t = search_.end_s;
       const ClosestFeatures there =
           closestFeatures(*a_.part, a_.path->at(t), *b_.part, b_.path->at(t), tracked);
       ++found.queries;
       gap = there.distance_m;
       if (!(gap > reached)) return true;
+      if (ends) {
+        found.passes_until_s = t;
+        return false;
+      }
       speed = separatingSpeedAt(t, there);
       if (speed >= -search_.collision_speed_mps) {
         found.passes_until_s = t;

@@ -38,6 +38,8 @@ struct ImpactSearch {
   /// The contact will last: it is struck at the landing gap, where it is then held, not anywhere in the
   /// window.
   bool lands = false;
+  /// What comes down after the end is held by then: an approach counts only if it leads to the floor before.
+  bool ends_held = false;
 };
 
 struct TimeOfImpact {

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "engine/foundation/contract.h"
 
@@ -35,7 +36,11 @@ InputFile tryInputFile(const fs::path& path) {
   if (!file.problem.empty()) return file;
   errno = 0;
   file.stream.open(path, std::ios::binary);
-  if (!file.stream) file.problem = std::strerror(errno);
+  if (file.stream) return file;
+  // The file is not at fault where the system has none to give.
+  if (errno == EMFILE || errno == ENFILE || errno == ENOMEM)
+    throw std::system_error(errno, std::generic_category(), "cannot read '" + path.string() + "'");
+  file.problem = std::strerror(errno);
   return file;
 }
 

@@ -1,12 +1,13 @@
 #include "engine/modes/islands.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace carom {
 
-Islands::Islands(int n) : parent_(static_cast<std::size_t>(n)) {
-  std::iota(parent_.begin(), parent_.end(), 0);
+void Islands::part(int n) {
+  for (const int i : joined_) parent_[static_cast<std::size_t>(i)] = i;
+  joined_.clear();
+  for (int i = static_cast<int>(parent_.size()); i < n; ++i) parent_.push_back(i);
 }
 
 int Islands::of(int i) const {
@@ -18,7 +19,11 @@ void Islands::join(int i, int j) {
   const int a = of(i);
   const int b = of(j);
   const int name = std::min(a, b);
-  for (const int k : {i, j, a, b}) parent_[static_cast<std::size_t>(k)] = name;  // short ways from now on
+  for (const int k : {i, j, a, b}) {
+    int& parent = parent_[static_cast<std::size_t>(k)];
+    if (parent == k && k != name) joined_.push_back(k);
+    parent = name;  // short ways from now on
+  }
 }
 
 }  // namespace carom

@@ -31,8 +31,8 @@ struct StepMotion {
   Velocity momentum_velocity;        ///< At path.start_s.
   Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
   Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
-  // The same of its rotation, in its own frame when it had the orientation that its forces were found for: the
-  // angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
+  // The same of its rotation, in its own frame when it had the orientation that its forces were found for:
+  // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
 
@@ -62,7 +62,9 @@ struct Body : StepMotion {
   double radius_m = 0.0;
   bool is_static = false;
   bool resting = false;
-  int rest_island = -1;
+  int next_at_rest = -1;   ///< Those that came to rest together are a ring.
+  bool active = true;      ///< In the list of active bodies (active_bodies.h).
+  bool lay = false;        ///< It did not move when the last step began.
   bool supported = false;  ///< Static, resting, or pressed by lasting contact in the last step.
   // What lasting contacts gave it in the last step, in the mean: its way through water and air is foreseen
   // with this, or what a floor holds would seem to sink. Zero in flight.
@@ -80,7 +82,9 @@ struct Body : StepMotion {
   std::optional<Vec3> kept_angular_momentum;
 
   // Within a step, besides its motion.
+  Pose X_end;  ///< Where its path ends, at the end of the step.
   int events = 0;
+  int cleared = 0;  ///< How often its path was led clear of another body.
   bool collided = false;
 
   bool moves() const { return !is_static && !resting; }
@@ -103,6 +107,12 @@ struct Body : StepMotion {
             is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
   }
 };
+
+/// Makes a body that rested move again.
+inline void wake(Body& body) {
+  body.resting = body.lay = false;
+  body.still_s = 0.0;
+}
 
 /// Where constant spin misses the orientation of a free body by more radians than this, its path is its free
 /// rotation: impacts on the way find the body as it is.

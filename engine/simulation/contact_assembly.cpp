@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/modes/islands.h"
 #include "engine/response/dissection.h"
 #include "engine/simulation/internal_edges.h"
 #include "engine/simulation/midstep_rows.h"
@@ -55,11 +54,23 @@ class Assembly {
     joinRows();
   }
 
+  std::vector<std::size_t> addLandings(std::span<const int> pairs) {
+    std::vector<RowStretch> stretches(2);
+    keepRows(pairs, stretches[0]);
+    for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
+    for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
+    counters_.distance_queries += stretches[1].counters.distance_queries;
+    contacts_.stretches.swap(stretches);
+    joinRows();
+    return islandsOf(pairs);
+  }
+
  private:
   // In the order of the rows: those of an island together, those of a crowd by descending part of it.
   struct LastingPair {
     int island = -1;  // at first a body of it
     int from_last_part = -kWhole;
+    std::uint64_t rank = 0;
     int pair = -1;
     auto operator<=>(const LastingPair&) const = default;
   };
@@ -68,8 +79,10 @@ class Assembly {
   void seeBodies() {
     contacts_.bodies.resize(world_.bodies.size());
     contacts_.half_turns.resize(world_.bodies.size());
-    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+    const std::span<const int> active = world_.active.list();
+    world_.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t i = at(active[k]);
         const Body& body = world_.bodies[i];
         ImpulseBody& seen = contacts_.bodies[i];
         HalfTurn& half = contacts_.half_turns[i];
@@ -84,22 +97,24 @@ class Assembly {
 
   // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
   void findLastingPairs() {
-    std::vector<char> lasts(world_.table.pairs().size(), 0);
-    world_.crew.runStretches(world_.table.pairs().size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    const std::vector<int>& active = world_.table.active();
+    std::vector<char> lasts(active.size(), 0);
+    world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = world_.table.pairs()[i];
+        ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
-        lasts[i] = isLasting(pair, world_.settings.step_s) && !isInternal(static_cast<int>(i));
+        lasts[i] = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
         if (!lasts[i]) pair.remembered.clear();
       }
     });
-    Islands islands(static_cast<int>(world_.bodies.size()));
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
-      const ShapePair& pair = world_.table.pairs()[i];
+      const ShapePair& pair = world_.table.pairs()[at(active[i])];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
-      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, static_cast<int>(i)});
+      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, pair.rank, active[i]});
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
   }
@@ -183,27 +198,12 @@ class Assembly {
     ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
     const Body& a = world_.bodies[at(pair.body_a)];
     const Body& b = world_.bodies[at(pair.body_b)];
-    const RememberedPoints remembered(pair);
-    const RowRequest request{.pair = lasting.pair,
-                             .row_a = pair.body_a,
-                             .row_b = pair.body_b,
-                             .closest = &pair.closest,
-                             .X_WA = a.X_WB,
-                             .X_WB = b.X_WB,
-                             .former = remembered.view(),
-                             .height_m = lastingHeight(pair, step_s)};
     std::vector<SourcedRow>& rows = stretch.of_pair;
     rows.clear();
-    appendRows(request, pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
-    // A point that comes in fast (the far edge of a falling box) has its own time of impact and restitution;
-    // so will one that bounces up.
-    std::erase_if(rows, [&](const SourcedRow& sourced) {
-      const double speed = rowVelocity(sourced.row, contacts_.bodies).x();
-      return speed < -pair.collision_speed_mps ||
-             (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
-    });
-    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
-    moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
+    if (pair.landing)
+      appendLandingRows(lasting.pair, pair, rows);
+    else
+      appendLastingRows(lasting.pair, pair, stretch);
     warmStart(pair, a.liesStill() && b.liesStill(), rows);
     pair.remembered.clear();
     if (rows.empty()) return;
@@ -217,10 +217,104 @@ class Assembly {
     }
   }
 
+  // Where the bodies are when the step begins, seen from its middle.
+  void appendLastingRows(int index, const ShapePair& pair, RowStretch& stretch) {
+    const double step_s = world_.settings.step_s;
+    const RememberedPoints remembered(pair);
+    const RowRequest request{.pair = index,
+                             .row_a = pair.body_a,
+                             .row_b = pair.body_b,
+                             .closest = &pair.closest,
+                             .X_WA = world_.bodies[at(pair.body_a)].X_WB,
+                             .X_WB = world_.bodies[at(pair.body_b)].X_WB,
+                             .former = remembered.view(),
+                             .height_m = lastingHeight(pair, step_s)};
+    std::vector<SourcedRow>& rows = stretch.of_pair;
+    appendRows(request, pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
+    // A point that comes in fast (the far edge of a falling box) lands, or has its own time of impact and
+    // restitution; so will one that bounces up.
+    std::erase_if(rows, [&](const SourcedRow& sourced) {
+      const double speed = rowVelocity(sourced.row, contacts_.bodies).x();
+      return speed < -pair.collision_speed_mps ||
+             (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
+    });
+    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
+    moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
+  }
+
+  // Where the bodies come down. There the gap is known, and how it goes on changing with the velocities. They
+  // act from the beginning of the step: so long before counts as if the gap were larger by what it lost.
+  void appendLandingRows(int index, const ShapePair& pair, std::vector<SourcedRow>& rows) {
+    const Landing& landing = *pair.landing;
+    const RememberedPoints remembered(pair);
+    appendRows({.pair = index,
+                .row_a = pair.body_a,
+                .row_b = pair.body_b,
+                .closest = &landing.closest,
+                .X_WA = landing.X_WA,
+                .X_WB = landing.X_WB,
+                .former = remembered.view(),
+                .height_m = lastingHeight(pair, world_.settings.step_s),
+                .struck = true},
+               pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
+    for (SourcedRow& sourced : rows) {
+      const ContactRow& row = sourced.row;
+      const Vec3 parting = landing.b.at(row.r_b) - landing.a.at(row.r_a);
+      sourced.gap_m -= landing.time_s * row.n.dot(parting);
+    }
+  }
+
+  // The rows of all other pairs, which have been solved; what those of `pairs` gave is given back.
+  void keepRows(std::span<const int> pairs, RowStretch& kept) {
+    std::vector<int> meeting;
+    for (const int i : pairs) {
+      const ShapePair& pair = world_.table.pairs()[at(i)];
+      for (const int body : {pair.body_a, pair.body_b})
+        if (moves(body)) meeting.push_back(body);
+    }
+    std::sort(meeting.begin(), meeting.end());
+    const auto meets = [&](int body) { return std::binary_search(meeting.begin(), meeting.end(), body); };
+    for (const LastingContacts::PairRows& of_pair : contacts_.pair_rows) {
+      const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
+      const bool is_met = meets(pair.body_a) || meets(pair.body_b);
+      if (is_met && isOneOf(of_pair.pair, pairs)) {
+        for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+          ContactRow given_back = contacts_.rows[i];
+          given_back.impulse = -given_back.impulse;
+          given_back.torque = -given_back.torque;
+          applyLoad(given_back, contacts_.bodies);
+        }
+        continue;
+      }
+      kept.pairs.push_back({of_pair.pair, pair.body_a, pair.body_b, of_pair.end - of_pair.begin});
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        kept.rows.push_back(contacts_.rows[i]);
+        kept.rows.back().seen_stir = is_met ? -1.0 : 0.0;
+        kept.sources.push_back(contacts_.sources[i]);
+      }
+    }
+  }
+
+  static bool isOneOf(int pair, std::span<const int> pairs) {
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  }
+
+  // Those with the rows that have just been made.
+  std::vector<std::size_t> islandsOf(std::span<const int> pairs) const {
+    std::vector<std::size_t> islands;
+    for (std::size_t i = 0; i < contacts_.islands.size(); ++i) {
+      // The rows kept come first in their island, those just made last.
+      const auto of_island = contacts_.pairsOf(contacts_.islands[i]);
+      if (isOneOf(of_island.back().pair, pairs)) islands.push_back(i);
+    }
+    return islands;
+  }
+
   // Rows of one island stand together; each island is solved on its own, so that one that converges slowly
   // does not keep the others sweeping. Pairs without rows may have parted islands.
   void joinRows() {
-    Islands islands(static_cast<int>(world_.bodies.size()));
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
     for (const RowStretch& stretch : contacts_.stretches)
       for (const RowStretch::Pair& pair : stretch.pairs)
         if (moves(pair.body_a) && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
@@ -243,14 +337,16 @@ class Assembly {
     }
     std::sort(origins.begin(), origins.end());
     contacts_.pair_rows.clear();
-    contacts_.island_begin.clear();
+    contacts_.islands.clear();
     std::size_t rows = 0;
     for (std::size_t i = 0; i < origins.size(); ++i) {
-      if (i == 0 || origins[i].island != origins[i - 1].island) contacts_.island_begin.push_back(rows);
+      if (i == 0 || origins[i].island != origins[i - 1].island)
+        contacts_.islands.push_back({rows, rows, i, i});
       contacts_.pair_rows.push_back({origins[i].pair, rows, rows + origins[i].count});
       rows += origins[i].count;
+      contacts_.islands.back().row_end = rows;
+      contacts_.islands.back().pair_end = i + 1;
     }
-    contacts_.island_begin.push_back(rows);
     contacts_.rows.resize(rows);
     contacts_.sources.resize(rows);
     world_.crew.runStretches(origins.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
@@ -276,12 +372,27 @@ class Assembly {
 
 }  // namespace
 
+std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) const {
+  std::vector<int> listed;
+  for (const std::size_t island : some)
+    for (const PairRows& pair : pairsOf(islands[island]))
+      for (const int body : {rows[pair.begin].a, rows[pair.begin].b}) listed.push_back(body);
+  std::sort(listed.begin(), listed.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+  return listed;
+}
+
 bool isLasting(const ShapePair& pair, double step_s) {
   return pair.closest.distance_m <= lastingHeight(pair, step_s);
 }
 
 void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {
   Assembly(world, counters, contacts).assemble();
+}
+
+std::vector<std::size_t> addLandings(const LastingWorld& world, std::span<const int> pairs,
+                                     StepCounters& counters, LastingContacts& contacts) {
+  return Assembly(world, counters, contacts).addLandings(pairs);
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 
 #include "engine/response/collision.h"
 #include "engine/response/conjugate_sweeps.h"
+#include "engine/response/energy_bound.h"
 #include "engine/response/turning_resistance.h"
 #include "engine/simulation/carried_path.h"
 #include "engine/simulation/internal_edges.h"
@@ -89,6 +90,7 @@ int ContactCluster::join(int index) {
   body_joined_[at(index)] = number_;
   body_member_[at(index)] = static_cast<int>(members_.size());
   const Body& body = bodies_[at(index)];
+  if (!body.is_static && !body.active) table_.activate(index, bodies_, settings_);
   Member member;
   member.body = index;
   member.expanded = body.is_static;
@@ -197,6 +199,7 @@ void ContactCluster::expand(int body) {
     const ClosestFeatures& closest = look(p);
     if (closest.distance_m <= table_.pairs()[at(p)].window.manifold && !isInternal(p)) addPair(p, closest);
   }
+  if (stage_ == Stage::kSupport) releaseDistant(body);
 }
 
 // Whether contacts have joined.
@@ -317,6 +320,7 @@ void ContactCluster::collide(bool spreads) {
   const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });
   if (spreads) {
     solveSpreading(kShareOfApproach * -approach);
+    takeBackGain(rows_, momentum_);
     if (!elastic && rows_.size() > 1) return;  // one point is followed through
     startAgain();
     restitution = findRestitution();
@@ -359,16 +363,14 @@ void ContactCluster::releaseForces(int index) {
   }
 }
 
-// Pairs whose contact is over, but that still press each other.
-void ContactCluster::releaseDistant() {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!members_[i].expanded || bodies_[at(members_[i].body)].is_static) continue;
-    for (int p : table_.pairsOf(members_[i].body)) {
-      ShapePair& pair = table_.pairs()[at(p)];
-      if (pair.remembered.empty() || pair_released_[at(p)] == number_) continue;
-      releaseForces(p);
-      pair.remembered.clear();
-    }
+// Ends the forces of a body's pairs whose contact is over, but that still press each other. Before the others
+// are solved: what such a force was balanced by must not be left to act alone.
+void ContactCluster::releaseDistant(int body) {
+  for (int p : table_.pairsOf(body)) {
+    ShapePair& pair = table_.pairs()[at(p)];
+    if (pair.remembered.empty() || pair_released_[at(p)] == number_) continue;
+    releaseForces(p);
+    pair.remembered.clear();
   }
 }
 
@@ -444,14 +446,18 @@ void ContactCluster::support() {
     while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;
     takeOverForces(first, end - first);
   }
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (members_[i].expanded) continue;
-    members_[i].expanded = true;
-    expand(members_[i].body);
+  for (std::size_t i = 0, known = members_.size(); i < known; ++i) {
+    if (bodies_[at(members_[i].body)].is_static) continue;
+    if (members_[i].expanded) {
+      releaseDistant(members_[i].body);
+    } else if (i < 2) {
+      members_[i].expanded = true;
+      expand(members_[i].body);
+    }
   }
   solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
+  takeBackGain(rows_, ends_);
   stops_short_ = isCrowd();
-  releaseDistant();
   keepForces();
   findBends();
 }

@@ -17,6 +17,19 @@ inline bool sameApproach(double separating_mps, double first_mps) {
   return std::abs(separating_mps - first_mps) <= kSame * std::abs(first_mps);
 }
 
+/// What a cluster keeps of the world's bodies and pairs, by index, from step to step: which cluster they
+/// joined last, by number, so that nothing has to be cleared and what rests costs nothing.
+struct ClusterMemory {
+  std::int64_t number = 0;
+  std::vector<std::int64_t> body_joined;
+  std::vector<int> body_member;
+  std::vector<std::int64_t> pair_joined;
+  std::vector<std::int64_t>
+      pair_released;                    ///< Likewise: its forces are those of the cluster's rows, or none.
+  std::vector<std::int64_t> pair_seen;  ///< Likewise: its closest features at the cluster's time are known.
+  std::vector<ClosestFeatures> closest;
+};
+
 class ContactCluster {
  public:
   struct Member {
@@ -28,13 +41,20 @@ class ContactCluster {
   };
 
   ContactCluster(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                 const WorldSettings& settings, StepCounters& counters)
+                 const WorldSettings& settings, StepCounters& counters, ClusterMemory& memory)
       : bodies_(bodies),
         shapes_(shapes),
         table_(table),
         settings_(settings),
         counters_(counters),
-        most_visits_(tolerance::kVisitsPerBody * static_cast<long>(bodies.size())) {}
+        most_visits_(tolerance::kVisitsPerBody * static_cast<long>(bodies.size())),
+        number_(memory.number),
+        body_joined_(memory.body_joined),
+        body_member_(memory.body_member),
+        pair_joined_(memory.pair_joined),
+        pair_released_(memory.pair_released),
+        pair_seen_(memory.pair_seen),
+        closest_(memory.closest) {}
 
   /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
   void begin(int pair, const ClosestFeatures& closest, double time_s);
@@ -109,7 +129,7 @@ class ContactCluster {
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
   void recallPoints();
   void releaseForces(int pair);
-  void releaseDistant();
+  void releaseDistant(int body);
   void takeOverForces(std::size_t first, std::size_t count);
   void keepForces();
   void findBends();
@@ -140,14 +160,14 @@ class ContactCluster {
   std::vector<Velocity> solve_before_;  ///< Velocities when the stage's solve began.
   std::vector<SourcedRow> sources_;
   std::vector<ContactRow> rows_;
-  // Which cluster a body or pair joined last, by number, so that nothing has to be cleared between events.
-  int number_ = 0;
-  std::vector<int> body_joined_;
-  std::vector<int> body_member_;
-  std::vector<int> pair_joined_;
-  std::vector<int> pair_released_;  ///< Likewise: its forces are those of the cluster's rows, or none.
-  std::vector<int> pair_seen_;      ///< Likewise: its closest features at the cluster's time are known.
-  std::vector<ClosestFeatures> closest_;
+  // See ClusterMemory.
+  std::int64_t& number_;
+  std::vector<std::int64_t>& body_joined_;
+  std::vector<int>& body_member_;
+  std::vector<std::int64_t>& pair_joined_;
+  std::vector<std::int64_t>& pair_released_;
+  std::vector<std::int64_t>& pair_seen_;
+  std::vector<ClosestFeatures>& closest_;
 };
 
 }  // namespace carom

@@ -4,16 +4,13 @@
 #include <atomic>
 #include <limits>
 
-#include "engine/response/focused_solver.h"
+#include "engine/response/ordered_pass.h"
 #include "engine/simulation/carried_path.h"
 
 namespace carom {
 namespace {
 
-constexpr int kPathSweeps = 60;
-constexpr int kFirstPathSweeps = 8;     // of a crowd; if they visited its rows more often than ...
-constexpr long kPathsInMotion = 5;      // ... this in the mean, ...
-constexpr int kPathFocusedSweeps = 24;  // ... it gets so many focused ones
+constexpr int kPathSweeps = 2;          // at least
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathShare =
     0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
@@ -31,8 +28,19 @@ void lowerTo(double value, double& smallest) {
 
 class ContactPaths {
  public:
-  ContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts)
-      : world_(world), counters_(counters), contacts_(contacts), step_s_(world.settings.step_s) {}
+  ContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+               LastingContacts& contacts)
+      : world_(world),
+        islands_(islands),
+        counters_(counters),
+        contacts_(contacts),
+        bodies_(contacts.bodiesOf(islands)),
+        step_s_(world.settings.step_s) {
+    for (const std::size_t island : islands_) {
+      const auto of_island = contacts_.pairsOf(contacts_.islands[island]);
+      pairs_.insert(pairs_.end(), of_island.begin(), of_island.end());
+    }
+  }
 
   void set() {
     beginAtMeans();
@@ -47,17 +55,16 @@ class ContactPaths {
   // Calls work(pair, rows) for stretches of pairs side by side; `rows` are indices.
   template <typename Work>
   void forPairs(const Work& work) {
-    const std::vector<LastingContacts::PairRows>& all = contacts_.pair_rows;
-    world_.crew.runStretches(all.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(all[k].pair)], all[k]);
+    world_.crew.runStretches(pairs_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(pairs_[k].pair)], pairs_[k]);
     });
   }
 
   // The same for bodies: work(index).
   template <typename Work>
   void forBodies(const Work& work) {
-    world_.crew.runStretches(world_.bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(i);
+    world_.crew.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(at(bodies_[i]));
     });
   }
 
@@ -111,40 +118,25 @@ class ContactPaths {
     return raised;
   }
 
-  // Without friction.
+  // Without friction. Where few sweeps do not do, one pass from the supports upwards leaves only what is
+  // wedged.
   void solve(double coarse_residual_mps) {
-    for (std::size_t i = 0; i + 1 < contacts_.island_begin.size(); ++i) {
-      const std::size_t count = contacts_.island_begin[i + 1] - contacts_.island_begin[i];
-      const std::span<ContactRow> rows = std::span(contacts_.rows).subspan(contacts_.island_begin[i], count);
-      if (count >= kFocusedRows) {
-        solveCrowd(rows, coarse_residual_mps);
-        continue;
-      }
-      const int careful_sweeps = tolerance::kSolverRowVisits / static_cast<int>(count);
-      solveContacts(rows, contacts_.paths,
-                    {.sweeps = std::max(kPathSweeps, careful_sweeps),
-                     .residual_mps = kPathResidual,
-                     .friction = false,
-                     .careful_sweeps = careful_sweeps,
-                     .coarse_residual_mps = coarse_residual_mps});
-    }
-  }
-
-  // Sweeps that pass over what is not stirred are cheapest where few paths come into a gap; where most do,
-  // paths are swept like impulses.
-  void solveCrowd(std::span<ContactRow> rows, double residual_mps) {
-    SolverSettings settings{
-        .sweeps = kFirstPathSweeps, .residual_mps = residual_mps, .friction = false, .crew = &world_.crew};
-    const SolverReport report = solveContacts(rows, contacts_.paths, settings);
-    if (report.residual_mps <= residual_mps) return;
-    if (report.visits > kPathsInMotion * static_cast<long>(rows.size())) {
-      settings.sweeps = kPathFocusedSweeps;
-      solveContactsFocused(rows, contacts_.paths, settings);
-    } else {
-      settings.sweeps = kPathSweeps - kFirstPathSweeps;
-      settings.resumes = true;
-      solveContacts(rows, contacts_.paths, settings);
-    }
+    std::vector<std::size_t> coarse;
+    const auto solveIsland = [&](std::size_t island, int sweeps, bool again) {
+      const SolverReport report = solveContacts(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths,
+                                                {.sweeps = again ? sweeps : std::max(kPathSweeps, sweeps),
+                                                 .residual_mps = kPathResidual,
+                                                 .friction = false,
+                                                 .careful_sweeps = sweeps,
+                                                 .coarse_residual_mps = coarse_residual_mps,
+                                                 .crew = &world_.crew});
+      if (again) std::erase(coarse, island);
+      if (report.residual_mps > coarse_residual_mps) coarse.push_back(island);
+      return report;
+    };
+    counters_.row_visits += solveWithinBudget(contacts_, islands_, kPathResidual, solveIsland);
+    for (const std::size_t island : coarse)
+      passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
   }
 
   void carry() {
@@ -160,36 +152,44 @@ class ContactPaths {
                               half.spin,
                               step_s_});
     });
-    const std::vector<char> bends = findBends();
+    findBends();
     forBodies([&](std::size_t i) {
-      if (contacts_.touched[i]) carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, bends[i] != 0);
+      if (contacts_.touched[i])
+        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.room.bends[i] != 0);
     });
   }
 
-  // Whose paths may bend, one a body.
-  std::vector<char> findBends() {
-    std::vector<char> bends = contacts_.touched;
-    std::vector<Vec3> accelerations(world_.bodies.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i)
-      if (world_.bodies[i].moves()) accelerations[i] = world_.bodies[i].acceleration;
+  // Whose paths may bend.
+  void findBends() {
+    std::vector<char>& bends = contacts_.room.bends;
+    std::vector<Vec3>& accelerations = contacts_.room.accelerations;
+    bends.resize(world_.bodies.size());
+    accelerations.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) {
+      bends[i] = contacts_.touched[i];
+      accelerations[i] = world_.bodies[i].moves() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
+    });
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i)
         straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,
                        bends);
     });
-    return bends;
   }
 
   LastingWorld world_;
+  std::span<const std::size_t> islands_;
+  std::vector<LastingContacts::PairRows> pairs_;  ///< Theirs.
   StepCounters& counters_;
   LastingContacts& contacts_;
+  std::vector<int> bodies_;  ///< Of the islands.
   double step_s_;
 };
 
 }  // namespace
 
-void setContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {
-  ContactPaths(world, counters, contacts).set();
+void setContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+                     LastingContacts& contacts) {
+  ContactPaths(world, islands, counters, contacts).set();
 }
 
 }  // namespace carom

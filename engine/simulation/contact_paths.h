@@ -8,7 +8,8 @@ namespace carom {
 
 /// The path of a pressed body: the mean of the velocities before and after, which is exact for constant
 /// friction, but never into a gap: the same contacts once more, as bounds on the path alone, so that
-/// reopening a gap gives no energy. The rows come solved, and keep their impulses.
-void setContactPaths(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts);
+/// reopening a gap gives no energy. The rows come solved, and keep their impulses. Of some islands, by index.
+void setContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+                     LastingContacts& contacts);
 
 }  // namespace carom

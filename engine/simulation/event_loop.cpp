@@ -14,6 +14,14 @@
 namespace carom {
 namespace {
 
+// Of solving landings: what the last leaves over are events.
+constexpr int kLandingRounds = 2;
+// Of leading a body's path clear in one step: so often apart from another, by a bit more than is missing, so
+// that what is wedged converges; then so often its motion is halved; then it is held.
+constexpr int kMostClearings = 20;
+constexpr int kMostHalvings = 2;
+constexpr double kOverRelaxed = 1.3;
+constexpr double kOpened = 0.5;       // of what is missing to the rest gap
 constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
 
 std::size_t at(int i) {
@@ -26,53 +34,52 @@ struct Event {
   std::int64_t instant = 0;     // its time, as the events are ordered
   bool looked = false;          // then it is an impact or a stop at that time, and parts ...
   double separating_mps = 0.0;  // ... so fast
+  std::uint64_t rank = 0;       // of the pair
   int pair = -1;
   int version = 0;
-};
-
-// The search for a pair's next impact. It is carried only as far as events come: most searches end early,
-// because another event gives one of the bodies a new path.
-struct Prediction {
-  int version = 0;
-  bool looked = false;  ///< At least once.
-  ImpactSearch search;
-  TimeOfImpact found;
 };
 
 // Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
 // is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
   bool operator()(const Event& x, const Event& y) const {
-    return std::tie(x.instant, x.looked, x.separating_mps, x.pair) >
-           std::tie(y.instant, y.looked, y.separating_mps, y.pair);
+    return std::tie(x.instant, x.looked, x.separating_mps, x.rank) >
+           std::tie(y.instant, y.looked, y.separating_mps, y.rank);
   }
 };
 
 class EventLoop {
  public:
-  EventLoop(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers)
-      : bodies_(bodies),
-        shapes_(shapes),
-        table_(table),
+  EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
+      : bodies_(world.bodies),
+        shapes_(world.shapes),
+        table_(world.table),
+        active_(world.active),
         planner_(planner),
-        settings_(settings),
-        crew_(crew),
+        settings_(world.settings),
+        crew_(world.crew),
         counters_(counters),
         clock_(clock),
         watchers_(watchers),
-        cluster_(bodies, shapes, table, settings, counters),
+        cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
+        predictions_(memory.predictions),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
-                                   tolerance::kSearchWorkPerBody * static_cast<long>(bodies.size()))) {}
+                                   tolerance::kSearchWorkPerBody * static_cast<long>(bodies_.size()))) {}
 
-  std::vector<Pose> run() {
+  bool run(const LandingSolver& solve_landings) {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
-    ends_.resize(bodies_.size());
-    crew_.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) ends_[i] = bodies_[i].path.at(settings_.step_s);
+    const std::span<const int> active = active_.list();
+    crew_.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        Body& body = bodies_[at(active[k])];
+        body.X_end = body.path.at(settings_.step_s);
+      }
     });
     lookAtAll();
+    if (!holdLandings(solve_landings)) return false;
+    for (const int i : table_.active())
+      if (predictions_[at(i)].searched) await(i);
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
     while (!events_.empty()) {
@@ -91,7 +98,7 @@ class EventLoop {
       else
         await(event.pair);
     }
-    return std::move(ends_);
+    return true;
   }
 
  private:
@@ -99,21 +106,63 @@ class EventLoop {
   // whole step is clear.
   void lookAtAll() {
     predictions_.resize(table_.pairs().size());
-    crew_.runStretches(predictions_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (mayMeet(static_cast<int>(i))) {
-          beginSearch(static_cast<int>(i), table_.pairs()[i].closest);
-          carryOn(static_cast<int>(i));
-        }
+    const std::vector<int>& pairs = table_.active();
+    crew_.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        predictions_[at(pairs[i])].looked = predictions_[at(pairs[i])].searched = false;
+        if (!mayMeet(pairs[i])) continue;
+        beginSearch(pairs[i], table_.pairs()[at(pairs[i])].closest);
+        carryOn(pairs[i]);
+      }
     });
-    for (std::size_t i = 0; i < predictions_.size(); ++i) {
-      Prediction& prediction = predictions_[i];
+    for (const int i : pairs) {
+      const Prediction& prediction = predictions_[at(i)];
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
       counters_.newton_steps += prediction.found.newton_steps;
       search_work_ += prediction.found.work;
-      await(static_cast<int>(i));
     }
+  }
+
+  // What will not bounce and would come down within the step is held in time where it is many, round by
+  // round: what holds one may bring another down. Whether the step goes on.
+  bool holdLandings(const LandingSolver& solve_landings) {
+    for (int round = 0; round < kLandingRounds && !hasSpentSearch(); ++round) {
+      const std::vector<int> landings = foreseeLandings();
+      if (landings.empty()) return true;
+      const std::optional<std::vector<int>> moved = solve_landings(landings);
+      if (!moved) return false;
+      if (moved->empty()) return true;
+      changed_ = *moved;
+      for (const int pair : pairsWithNewPaths(0.0)) begin(pair);
+    }
+    return true;
+  }
+
+  std::vector<int> foreseeLandings() {
+    std::vector<int> landings;
+    for (const int i : table_.active()) {
+      ShapePair& pair = table_.pairs()[at(i)];
+      const TimeOfImpact& found = predictions_[at(i)].found;
+      if (pair.restitution > 0.0 || !predictions_[at(i)].searched) continue;
+      while (found.outcome == TimeOfImpact::Outcome::kPending && !hasSpentSearch()) look(i);
+      if (found.outcome == TimeOfImpact::Outcome::kClear ||
+          found.outcome == TimeOfImpact::Outcome::kPending || isSlow(i))
+        continue;
+      pair.landing = landingOf(pair, found);
+      landings.push_back(i);
+    }
+    return landings;
+  }
+
+  Landing landingOf(const ShapePair& pair, const TimeOfImpact& found) const {
+    const double t = found.time_s;
+    const Trajectory& a = bodies_[at(pair.body_a)].path;
+    const Trajectory& b = bodies_[at(pair.body_b)].path;
+    const auto mean = [&](const Trajectory& path) {
+      return Velocity{path.velocity + 0.5 * t * path.acceleration, path.angularVelocityAt(t)};
+    };
+    return {t, found.closest, a.at(t), b.at(t), mean(a), mean(b)};
   }
 
   // Freezes the bodies of a pair that its search has not cleared.
@@ -148,21 +197,26 @@ class EventLoop {
   void beginSearch(int index, const ClosestFeatures& at_begin) {
     Prediction& prediction = predictions_[at(index)];
     const ShapePair& pair = table_.pairs()[at(index)];
-    prediction.search = {pair.window, pair.collision_speed_mps, beginOf(pair), settings_.step_s,
-                         pair.restitution == 0.0};
+    prediction.search = {pair.window,      pair.collision_speed_mps, beginOf(pair),
+                         settings_.step_s, pair.restitution == 0.0,  pair.landing.has_value()};
     prediction.found = carom::beginSearch(prediction.search, at_begin);
+    prediction.searched = true;
     prediction.looked = false;
   }
 
   // The search of a pair whose bodies have new paths.
-  void predict(int index) {
+  void begin(int index) {
     predictions_.resize(table_.pairs().size());
-    const int version = ++predictions_[at(index)].version;
-    if (!mayMeet(index)) return;
-    const double begin_s = beginOf(table_.pairs()[at(index)]);
-    beginSearch(index, closestAt(index, begin_s));
-    events_.push({instantOf(begin_s), false, 0.0, index, version});
+    ++predictions_[at(index)].version;
+    predictions_[at(index)].searched = false;
+    if (mayMeet(index)) beginSearch(index, closestAt(index, beginOf(table_.pairs()[at(index)])));
   }
+  void predict(int index) {
+    begin(index);
+    if (predictions_[at(index)].searched) await(index);
+  }
+
+  std::uint64_t rankOf(int index) const { return table_.pairs()[at(index)].rank; }
 
   std::int64_t instantOf(double time_s) const {
     return static_cast<std::int64_t>(time_s / settings_.step_s * kInstants);
@@ -175,7 +229,7 @@ class EventLoop {
     if (found.outcome == TimeOfImpact::Outcome::kClear) return;
     const bool pending = found.outcome == TimeOfImpact::Outcome::kPending;
     const double separating = pending ? 0.0 : separatingSpeedAt(index, found);
-    events_.push({instantOf(found.time_s), !pending, separating, index, prediction.version});
+    events_.push({instantOf(found.time_s), !pending, separating, rankOf(index), index, prediction.version});
   }
 
   double separatingSpeedAt(int index, const TimeOfImpact& found) const {
@@ -221,6 +275,10 @@ class EventLoop {
 
   void takeUp(int index) {
     const TimeOfImpact& found = predictions_[at(index)].found;
+    if (isSlow(index)) {
+      clearPaths(index, found);
+      return;
+    }
     ++counters_.events;
     counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     resolve(index, found);
@@ -228,7 +286,7 @@ class EventLoop {
 
   MovingPart movingPart(int shape) const {
     const Shape& s = shapes_[at(shape)];
-    return {s.part, &bodies_[at(s.body)].path, s.reach_m, &ends_[at(s.body)]};
+    return {s.part, &bodies_[at(s.body)].path, s.reach_m, &bodies_[at(s.body)].X_end};
   }
 
   ClosestFeatures closestAt(int index, double time_s) {
@@ -239,6 +297,76 @@ class EventLoop {
     return closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
                            *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s),
                            pair.tracked);
+  }
+
+  // Whether what a look has found is no collision: paths that are at the floor, while the momenta, which
+  // impulses act on, do not bring the bodies together fast.
+  bool isSlow(int index) const {
+    const TimeOfImpact& found = predictions_[at(index)].found;
+    if (found.outcome != TimeOfImpact::Outcome::kStopped) return false;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const auto velocityOf = [&](const Body& body, const Vec3& p_W) {
+      return body.velocityAt(found.time_s).at(p_W - body.path.positionAt(found.time_s));
+    };
+    const Vec3 parting = velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
+                         velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W);
+    return found.closest.n_W.dot(parting) >= -pair.collision_speed_mps;
+  }
+
+  // Leads two bodies apart that come slowly to the floor: solvers left that over, or turning. Only their
+  // paths change, by as little as lets their gap open; their momentum is what it was, and the next step
+  // solves it.
+  void clearPaths(int index, const TimeOfImpact& found) {
+    const double time_s = found.time_s;
+    const double rest = settings_.step_s - time_s;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const std::array<int, 2> both{pair.body_a, pair.body_b};
+    ++counters_.cleared_paths;
+    changed_.clear();
+    std::array<ImpulseBody, 2> paths;
+    int spent = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      Body& body = bodies_[at(both[k])];
+      const bool gives_way = body.moves() && body.travel != Travel::kHeld;
+      if (gives_way) {
+        bring(both[k], time_s);
+        changed_.push_back(both[k]);
+        spent = std::max(spent, ++body.cleared);
+      }
+      paths[k] = body.impulseBody(body.path.at(time_s),
+                                  {body.path.velocityAt(time_s) + 0.5 * rest * body.path.acceleration,
+                                   body.path.angularVelocityAt(time_s)});
+      if (gives_way) continue;
+      paths[k].inverse_mass = 0.0;
+      paths[k].inverse_tensor.setZero();
+    }
+    if (spent > kMostClearings + kMostHalvings) {
+      for (const int i : changed_) hold(bodies_[at(i)]);
+    } else if (spent > kMostClearings) {
+      for (std::size_t k = 0; k < 2; ++k)
+        lead(both[k], {0.5 * paths[k].velocity.linear, 0.5 * paths[k].velocity.angular}, rest);
+    } else {
+      const Vec3& n = found.closest.n_W;
+      const Vec3 r_a = found.closest.p_A_W - paths[0].center;
+      const Vec3 r_b = found.closest.p_B_W - paths[1].center;
+      const double separating = n.dot(paths[1].velocity.at(r_b) - paths[0].velocity.at(r_a));
+      const double wanted =
+          std::min(tolerance::kGapSpeed, kOpened * (pair.window.rest - found.closest.distance_m) / rest);
+      const double response = n.dot(collisionMatrix(paths[0], paths[1], r_a, r_b) * n);
+      const double impulse = kOverRelaxed * (wanted - separating) / response;
+      paths[0].apply(-impulse * n, r_a);
+      paths[1].apply(impulse * n, r_b);
+      for (std::size_t k = 0; k < 2; ++k) lead(both[k], paths[k].velocity, rest);
+    }
+    searchAgain(time_s);
+  }
+
+  // Straight on, at this mean velocity.
+  void lead(int index, const Velocity& mean, double rest_of_step_s) {
+    Body& body = bodies_[at(index)];
+    if (!body.moves() || body.travel == Travel::kHeld) return;
+    body.travel = Travel::kCarried;
+    carryAlong(body, mean, rest_of_step_s, false);
   }
 
   // The impulses of one event, the paths that follow, and the searches that these make out of date.
@@ -253,9 +381,8 @@ class EventLoop {
     }
     // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
     // speed are one; the others do not come back, and press at once on all that stands behind.
-    const bool stopped = found.outcome == TimeOfImpact::Outcome::kStopped;
     const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
-    const bool crowded = stopped || spent > share * tolerance::kPairEvents;
+    const bool crowded = spent > share * tolerance::kPairEvents;
     const bool spreads = crowded || pair.restitution == 0.0;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
@@ -279,11 +406,10 @@ class EventLoop {
   }
 
   void wakeInStep(int index) {
-    const int island = bodies_[at(index)].rest_island;
-    for (Body& body : bodies_) {
-      if (!body.resting || body.rest_island != island) continue;
-      wake(body);
-      body.travel = Travel::kCarried;  // held up by others or afloat: its forces are in balance
+    for (const int member : active_.wakeIsland(bodies_, index)) {
+      bodies_[at(member)].travel =
+          Travel::kCarried;  // held up by others or afloat: its forces are in balance
+      table_.activate(member, bodies_, settings_);
     }
   }
 
@@ -310,9 +436,10 @@ class EventLoop {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
       Body& body = bodies_[at(member.body)];
-      body.collided = body.collided || member.collided;
-      if (body.is_static || !isTouched(i)) continue;
-      if (body.resting) wakeInStep(member.body);
+      if (body.is_static) continue;
+      if (body.resting && isTouched(i)) wakeInStep(member.body);
+      body.collided = body.collided || (member.collided && body.moves());
+      if (!isTouched(i)) continue;
       const double rest = settings_.step_s - time_s;
       const bool keeps_path = cluster_.keepsPath(i);
       const bool is_as_searched = keeps_path && goesStraight(body);
@@ -408,17 +535,21 @@ class EventLoop {
     ++counters_.stopped_bodies;
   }
 
-  // The pairs of every body that has a new path.
   void searchAgain(double time_s) {
+    for (const int pair : pairsWithNewPaths(time_s)) predict(pair);
+  }
+
+  // The pairs of every body that has a new path.
+  std::vector<int> pairsWithNewPaths(double time_s) {
     extendPairs(time_s);
     std::vector<int> pairs;
     for (int body : changed_) {
-      ends_[at(body)] = bodies_[at(body)].path.at(settings_.step_s);
+      bodies_[at(body)].X_end = bodies_[at(body)].path.at(settings_.step_s);
       pairs.insert(pairs.end(), table_.pairsOf(body).begin(), table_.pairsOf(body).end());
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    for (int pair : pairs) predict(pair);
+    return pairs;
   }
 
   void extendPairs(double time_s) {
@@ -429,6 +560,7 @@ class EventLoop {
   std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
+  ActiveBodies& active_;
   const FlightPlanner& planner_;
   const WorldSettings& settings_;
   Crew& crew_;
@@ -436,21 +568,20 @@ class EventLoop {
   PhaseClock* clock_;
   StepWatchers watchers_;
   ContactCluster cluster_;
-  long search_work_ = 0;  ///< Of all searches in this step: see TimeOfImpact::work.
+  std::vector<Prediction>& predictions_;  ///< By place of the pair.
+  long search_work_ = 0;                  ///< Of all searches in this step: see TimeOfImpact::work.
   long most_search_work_ = 0;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::vector<Pose> ends_;    ///< Of the bodies on their paths, at the end of the step, as searched.
-  std::vector<Prediction> predictions_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::vector<Event> alike_;  ///< Scratch.
 };
 
 }  // namespace
 
-std::vector<Pose> runEvents(std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                            const FlightPlanner& planner, const WorldSettings& settings, Crew& crew,
-                            StepCounters& counters, PhaseClock* clock, const StepWatchers& watchers) {
-  return EventLoop(bodies, shapes, table, planner, settings, crew, counters, clock, watchers).run();
+bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
+               const LandingSolver& solve_landings) {
+  return EventLoop(world, planner, counters, clock, watchers, memory).run(solve_landings);
 }
 
 }  // namespace carom

@@ -83,6 +83,13 @@ void FlightPlanner::planPath(int index, Body& body) const {
   path.turnAt(flight.spin);
 }
 
+void FlightPlanner::planStep(int index, Body& body) const {
+  body.travel = Travel::kBallistic;
+  body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  body.momentum_velocity = body.velocity;
+  plan(index, body);
+}
+
 void FlightPlanner::takeContacts(Body& body, const Velocity& change, const Quat& R_WB) const {
   body.contact_force = body.inertia.mass_kg / step_s_ * change.linear;
   body.contact_torque = angularMomentum(body.inertia, R_WB, change.angular) / step_s_;

@@ -26,7 +26,10 @@ class FlightPlanner {
     step_s_ = step_s;
   }
 
-  /// May be called for several bodies at the same time. Plans body `index` from `path.start_s` with its
+  /// May be called for several bodies at the same time. The whole step of a body that moves, as if it were in
+  /// flight from the step's beginning.
+  void planStep(int index, Body& body) const;
+  /// Likewise. Plans body `index` from `path.start_s` with its
   /// momentum velocity, to the end of the step.
   void plan(int index, Body& body) const;
   /// Remembers what the step's lasting contacts changed of the velocity, its angular part by the tensor of

@@ -2,40 +2,42 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
+#include "engine/modes/islands.h"
+#include "engine/response/conjugate_sweeps.h"
+#include "engine/response/energy_bound.h"
 #include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
+#include "engine/response/turning_resistance.h"
 #include "engine/simulation/contact_paths.h"
 #include "engine/simulation/solver_patience.h"
 
 namespace carom {
 namespace {
 
-constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
+constexpr int kLandingSweeps = 8;     // over rows that landings stir; the next step solves on
+constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
+constexpr double kFewMoving = 0.05;   // of a crowd's bodies: so many falling about do not set it in motion
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// How a body moved before the step's impulses, once for all its rows.
-struct BodyMotion {
-  double mass_kg = 0.0;    // 0: it does not move
-  double speed_mps = 0.0;  // of its middle, and of its surface about that
-  bool lies_still = true;
-};
-
-std::vector<BodyMotion> motionsOf(const std::vector<Body>& bodies, Crew& crew) {
-  std::vector<BodyMotion> motions(bodies.size());
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Body& body = bodies[i];
+std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
+  contacts.room.motions.resize(world.bodies.size());
+  const std::span<const int> active = world.active.list();
+  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Body& body = world.bodies[at(active[k])];
+      BodyMotion& motion = contacts.room.motions[at(active[k])];
+      motion = {};
       if (!body.moves()) continue;
-      motions[i] = {1.0 / body.inertia.inverse_mass,
-                    body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m,
-                    body.liesStill()};
+      motion = {1.0 / body.inertia.inverse_mass,
+                body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
     }
   });
-  return motions;
+  return contacts.room.motions;
 }
 
 // Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
@@ -64,11 +66,6 @@ bool isStirred(std::span<const ContactRow> rows, std::span<const BodyMotion> mot
   });
 }
 
-// How many sweeps an island's share of row visits goes for.
-int shareOfSweeps(std::span<const ContactRow> rows) {
-  return tolerance::kSolverRowVisits / static_cast<int>(rows.size());
-}
-
 // The least sweeps of an island that stands but for what moves in it.
 int fewestSweeps(std::span<const ContactRow> rows) {
   return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
@@ -82,126 +79,146 @@ int standingSweeps(std::span<const ContactRow> rows) {
 
 // Small islands are solved to the fine residual, large ones to a coarser one.
 double residualOf(std::span<const ContactRow> rows, double coarser) {
-  return shareOfSweeps(rows) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
+  return sweepsInBudget(rows.size()) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
 }
 
 // What lies still, all of it.
-void solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                      std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
+SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                              std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
   SolverSettings settings{
-      .sweeps = std::max(shareOfSweeps(rows), standingSweeps(rows)),
+      .sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
       .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
       .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
       .crew = &crew};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
-    settings.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows));
+    settings.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows));
     settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
     settings.in_the_mean = true;
-    solveContactsFocused(rows, solver_bodies, settings);
     patience.waitAStep();
-    return;
+    return solveContactsFocused(rows, solver_bodies, settings);
   }
-  patience.learn(solveStandingContacts(rows, solver_bodies, settings), settings.residual_mps);
+  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
+  patience.learn(report, settings.residual_mps);
+  return report;
 }
 
 // While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
 // taken as equations, would contradict each other.
-void solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
-                         std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
-                         double gravity_speed, Crew& crew) {
+SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
+                                 std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
+                                 double gravity_speed, Crew& crew) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, motions)) {
-    solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
-    return;
-  }
-  solveContactsFocused(rows, solver_bodies,
-                       {.sweeps = std::max(shareOfSweeps(rows), fewestSweeps(rows)),
-                        .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
-                        .in_the_mean = rows.size() >= kFocusedRows,
-                        .crew = &crew});
+  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
+  return solveContactsFocused(
+      rows, solver_bodies,
+      {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
+       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
+       .in_the_mean = rows.size() >= kFocusedRows,
+       .crew = &crew});
 }
 
-// Carefully as far as its share of row visits goes; what has just come together there and would fall apart in
-// a coarse step, farther.
-void solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double gravity_speed,
-                       Crew& crew) {
-  const double residual = residualOf(rows, tolerance::kSolverCoarseResidual);
-  const int careful_sweeps = std::max(shareOfSweeps(rows), tolerance::kSolverSweeps);
-  const int most_sweeps = tolerance::kSolverMostVisits / static_cast<int>(rows.size());
-  solveContactsFocused(rows, bodies,
-                       {.sweeps = std::max(careful_sweeps, most_sweeps),
-                        .residual_mps = residual * gravity_speed,
-                        .careful_sweeps = careful_sweeps,
-                        .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
-                        .crew = &crew});
+// Carefully for its share of the budget, and coarsely for longer; a crowd in motion is solved on in the next
+// step.
+SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, int careful_sweeps,
+                               int most_sweeps, double gravity_speed, Crew& crew) {
+  return solveContactsFinely(rows, bodies,
+                             {.sweeps = most_sweeps,
+                              .residual_mps = tolerance::kSolverResidual * gravity_speed,
+                              .careful_sweeps = careful_sweeps,
+                              .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                              .crew = &crew});
 }
 
 // With friction.
-void solveImpulses(LastingContacts& contacts, std::vector<Body>& bodies, double gravity_speed, Crew& crew) {
-  const std::vector<BodyMotion> motions = motionsOf(bodies, crew);
-  for (std::size_t i = 0; i + 1 < contacts.island_begin.size(); ++i) {
-    const std::size_t count = contacts.island_begin[i + 1] - contacts.island_begin[i];
-    const std::span<ContactRow> rows = std::span(contacts.rows).subspan(contacts.island_begin[i], count);
-    if (stands(rows, motions))
-      solveStandingIsland(rows, motions, bodies, contacts.bodies, gravity_speed, crew);
-    else
-      solveMovingIsland(rows, contacts.bodies, gravity_speed, crew);
-  }
+void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
+                   StepCounters& counters) {
+  const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+  const std::span<const BodyMotion> motions = motionsOf(world, contacts);
+  const int most_sweeps =
+      std::max(tolerance::kSolverMovingSweeps,
+               tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size())));
+  const auto solve = [&](std::size_t island, int sweeps, bool again) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
+    if (!again && stands(rows, motions)) {
+      SolverReport report =
+          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew);
+      report.residual_mps = 0.0;  // it has budgets of its own
+      return report;
+    }
+    return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
+                             gravity_speed, world.crew);
+  };
+  counters.row_visits +=
+      solveWithinBudget(contacts, islands, tolerance::kSolverResidual * gravity_speed, solve);
+  for (const std::size_t island : islands)
+    takeBackGain(contacts.rowsOf(contacts.islands[island]), contacts.bodies);
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
-void giveEnvironment(LastingContacts& contacts, const std::vector<Body>& bodies,
-                     const FlightPlanner& planner) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const FlightPlanner& planner) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.gained.resize(bodies.size());
+  for (const int active : world.active.list()) {
+    const std::size_t i = at(active);
+    contacts.gained[i] = {};
     if (!bodies[i].moves()) continue;
-    const Velocity gained = planner.gained(bodies[i]);
-    contacts.bodies[i].velocity.linear += gained.linear;
-    contacts.bodies[i].velocity.angular += gained.angular;
+    contacts.gained[i] = planner.gained(bodies[i]);
+    contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
+    contacts.bodies[i].velocity.angular += contacts.gained[i].angular;
   }
 }
 
+// Gives the bodies the impulses that rows begin with. What an island remembers of another arrangement may be
+// far too much for this one, and few sweeps would leave some of that in its bodies.
+void warmUp(LastingContacts& contacts) {
+  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
+  for (const LastingContacts::Island& island : contacts.islands)
+    takeBackGain(contacts.rowsOf(island), contacts.bodies);
+}
+
 // The moving bodies that some row presses.
-void findTouched(LastingContacts& contacts, const std::vector<Body>& bodies, Crew& crew) {
-  contacts.touched.assign(bodies.size(), 0);
-  crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+void findTouched(LastingContacts& contacts, const LastingWorld& world) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.touched.resize(bodies.size(), 0);
+  for (const int i : world.active.list()) contacts.touched[at(i)] = 0;
+  world.crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ContactRow& row = contacts.rows[k];
       if (row.impulse.isZero(0.0)) continue;
       for (const int i : {row.a, row.b})
-        std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
+        if (bodies[at(i)].moves())
+          std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
     }
   });
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].moves()) contacts.touched[i] = 0;
 }
 
-// For the next step's plans: what contacts have given; nothing to bodies in flight, which must not be planned
-// as if something held them.
-void foreseeContacts(const LastingContacts& contacts, std::vector<Body>& bodies,
-                     const FlightPlanner& planner) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].moves()) continue;
-    if (!contacts.touched[i]) {
-      planner.leaveContacts(static_cast<int>(i), bodies[i]);
-      continue;
-    }
-    const Velocity gained = planner.gained(bodies[i]);
-    planner.takeContacts(bodies[i],
-                         {contacts.bodies[i].velocity.linear - bodies[i].velocity.linear - gained.linear,
-                          contacts.bodies[i].velocity.angular - contacts.half_turns[i].spin - gained.angular},
-                         contacts.half_turns[i].R_WB);
+// For the next step's plans: what contacts have given; nothing to a body in flight, which must not be planned
+// as if something held it.
+void foreseeContacts(const LastingContacts& contacts, int index, Body& body, const FlightPlanner& planner) {
+  const auto i = at(index);
+  if (!contacts.touched[i]) {
+    planner.leaveContacts(index, body);
+    return;
   }
+  const Velocity& after = contacts.bodies[i].velocity;
+  const Velocity& gained = contacts.gained[i];
+  planner.takeContacts(body,
+                       {after.linear - body.velocity.linear - gained.linear,
+                        after.angular - contacts.half_turns[i].spin - gained.angular},
+                       contacts.half_turns[i].R_WB);
 }
 
-void remember(const LastingContacts& contacts, const LastingWorld& world) {
+void remember(const LastingContacts& contacts, std::span<const LastingContacts::PairRows> pairs,
+              const LastingWorld& world) {
   const double step_s = world.settings.step_s;
-  world.crew.runStretches(contacts.pair_rows.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+  world.crew.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const LastingContacts::PairRows& of_pair = contacts.pair_rows[k];
+      const LastingContacts::PairRows& of_pair = pairs[k];
       ShapePair& pair = world.table.pairs()[at(of_pair.pair)];
+      pair.remembered.clear();
       for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
         const ContactRow& row = contacts.rows[i];
         const Vec3 impulse_W = rowImpulse(row, row.impulse);
@@ -236,25 +253,14 @@ void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad
   }
 }
 
-void wake(Body& body) {
-  body.resting = false;
-  body.rest_island = -1;
-  body.still_s = 0.0;
-}
-
-void wakeIsland(std::vector<Body>& bodies, int island) {
-  for (Body& body : bodies)
-    if (body.resting && body.rest_island == island) wake(body);
-}
-
-bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
-  if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.resting; })) return false;
+bool wakePressed(const LastingWorld& world, const LastingContacts& contacts) {
   bool woken = false;
   for (const ContactRow& row : contacts.rows) {
     if (!(row.impulse.x() > 0.0)) continue;
     for (int i : {row.a, row.b}) {
-      if (!bodies[at(i)].resting) continue;
-      wakeIsland(bodies, bodies[at(i)].rest_island);
+      if (!world.bodies[at(i)].resting) continue;
+      for (const int member : world.active.wakeIsland(world.bodies, i))
+        world.table.activate(member, world.bodies, world.settings);
       woken = true;
     }
   }
@@ -263,16 +269,78 @@ bool wakePressed(std::vector<Body>& bodies, const LastingContacts& contacts) {
 
 void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
                           LastingContacts& contacts) {
-  std::vector<Body>& bodies = world.bodies;
   assembleContacts(world, counters, contacts);
-  giveEnvironment(contacts, bodies, planner);
-  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
-  solveImpulses(contacts, bodies, world.settings.gravity.norm() * world.settings.step_s, world.crew);
-  findTouched(contacts, bodies, world.crew);
-  foreseeContacts(contacts, bodies, planner);
-  setContactPaths(world, counters, contacts);
-  remember(contacts, world);
+  giveEnvironment(contacts, world, planner);
+  warmUp(contacts);
+  std::vector<std::size_t> islands(contacts.islands.size());
+  std::iota(islands.begin(), islands.end(), std::size_t{0});
+  solveImpulses(contacts, islands, world, counters);
+  findTouched(contacts, world);
+  for (const int i : world.active.list())
+    if (world.bodies[at(i)].moves()) foreseeContacts(contacts, i, world.bodies[at(i)], planner);
+  setContactPaths(world, islands, counters, contacts);
+  remember(contacts, contacts.pair_rows, world);
   counters.contact_points = static_cast<int>(contacts.rows.size());
+}
+
+std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
+                                 LastingContacts& contacts) {
+  const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
+  Islands& joined = contacts.room.joined;
+  joined.part(static_cast<int>(world.bodies.size()));
+  const auto join = [&](int index) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    if (moves(pair.body_a) && moves(pair.body_b)) joined.join(pair.body_a, pair.body_b);
+  };
+  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) join(of_pair.pair);
+  for (const int pair : pairs) join(pair);
+  std::vector<int> islands;  // of the pairs
+  for (const int index : pairs) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    islands.push_back(joined.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  }
+  const int most = sweepsInBudget(contacts.rows.size()) / kVisitsOfAnEvent;
+  std::vector<int> crowded;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (std::count(islands.begin(), islands.end(), islands[k]) > most)
+      crowded.push_back(pairs[k]);
+    else
+      world.table.pairs()[at(pairs[k])].landing.reset();
+  }
+  return crowded;
+}
+
+std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& world,
+                               const FlightPlanner& planner, StepCounters& counters,
+                               LastingContacts& contacts) {
+  const std::vector<std::size_t> islands = addLandings(world, pairs, counters, contacts);
+  std::vector<int> bodies = contacts.bodiesOf(islands);
+  for (const int i : bodies) contacts.bodies[at(i)].stir = 0.0;
+  for (const std::size_t i : islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
+    const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+    const SolverReport report =
+        solveContacts(rows, contacts.bodies,
+                      {.sweeps = kLandingSweeps,
+                       .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                       .resumes = true,
+                       .crew = &world.crew});
+    takeBackGain(rows, contacts.bodies);
+    counters.row_visits += report.visits;
+  }
+  findTouched(contacts, world);
+  std::erase_if(bodies, [&](int i) { return !world.bodies[at(i)].moves(); });
+  for (const int i : bodies) {
+    Body& body = world.bodies[at(i)];
+    if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic)
+      planner.planStep(i, body);  // nothing presses it any more
+    foreseeContacts(contacts, i, body, planner);
+  }
+  setContactPaths(world, islands, counters, contacts);
+  for (const std::size_t i : islands) remember(contacts, contacts.pairsOf(contacts.islands[i]), world);
+  counters.landings += static_cast<int>(pairs.size());
+  counters.contact_points = static_cast<int>(contacts.rows.size());
+  return bodies;
 }
 
 }  // namespace carom

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "engine/foundation/contract.h"
 #include "engine/simulation/contact_rows.h"
@@ -70,6 +72,19 @@ double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, co
   return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
 }
 
+constexpr std::uint64_t kAddedWithinAStep = std::uint64_t{1} << 63;
+
+std::uint64_t rankOf(const IndexPair& shapes) {
+  return static_cast<std::uint64_t>(shapes.a) << 32 | static_cast<std::uint64_t>(shapes.b);
+}
+
+void scaleRemembered(ShapePair& pair, double factor) {
+  for (RememberedImpulse& remembered : pair.remembered) {
+    remembered.impulse_W *= factor;
+    remembered.torque_impulse_W *= factor;
+  }
+}
+
 // Room for the collision window, and for what contacts may do to the velocity within the step.
 double pairingMargin(const Shape& shape) {
   return 2.0 * tolerance::kManifoldHeight * std::min(shape.width_m, tolerance::kWindowLargestScale);
@@ -77,24 +92,28 @@ double pairingMargin(const Shape& shape) {
 
 }  // namespace
 
-void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, double end_s,
-                             Crew& crew) {
-  tree_.clear();
-  const bool first = proxies_.size() != shapes.size();
-  proxies_.resize(shapes.size());
-  starts_.resize(shapes.size());
-  crew.runStretches(shapes.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                             std::span<const int> active, double end_s, Crew& crew) {
+  if (proxies_.size() != shapes.size()) {
+    proxies_.resize(shapes.size());
+    starts_.resize(shapes.size());
+    of_body_.resize(bodies.size());
+    first_shape_.assign(bodies.size() + 1, 0);
+    for (const Shape& shape : shapes) ++first_shape_[at(shape.body) + 1];
+    std::partial_sum(first_shape_.begin(), first_shape_.end(), first_shape_.begin());
+  }
+  active_shapes_.clear();
+  for (const int body : active)
+    for (int i = first_shape_[at(body)]; i < first_shape_[at(body) + 1]; ++i) active_shapes_.push_back(i);
+  crew.runStretches(active_shapes_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = at(active_shapes_[k]);
       const Body& body = bodies[at(shapes[i].body)];
       proxies_[i].group = shapes[i].body;
-      const bool moves = body.moves();
-      if (first || moves || proxies_[i].moves) {
-        starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
-        const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
-        proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
-      }
-      proxies_[i].moves =
-          !body.is_static;  // resting bodies stay paired, so that their contacts are remembered
+      starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
+      const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
+      proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+      proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that contacts are remembered
     }
   });
 }
@@ -103,6 +122,7 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&
                               const std::vector<Shape>& shapes, const WorldSettings& settings) const {
   ShapePair pair;
   pair.shapes = shapes_of_pair;
+  pair.rank = rankOf(shapes_of_pair);
   const Shape& a = shapes[at(shapes_of_pair.a)];
   const Shape& b = shapes[at(shapes_of_pair.b)];
   pair.body_a = a.body;
@@ -113,34 +133,75 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>&
   return pair;
 }
 
-void PairTable::link(std::size_t pair) {
-  of_body_[at(pairs_[pair].body_a)].push_back(static_cast<int>(pair));
-  of_body_[at(pairs_[pair].body_b)].push_back(static_cast<int>(pair));
+// In its place among the pairs of its bodies; nobody asks for those of static ones.
+int PairTable::add(ShapePair pair, const std::vector<Body>& bodies) {
+  if (count() >= kMostPairs) throw TooManyPairs();
+  int place = static_cast<int>(pairs_.size());
+  if (free_.empty()) {
+    pairs_.push_back(std::move(pair));
+  } else {
+    place = free_.back();
+    free_.pop_back();
+    pairAt(place) = std::move(pair);
+  }
+  pairAt(place).active = true;
+  for (const int body : {pairAt(place).body_a, pairAt(place).body_b}) {
+    if (bodies[at(body)].is_static) continue;
+    std::vector<int>& known = of_body_[at(body)];
+    known.insert(
+        std::upper_bound(known.begin(), known.end(), place, [this](int p, int q) { return isBefore(p, q); }),
+        place);
+  }
+  return place;
+}
+
+void PairTable::remove(int place, const std::vector<Body>& bodies) {
+  ShapePair& pair = pairAt(place);
+  for (const int body : {pair.body_a, pair.body_b})
+    if (!bodies[at(body)].is_static) std::erase(of_body_[at(body)], place);
+  pair.remembered.clear();
+  pair.shapes = {};
+  pair.active = false;
+  free_.push_back(place);
+}
+
+// Pairs without an active body are kept, and looked at no more.
+void PairTable::restPairs(const std::vector<Body>& bodies) {
+  std::erase_if(active_, [&](int place) {
+    ShapePair& pair = pairAt(place);
+    if (bodies[at(pair.body_a)].active || bodies[at(pair.body_b)].active) return false;
+    pair.active = false;
+    pair.scale = scale_;
+    if (resting_gap_m_) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
+    return true;
+  });
+}
+
+// Pairs added within the last step have the places of their shapes from now on.
+void PairTable::takeInExtended(const std::vector<Body>& bodies) {
+  const auto before = [this](int p, int q) { return isBefore(p, q); };
+  for (const int place : extended_) pairAt(place).rank = rankOf(pairAt(place).shapes);
+  for (const int place : extended_)
+    for (const int body : {pairAt(place).body_a, pairAt(place).body_b})
+      if (!bodies[at(body)].is_static)
+        std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
+  extended_.clear();
+  if (!std::is_sorted(active_.begin(), active_.end(), before))
+    std::sort(active_.begin(), active_.end(), before);
 }
 
 void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                         const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
-  const std::vector<IndexPair> wanted = finder_.find(proxies_);
-  counters.candidate_pairs = static_cast<int>(wanted.size());
-  // In most steps of what has settled the pairs stay as they are, and they are large.
-  const auto is = [](const ShapePair& pair, const IndexPair& shapes_of_pair) {
-    return pair.shapes == shapes_of_pair;
-  };
-  if (std::equal(pairs_.begin(), pairs_.end(), wanted.begin(), wanted.end(), is)) {
-    for (ShapePair& pair : pairs_) pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
-    return;
-  }
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const ShapePair& p, const ShapePair& q) { return p.shapes < q.shapes; });
-  std::vector<ShapePair> fresh;
-  fresh.reserve(wanted.size());
-  auto old = pairs_.begin();
+  const std::vector<IndexPair>& wanted = finder_.find(proxies_, active_shapes_);
+  restPairs(bodies);
+  takeInExtended(bodies);
+  collected_.clear();
+  auto old = active_.begin();
   for (const IndexPair& shapes_of_pair : wanted) {
-    while (old != pairs_.end() && old->shapes < shapes_of_pair) ++old;
-    if (old != pairs_.end() && old->shapes == shapes_of_pair) {
-      fresh.push_back(std::move(*old));
-      fresh.back().collision_speed_mps = collisionSpeed(fresh.back(), bodies, settings);
-      ++old;
+    for (; old != active_.end() && pairAt(*old).shapes < shapes_of_pair; ++old) remove(*old, bodies);
+    if (old != active_.end() && pairAt(*old).shapes == shapes_of_pair) {
+      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, settings);
+      collected_.push_back(*old++);
       continue;
     }
     ShapePair pair = makePair(shapes_of_pair, bodies, shapes, settings);
@@ -150,20 +211,19 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
     ++counters.distance_queries;
     counters.iteration_limits += pair.closest.reached_limit;
-    fresh.push_back(pair);
+    collected_.push_back(add(std::move(pair), bodies));
   }
-  pairs_ = std::move(fresh);
-  of_body_.assign(bodies.size(), {});
-  for (std::size_t i = 0; i < pairs_.size(); ++i) link(i);
+  for (; old != active_.end(); ++old) remove(*old, bodies);
+  active_.swap(collected_);
+  counters.candidate_pairs = static_cast<int>(count());
+  counters.active_pairs = static_cast<int>(active_.size());
 }
 
 void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
                        const std::vector<Shape>& shapes, const WorldSettings& settings,
                        StepCounters& counters, PhaseClock* clock) {
-  const auto first = std::lower_bound(shapes.begin(), shapes.end(), body,
-                                      [](const Shape& shape, int b) { return shape.body < b; });
-  for (auto i = static_cast<std::size_t>(first - shapes.begin()); i < shapes.size(); ++i) {
-    if (shapes[i].body != body) break;
+  for (int shape = first_shape_[at(body)]; shape < first_shape_[at(body) + 1]; ++shape) {
+    const std::size_t i = at(shape);
     const Trajectory& path = bodies[at(body)].path;
     starts_[i] = boundsAt(*shapes[i].part, path.X_WB);
     const Bounds swept = sweptBounds(starts_[i], shapes[i], path, settings.step_s);
@@ -171,48 +231,76 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
     const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
     proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
-    const int shape = static_cast<int>(i);
-    if (!tree_.isBuilt()) tree_.build(proxies_);
-    tree_.grow(shape, onwards);
-    tree_.findPartners(proxies_, shape, partners_);
+    finder_.grow(shape, onwards);
+    finder_.findPartners(proxies_, shape, partners_);
     for (int partner : partners_) {
-      const int low = std::min(shape, partner);
-      const int high = std::max(shape, partner);
+      const IndexPair both{std::min(shape, partner), std::max(shape, partner)};
       const std::vector<int>& known = of_body_[at(body)];
-      if (std::any_of(known.begin(), known.end(), [&](int p) {
-            return pairs_[at(p)].shapes == IndexPair{low, high};
-          }))
-        continue;
-      if (pairs_.size() >= kMostPairs) throw TooManyPairs();
-      ShapePair pair = makePair({low, high}, bodies, shapes, settings);
+      if (std::any_of(known.begin(), known.end(), [&](int p) { return pairAt(p).shapes == both; })) continue;
+      ShapePair pair = makePair(both, bodies, shapes, settings);
+      pair.rank = kAddedWithinAStep + extended_.size();
       const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =
-          closestFeatures(*shapes[at(low)].part, bodies[at(pair.body_a)].path.at(time_s),
-                          *shapes[at(high)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
+          closestFeatures(*shapes[at(both.a)].part, bodies[at(pair.body_a)].path.at(time_s),
+                          *shapes[at(both.b)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
       ++counters.distance_queries;
-      pairs_.push_back(pair);
-      link(pairs_.size() - 1);
+      const int place = add(std::move(pair), bodies);
+      active_.push_back(place);
+      extended_.push_back(place);
       ++counters.candidate_pairs;
     }
   }
 }
 
+void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings) {
+  for (const int place : of_body_[at(body)]) {
+    ShapePair& pair = pairAt(place);
+    if (pair.active) continue;
+    if (resting_gap_m_ && pair.closest.distance_m <= *resting_gap_m_) resting_gap_m_.reset();
+    scaleRemembered(pair, impulseScale(pair));
+    pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
+    pair.active = true;
+    active_.push_back(place);
+  }
+}
+
+// Powers of two come to the same, whether one by one or together.
 void PairTable::scaleImpulses(double factor) {
-  for (ShapePair& pair : pairs_)
-    for (RememberedImpulse& remembered : pair.remembered) {
-      remembered.impulse_W *= factor;
-      remembered.torque_impulse_W *= factor;
-    }
+  for (const int place : active_) scaleRemembered(pairAt(place), factor);
+  scale_ *= factor;
+}
+
+double PairTable::smallestGap() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!resting_gap_m_) {
+    resting_gap_m_ = kInfinity;
+    for (const ShapePair& pair : pairs_)
+      if (!pair.isFree() && !pair.active) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
+  }
+  double smallest = *resting_gap_m_;
+  for (const int place : active_) smallest = std::min(smallest, pairAt(place).closest.distance_m);
+  return smallest;
+}
+
+std::vector<int> PairTable::all() const {
+  std::vector<int> places;
+  places.reserve(count());
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (!pairs_[i].isFree()) places.push_back(static_cast<int>(i));
+  std::sort(places.begin(), places.end(), [this](int p, int q) { return isBefore(p, q); });
+  return places;
 }
 
 bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                 double end_s, Crew& crew) const {
+                                 std::span<const int> active, double end_s, Crew& crew) const {
   std::atomic<bool> leave = false;
-  crew.runStretches(shapes.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && !leave; ++i) {
-      const Body& body = bodies[at(shapes[i].body)];
-      if (body.moves() && !proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], body.path, end_s)))
-        leave = true;
+  crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end && !leave; ++k) {
+      const std::size_t b = at(active[k]);
+      if (!bodies[b].moves()) continue;
+      for (std::size_t i = at(first_shape_[b]); i < at(first_shape_[b + 1]); ++i)
+        if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], bodies[b].path, end_s)))
+          leave = true;
     }
   });
   return leave;
@@ -220,10 +308,10 @@ bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vec
 
 void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
                         StepCounters& counters) {
-  crew.runStretches(pairs_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+  crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     int queries = 0, limits = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      ShapePair& pair = pairs_[i];
+      ShapePair& pair = pairAt(active_[i]);
       const Body& a = bodies[at(pair.body_a)];
       const Body& b = bodies[at(pair.body_b)];
       if (!a.moves() && !b.moves()) continue;

@@ -35,7 +35,8 @@ double roundingOf(const ShapePair& pair, const std::vector<Body>& bodies) {
 template <typename Depth>
 std::vector<Overlap> overlapsOf(const PairTable& table, const Depth& depthOf) {
   std::map<std::pair<int, int>, Overlap> deepest;
-  for (const ShapePair& pair : table.pairs()) {
+  for (const int place : table.active()) {
+    const ShapePair& pair = table.pairs()[at(place)];
     const double depth = depthOf(pair);
     if (!(depth >= 0.0)) continue;
     Overlap& overlap = deepest[{pair.body_a, pair.body_b}];
@@ -98,7 +99,8 @@ double wantedGap(const ShapePair& pair, const SharedGaps& shared) {
 // openings are exact.
 OpeningPairs openingPairs(const StartingBodies& start, const SharedGaps& shared) {
   OpeningPairs all;
-  for (const ShapePair& pair : start.table.pairs()) {
+  for (const int place : start.table.active()) {
+    const ShapePair& pair = start.table.pairs()[at(place)];
     const auto giving = [&](int body) { return start.bodies[at(body)].is_static ? -1 : body; };
     const PartingPlanes planes = partingPlanes(pair, start);
     const double wanted_m = wantedGap(pair, shared);
@@ -150,15 +152,15 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
     Body& body = start.bodies[i];
     body.path = Trajectory{.X_WB = body.X_WB, .velocity = displacements[i] / kEnd};
   }
-  if (!start.table.pathsLeaveBounds(start.bodies, start.shapes, kEnd, alone)) return false;
+  if (!start.table.pathsLeaveBounds(start.bodies, start.shapes, start.active, kEnd, alone)) return false;
   const auto shapesOfPairs = [&] {
     std::vector<IndexPair> shapes;
-    for (const ShapePair& pair : start.table.pairs()) shapes.push_back(pair.shapes);
+    for (const int place : start.table.active()) shapes.push_back(start.table.pairs()[at(place)].shapes);
     return shapes;
   };
   const std::vector<IndexPair> before = shapesOfPairs();
   StepCounters counters;
-  start.table.updateBounds(start.bodies, start.shapes, kEnd, alone);
+  start.table.updateBounds(start.bodies, start.shapes, start.active, kEnd, alone);
   start.table.collect(start.bodies, start.shapes, start.settings, counters, nullptr);
   const std::vector<IndexPair> now = shapesOfPairs();
   return !std::includes(before.begin(), before.end(), now.begin(), now.end());
@@ -186,8 +188,11 @@ std::vector<Overlap> overlapsAtStart(const StartingBodies& start) {
 }
 
 bool openTouching(const StartingBodies& start) {
-  const std::vector<ShapePair>& pairs = start.table.pairs();
-  const auto isShort = [](const ShapePair& pair) { return pair.closest.distance_m < shortGap(pair); };
+  const std::vector<int>& pairs = start.table.active();
+  const auto isShort = [&](int place) {
+    const ShapePair& pair = start.table.pairs()[at(place)];
+    return pair.closest.distance_m < shortGap(pair);
+  };
   if (std::none_of(pairs.begin(), pairs.end(), isShort)) return false;
   const std::vector<Vec3> displacements = displacementsOf(start);
   for (std::size_t i = 0; i < start.bodies.size(); ++i)

@@ -14,6 +14,7 @@ namespace carom {
 struct StartingBodies {
   std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
+  std::span<const int> active;  ///< All of them.
   PairTable& table;
   const WorldSettings& settings;
 };

@@ -6,12 +6,14 @@ namespace carom {
 
 void StepPaths::beginStep(std::size_t bodies, int substeps, double substep_s) {
   pieces_.resize(bodies);
-  for (std::vector<Piece>& pieces : pieces_) pieces.clear();
+  for (const std::size_t index : told_of_) pieces_[index].clear();
+  told_of_.clear();
   substeps_ = substeps;
   substep_s_ = substep_s;
 }
 
 void StepPaths::add(std::size_t index, const StepMotion& motion, double time_s) {
+  if (pieces_[index].empty()) told_of_.push_back(index);
   pieces_[index].push_back({substep_, time_s, motion});
 }
 

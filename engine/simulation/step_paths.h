@@ -29,6 +29,7 @@ class StepPaths {
     StepMotion motion;
   };
   std::vector<std::vector<Piece>> pieces_;  ///< By body, in their order.
+  std::vector<std::size_t> told_of_;        ///< Bodies with pieces.
   int substeps_ = 1;
   double substep_s_ = 0.0;
   int substep_ = 0;  ///< The present one.

@@ -24,7 +24,8 @@ void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& 
       if (remembered.id != point.id) continue;
       view.lasting.push_back({pair.body_a, pair.body_b, a.X_WB.inverse() * point.p_W,
                               b.X_WB.inverse() * point.p_W, point.n_W, point.gap_m,
-                              world.substeps * remembered.impulse_W, point.id, world.time_s});
+                              world.substeps * world.table.impulseScale(pair) * remembered.impulse_W,
+                              point.id, world.time_s});
     }
 }
 
@@ -43,7 +44,7 @@ void recordContacts(const RecordedWorld& world, const LastingContacts& contacts,
                             R_WB.conjugate() * (row.r_b + shift), row.n, source.gap_m,
                             world.substeps * rowImpulse(row, row.impulse), source.id, world.time_s});
   }
-  for (const ShapePair& pair : world.table.pairs()) recordResting(world, pair, view);
+  for (const int place : world.table.all()) recordResting(world, world.table.pairs()[at(place)], view);
 }
 
 void recordCollision(const std::vector<Body>& bodies, const ContactCluster& cluster, double time_s,
@@ -65,8 +66,10 @@ void recordCollision(const std::vector<Body>& bodies, const ContactCluster& clus
 
 void recordPairs(const RecordedWorld& world, StepView& view) {
   view.candidates.clear();
-  for (const ShapePair& pair : world.table.pairs())
+  for (const int place : world.table.all()) {
+    const ShapePair& pair = world.table.pairs()[at(place)];
     view.candidates.push_back({pair.body_a, pair.body_b, pair.closest.distance_m});
+  }
   std::stable_sort(view.candidates.begin(), view.candidates.end(),
                    [](const CandidateView& x, const CandidateView& y) {
                      return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/tolerances.h"
-#include "engine/modes/islands.h"
 #include "engine/modes/resting.h"
 #include "engine/modes/sliding.h"
 #include "engine/simulation/event_loop.h"
 #include "engine/simulation/flight_plan.h"
 #include "engine/simulation/lasting_contact.h"
 #include "engine/simulation/pair_table.h"
+#include "engine/simulation/resting_islands.h"
 #include "engine/simulation/start_poses.h"
 #include "engine/simulation/state_hash.h"
 #include "engine/simulation/step_paths.h"
@@ -87,12 +88,16 @@ struct World::Impl {
   std::vector<Solid> solids;
   std::vector<BodyDescription> descriptions;
   std::vector<Body> bodies;
+  ActiveBodies active;
   std::vector<Shape> shapes;
   std::vector<BodyState> states;
+  std::vector<double>
+      potential_J;  ///< Of each body as it was published, where there is neither air nor water.
   PairTable table;
   LastingContacts contacts;  ///< Of the last substep.
-  bool pairs_sleep = false;  ///< They were found when no body moved.
   FlightPlanner planner;
+  RestingIslands resting_islands;
+  EventMemory event_memory;
   Crew crew;
   StepCounters counters;
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
@@ -100,27 +105,40 @@ struct World::Impl {
   bool keeps_paths = false;
   int step_of_paths = 0;  ///< How many steps had been made when they were kept last; 0: never.
   int steps = 0;
+  int dynamic_bodies = 0;
   bool started = false;
 
+  LastingWorld lastingWorld() { return {bodies, shapes, table, active, substep, crew}; }
+  /// Calls work(index) for every active body, side by side.
+  template <typename Work>
+  void forActive(const Work& work) {
+    const std::span<const int> list = active.list();
+    crew.runStretches(list.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(at(list[k]));
+    });
+  }
   void makeShapes();
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
-  int substepsWanted() const;
+  bool hangsInAir(int body) const;
+  int substepsWanted();
   void divideStep(int count);
+  bool advance(PhaseClock* clock);
   void makeSubstep(double begin_s, PhaseClock* clock);
   void planFlight(PhaseClock* clock);
   void findPairs(PhaseClock* clock);
-  bool pathsLeaveBounds(PhaseClock* clock);
+  void meetFarther(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
-  void endPath(Body& body, const Pose& end) const;
+  void endPath(Body& body) const;
   void keepLastPieces();
-  void finishStep(const std::vector<Pose>& ends, PhaseClock* clock);
+  void finishStep(PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
   void dampSwings();
-  Islands joinPressing() const;
   void restIslands();
-  bool islandCanRest(const std::vector<int>& members);
   void publish();
+  double potentialOf(int body) const {
+    return bodies[at(body)].is_static ? 0.0 : planner.potential(body, bodies[at(body)]);
+  }
 };
 
 // Parts are referred to by address, so shapes are made once no solid is added any more.
@@ -134,53 +152,53 @@ void World::Impl::makeShapes() {
   }
 }
 
-// Every body starts the step as if it were in flight.
+// The motion of a body that does not move in the step.
+void lieStill(Body& body) {
+  static_cast<StepMotion&>(body) = {};
+  body.path.X_WB = body.X_WB;
+}
+
+// Every active body starts the step as if it were in flight.
 void World::Impl::planFlight(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kForces);
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Body& body = bodies[i];
-      body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-      body.momentum_velocity = body.velocity;
-      body.events = 0;
-      body.travel = body.moves() ? Travel::kBallistic : Travel::kStill;
-      body.acceleration.setZero();
-      body.torque.setZero();
-      body.solved_spin_B.setZero();
-      body.turning_B.setZero();
-      if (body.moves()) planner.plan(static_cast<int>(i), body);
-    }
+  forActive([&](std::size_t i) {
+    Body& body = bodies[i];
+    body.events = 0;
+    body.cleared = 0;
+    body.X_end = body.X_WB;
+    if (body.moves())
+      planner.planStep(static_cast<int>(i), body);
+    else
+      lieStill(body);
   });
 }
 
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  const bool sleeps = std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.moves(); });
-  if (sleeps && pairs_sleep) {
-    counters.candidate_pairs = static_cast<int>(table.pairs().size());
-    return;
-  }
-  pairs_sleep = sleeps;
-  table.updateBounds(bodies, shapes, substep.step_s, crew);
+  table.updateBounds(bodies, shapes, active.list(), substep.step_s, crew);
   table.collect(bodies, shapes, substep, counters, clock);
 }
 
-bool World::Impl::pathsLeaveBounds(PhaseClock* clock) {
+// Pairs that paths could meet which leave the bounds that bodies were paired by are added; the others keep
+// their places, which contact rows know them by.
+void World::Impl::meetFarther(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  return table.pathsLeaveBounds(bodies, shapes, substep.step_s, crew);
+  if (!table.pathsLeaveBounds(bodies, shapes, active.list(), substep.step_s, crew)) return;
+  for (const int i : active.list())
+    if (bodies[at(i)].moves()) table.extend(i, 0.0, bodies, shapes, substep, counters, clock);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kImpulses);
-  solveLastingContacts({bodies, shapes, table, substep, crew}, planner, counters, contacts);
+  solveLastingContacts(lastingWorld(), planner, counters, contacts);
 }
 
 // The body where its path ends.
-void World::Impl::endPath(Body& body, const Pose& end) const {
+void World::Impl::endPath(Body& body) const {
   const Vec3 spin_before = body.velocity.angular;
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
-  body.X_WB = end;
+  body.X_WB = body.X_end;
   body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
   if (!flew_freely || spin_before.isZero(0.0)) {
     body.kept_angular_momentum.reset();
@@ -193,35 +211,35 @@ void World::Impl::endPath(Body& body, const Pose& end) const {
 
 // How the bodies moved from their last events to the substep's end.
 void World::Impl::keepLastPieces() {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves()) paths.add(i, bodies[i], substep.step_s);
+  for (const int i : active.list())
+    if (bodies[at(i)].moves()) paths.add(at(i), bodies[at(i)], substep.step_s);
 }
 
 // The state at the step's end, and the closest features there.
-void World::Impl::finishStep(const std::vector<Pose>& ends, PhaseClock* clock) {
-  crew.runStretches(bodies.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (bodies[i].moves()) endPath(bodies[i], ends[i]);
-  });
-  for (const Body& body : bodies) {
+void World::Impl::finishStep(PhaseClock* clock) {
+  forActive([&](std::size_t i) {
+    if (!bodies[i].moves()) return;
+    endPath(bodies[i]);
+    const Body& body = bodies[i];
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
-  }
+  });
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }
 
 void World::Impl::accumulateStillness() {
-  for (Body& body : bodies) {
+  for (const int i : active.list()) {
+    Body& body = bodies[at(i)];
     if (!body.moves()) continue;
     body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + substep.step_s : 0.0;
   }
 }
 
 void World::Impl::dampSwings() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (!body.moves() || !contacts.touched[i] || body.collided) {
+  for (const int i : active.list()) {
+    Body& body = bodies[at(i)];
+    if (!body.moves() || !contacts.touched[at(i)] || body.collided) {
       body.swing.forget();
       continue;
     }
@@ -234,85 +252,13 @@ void World::Impl::dampSwings() {
   }
 }
 
-Islands World::Impl::joinPressing() const {
-  Islands islands(static_cast<int>(bodies.size()));
-  for (const ContactRow& row : contacts.rows)
-    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static)
-      islands.join(row.a, row.b);
-  return islands;
-}
-
-bool World::Impl::islandCanRest(const std::vector<int>& members) {
-  std::vector<int> local(bodies.size(), -1);
-  std::vector<ImpulseBody> island_bodies;
-  std::vector<double> radii;
-  std::vector<Velocity> pushes;
-  for (int m : members) {
-    if (planner.restless(bodies[at(m)])) return false;
-    local[at(m)] = static_cast<int>(island_bodies.size());
-    island_bodies.push_back(contacts.bodies[at(m)]);
-    radii.push_back(bodies[at(m)].radius_m);
-    if (!planner.isVacuum()) pushes.push_back(planner.pushAtRest(m, bodies[at(m)]));
-  }
-  // All supports that do not belong to the island are one body that cannot move.
-  const int ground = static_cast<int>(island_bodies.size());
-  island_bodies.push_back({});
-  radii.push_back(0.0);
-  if (!planner.isVacuum()) pushes.push_back({});
-  std::vector<ContactRow> rows;
-  std::vector<std::size_t> source_of;
-  std::vector<double> slack_m;
-  for (std::size_t i = 0; i < contacts.rows.size(); ++i) {
-    ContactRow row = contacts.rows[i];
-    const bool in_a = local[at(row.a)] >= 0;
-    const bool in_b = local[at(row.b)] >= 0;
-    if (!in_a && !in_b) continue;
-    if (!in_a) row.r_a += contacts.bodies[at(row.a)].center;
-    if (!in_b) row.r_b += contacts.bodies[at(row.b)].center;
-    row.a = in_a ? local[at(row.a)] : ground;
-    row.b = in_b ? local[at(row.b)] : ground;
-    rows.push_back(row);
-    source_of.push_back(i);
-    slack_m.push_back(contacts.sources[i].slack_m);
-  }
-  // What balances, or nearly so, is what the next step begins with, and what a resting island presses with.
-  std::vector<RowLoad> balance(rows.size());
-  const bool rests =
-      canRest({rows, island_bodies, radii, settings.gravity, substep.step_s, pushes, slack_m, balance});
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!balance[k].impulse.isZero(0.0))
-      correctLoad(contacts, source_of[k], balance[k], substep.step_s, table.pairs());
-  return rests;
-}
-
 void World::Impl::restIslands() {
-  const Islands islands = joinPressing();
-  std::vector<std::vector<int>> members(bodies.size());
-  std::vector<double> still(bodies.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].moves()) continue;
-    const auto island = at(islands.of(static_cast<int>(i)));
-    members[island].push_back(static_cast<int>(i));
-    still[island] = std::min(still[island], bodies[i].still_s);
-  }
-  for (std::size_t island = 0; island < bodies.size(); ++island) {
-    if (members[island].empty() || still[island] < tolerance::kRestTime) continue;
-    const bool rests = islandCanRest(members[island]);
-    for (int m : members[island]) {
-      Body& body = bodies[at(m)];
-      if (!rests) {
-        body.still_s = 0.0;  // ask again after it has lain still as long once more
-        continue;
-      }
-      body.resting = true;
-      body.rest_island = static_cast<int>(island);
-      body.velocity = {};
-    }
-  }
+  resting_islands.rest({bodies, table, planner, substep, contacts, crew}, active.list(), counters);
 }
 
 void World::Impl::updateModes() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (const int active_body : active.list()) {
+    const std::size_t i = at(active_body);
     Body& body = bodies[i];
     body.supported = !body.moves() || contacts.touched[i];
     if (body.is_static)
@@ -339,22 +285,35 @@ void World::Impl::updateModes() {
 void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock) {
   substep.step_s = length_s;
   planner.beginStep(begin_s, length_s);
+  for (const int place : table.active()) table.pairs()[at(place)].landing.reset();
   planFlight(clock);
   findPairs(clock);
 }
 
+// At its apex a body in flight is as slow as one that lies.
+bool World::Impl::hangsInAir(int body) const {
+  if (bodies[at(body)].supported) return false;
+  const std::vector<int>& places = table.pairsOf(body);
+  return std::none_of(places.begin(), places.end(), [&](int place) {
+    const ShapePair& pair = table.pairs()[at(place)];
+    return pair.closest.distance_m <= pair.window.ceiling;
+  });
+}
+
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
 // is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
-int World::Impl::substepsWanted() const {
+int World::Impl::substepsWanted() {
   int wanted = 1;
   while (wanted < tolerance::kMostSubsteps &&
          settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
     wanted *= 2;
-  const bool stirred =
-      std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.liesStill(); });
+  const std::span<const int> list = active.list();
+  const bool stirred = std::any_of(list.begin(), list.end(),
+                                   [&](int i) { return !bodies[at(i)].liesStill() || hangsInAir(i); });
   if (wanted == 1 || !stirred) return 1;
   int awake = 0;
-  for (const ShapePair& pair : table.pairs()) {
+  for (const int place : table.active()) {
+    const ShapePair& pair = table.pairs()[at(place)];
     awake += bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
     if (2 * awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
   }
@@ -369,22 +328,31 @@ void World::Impl::divideStep(int count) {
   counters.substeps = count;
 }
 
-void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
-  // Impulses of lasting contact; what they press awake takes part in them.
-  solveContacts(clock);
-  while (wakePressed(bodies, contacts)) {  // each time an island fewer rests
-    planFlight(clock);
-    solveContacts(clock);
-  }
-  if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
-  if (pathsLeaveBounds(clock)) findPairs(clock);
-
-  // Advance from one time of impact to the next.
+// Not when what rested has been woken: then the step must be planned anew.
+bool World::Impl::advance(PhaseClock* clock) {
+  if (wakePressed(lastingWorld(), contacts)) return false;  // each time an island fewer rests
+  meetFarther(clock);
+  const auto solve_landings = [&](std::span<const int> pairs) -> std::optional<std::vector<int>> {
+    const PhaseScope phase(clock, StepPhase::kImpulses);
+    const std::vector<int> crowded = crowdedLandings(pairs, lastingWorld(), contacts);
+    if (crowded.empty()) return crowded;
+    std::vector<int> moved = solveLandings(crowded, lastingWorld(), planner, counters, contacts);
+    if (wakePressed(lastingWorld(), contacts)) return std::nullopt;
+    return moved;
+  };
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  const std::vector<Pose> ends =
-      runEvents(bodies, shapes, table, planner, substep, crew, counters, clock, watchers);
+  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory,
+                   std::ref(solve_landings));  // so that it allocates nothing
+}
+
+void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
+  if (view != nullptr) view->begin_s = begin_s;
+  // Impulses of lasting contact; what they press awake takes part in them. Then advance from one time of
+  // impact to the next.
+  for (solveContacts(clock); !advance(clock); solveContacts(clock)) planFlight(clock);
+  if (view != nullptr) recordContacts({bodies, shapes, table, begin_s, substeps}, contacts, *view);
   if (keeps_paths) keepLastPieces();
-  finishStep(ends, clock);
+  finishStep(clock);
 
   // Modes.
   const PhaseScope phase(clock, StepPhase::kModes);
@@ -396,8 +364,12 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   updateModes();
 }
 
+// What is not active stays as it was published.
 void World::Impl::publish() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) states[i] = stateOf(bodies[i]);
+  for (const int i : active.list()) {
+    states[at(i)] = stateOf(bodies[at(i)]);
+    if (planner.isVacuum()) potential_J[at(i)] = potentialOf(i);
+  }
 }
 
 World::World(const WorldSettings& settings) : impl_(std::make_unique<Impl>()) {
@@ -436,7 +408,11 @@ int World::addBody(const BodyDescription& description) {
   impl_->bodies.push_back(body);
   impl_->descriptions.push_back(description);
   impl_->states.push_back(stateOf(body));
-  return static_cast<int>(impl_->bodies.size()) - 1;
+  const int index = static_cast<int>(impl_->bodies.size()) - 1;
+  impl_->potential_J.push_back(impl_->potentialOf(index));
+  impl_->active.add(index);
+  impl_->dynamic_bodies += !body.is_static;
+  return index;
 }
 
 std::vector<Overlap> World::start() {
@@ -449,7 +425,7 @@ std::vector<Overlap> World::start() {
   w.planner.begin(w.solids, std::move(solid_of));
   w.planFlight(nullptr);
   w.findPairs(nullptr);
-  const StartingBodies start{w.bodies, w.shapes, w.table, w.settings};
+  const StartingBodies start{w.bodies, w.shapes, w.active.list(), w.table, w.settings};
   std::vector<Overlap> overlaps = overlapsAtStart(start);
   if (overlaps.empty() && openTouching(start)) {
     w.planFlight(nullptr);
@@ -465,7 +441,9 @@ void World::step(PhaseClock* clock) {
   Impl& w = *impl_;
   REQUIRE(w.started);
   w.counters = {};
-  for (Body& body : w.bodies) body.collided = false;
+  w.active.beginStep(w.bodies);
+  w.counters.active_bodies = static_cast<int>(w.active.list().size());
+  for (const int i : w.active.list()) w.bodies[at(i)].collided = false;
   w.planSubstep(time(), w.settings.step_s, clock);
   w.divideStep(w.substepsWanted());
   const double length_s = w.settings.step_s / w.substeps;
@@ -532,20 +510,20 @@ Audit World::audit() const {
   Audit audit;
   audit.time_s = time();
   audit.last_step = w.counters;
-  audit.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (const ShapePair& pair : w.table.pairs())
-    audit.smallest_gap_m = std::min(audit.smallest_gap_m, pair.closest.distance_m);
-  for (std::size_t i = 0; i < w.bodies.size(); ++i) {
-    const Body& body = w.bodies[i];
+  audit.smallest_gap_m = w.table.smallestGap();
+  audit.resting_bodies = w.dynamic_bodies;
+  for (const int i : w.active.list()) {  // the others have neither energy of motion nor momentum
+    const Body& body = w.bodies[at(i)];
     if (body.is_static) continue;
     const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;
     audit.kinetic_energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
-    audit.potential_energy_J += w.planner.potential(static_cast<int>(i), body);
     audit.linear_momentum += momentum;
     audit.angular_momentum += body.X_WB.position.cross(momentum) +
                               angularMomentum(body.inertia, body.X_WB.rotation, body.velocity.angular);
-    audit.resting_bodies += body.resting;
+    audit.resting_bodies -= !body.resting;
   }
+  for (std::size_t i = 0; i < w.bodies.size(); ++i)
+    audit.potential_energy_J += w.planner.isVacuum() ? w.potential_J[i] : w.potentialOf(static_cast<int>(i));
   return audit;
 }
 

@@ -85,9 +85,15 @@ struct StepCounters {
   int contact_points = 0;
   int events = 0;            ///< Times at which impulses acted between steps, ...
   int impacts = 0;           ///< ... of these, roots: fast approaches that came into the window.
+  int landings = 0;          ///< Pairs without restitution that were foreseen to come down, and held in time.
+  int cleared_paths = 0;     ///< Times that two paths were led apart, without impulses.
+  long row_visits = 0;       ///< Contact rows looked at by the solvers.
   int newton_steps = 0;      ///< Of the searches for times of impact.
   int stopped_bodies = 0;    ///< Held at their last safe time because an event budget was reached.
   int iteration_limits = 0;  ///< Closest-feature walks that reached their bound.
+  int active_bodies = 0;     ///< Bodies and pairs that the step looked at: those of what moves, ...
+  int active_pairs = 0;      ///< ... and of what came to rest in the step before.
+  int rest_test_rows = 0;    ///< Rows that were looked at to tell whether islands come to rest.
   int substeps = 1;  ///< The step was made in so many equal parts: sums are over all of them, pairs and
                      ///< points those of the last.
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "engine/foundation/contract.h"
 
@@ -38,11 +39,20 @@ double widthOf(const std::vector<ConvexPart>& parts) {
 
 }  // namespace
 
-Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
+Solid::Solid(std::vector<ConvexPart> parts) : Solid(std::move(parts), BoundingSurface{}) {}
+
+Solid::Solid(std::vector<ConvexPart> parts, BoundingSurface surface)
+    : parts_(std::move(parts)), surface_(std::move(surface)) {
   if (parts_.empty()) throw InputError("a solid needs at least one part");
-  mass_ = partMass(parts_[0]);
-  for (std::size_t i = 1; i < parts_.size(); ++i)
-    mass_ = MassProperties::combined(mass_, partMass(parts_[i]));
+  REQUIRE(!hasSurface() || surface_.of_part.size() == parts_.size(), surface_.of_part.size(), parts_.size());
+  std::optional<MassProperties> mass;
+  const auto include = [&](const MassProperties& more) {
+    mass = mass ? MassProperties::combined(*mass, more) : more;
+  };
+  if (hasSurface()) include(surfaceMass(surface_.mesh));
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (!isPiece(i)) include(partMass(parts_[i]));
+  mass_ = *mass;
   if (!(mass_.mass > 0.0) || !mass_.inertia.allFinite())
     throw InputError("a solid needs a positive finite volume");
   origin_B_ = -mass_.center;
@@ -50,6 +60,7 @@ Solid::Solid(std::vector<ConvexPart> parts) : parts_(std::move(parts)) {
     part.core = part.core.translated(origin_B_);
     radius_m_ = std::max(radius_m_, part.core.radiusAbout(Vec3::Zero()) + part.radius_m);
   }
+  for (Vec3& p : surface_.mesh.vertices) p += origin_B_;
   mass_.center = Vec3::Zero();
   width_m_ = widthOf(parts_);
 }

@@ -9,6 +9,7 @@
 
 #include "engine/solid/convex_polyhedron.h"
 #include "engine/solid/mass_properties.h"
+#include "engine/solid/surface_mesh.h"
 
 namespace carom {
 
@@ -21,12 +22,23 @@ struct ConvexPart {
   double width() const { return core.width() + 2.0 * radius_m; }
 };
 
+/// The surface that some parts of a solid are the pieces of: what is drawn in their place, and what their
+/// mass is that of.
+struct BoundingSurface {
+  SurfaceMesh mesh;
+  std::vector<Vec3> normals;  ///< Of each corner of each triangle, unit; or none: the triangles' own.
+  std::vector<Vec3> colors;   ///< Of each triangle, red, green, blue of 0 to 1; or none.
+  std::vector<char> of_part;  ///< Of each part of the solid: whether it is a piece of this.
+};
+
 class Solid {
  public:
   /// Builds a solid from parts given in one common frame, and moves it so that its centre of mass is the
   /// origin. A part is a polyhedron with or without rounding, a point with a radius, or a segment with a
   /// radius. Throws InputError when there is no part or the volume is not positive.
   explicit Solid(std::vector<ConvexPart> parts);
+  /// The same with a surface, in the parts' frame, around some of them.
+  Solid(std::vector<ConvexPart> parts, BoundingSurface surface);
 
   static Solid box(const Vec3& size_m);
   /// `size_m` is the outer size, with the rounding. A radius of half of all three sizes makes a ball, of two
@@ -38,6 +50,10 @@ class Solid {
   static Solid polyhedron(ConvexPolyhedron p);
 
   const std::vector<ConvexPart>& parts() const { return parts_; }
+  /// In frame B; empty, without triangles, where the parts' own surfaces are the solid's.
+  const BoundingSurface& surface() const { return surface_; }
+  bool hasSurface() const { return !surface_.mesh.triangles.empty(); }
+  bool isPiece(std::size_t part) const { return hasSurface() && surface_.of_part[part] != 0; }
   /// For unit density, about the origin of B (the centre of mass).
   double volume() const { return mass_.mass; }
   const Mat3& unitInertia() const { return mass_.inertia; }
@@ -51,6 +67,7 @@ class Solid {
 
  private:
   std::vector<ConvexPart> parts_;
+  BoundingSurface surface_;
   MassProperties mass_;
   Vec3 origin_B_ = Vec3::Zero();
   double radius_m_ = 0.0;

@@ -32,15 +32,14 @@ struct Library {
 };
 
 inline const std::vector<Library>& guardedLibraries() {
-  static const std::vector<Library> libraries{
-      {"OSMesa", "GL/osmesa", {"renderer/osmesa_context.cpp"}},
-      {"EGL", "EGL/", {"renderer/egl_context.cpp"}},
-      {"ISA-L", "isa-l", {"renderer/quick_deflate.cpp"}},
-      {"libpng", "png", {"renderer/png.cpp"}},
-      {"Cairo", "cairo", {"renderer/canvas.cpp"}},
-      {"assimp", "assimp/", {"demos/mesh_import.cpp"}},
-      {"tinygltf", "tiny_gltf.h", {"demos/motion_gltf.cpp"}},
-      {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
+  static const std::vector<Library> libraries{{"GL", "GL/", {"renderer/gl_functions.h"}},
+                                              {"EGL", "EGL/", {"renderer/egl_context.cpp"}},
+                                              {"ISA-L", "isa-l", {"renderer/quick_deflate.cpp"}},
+                                              {"libpng", "png", {"renderer/png.cpp"}},
+                                              {"Cairo", "cairo", {"renderer/canvas.cpp"}},
+                                              {"assimp", "assimp/", {"demos/mesh_import.cpp"}},
+                                              {"tinygltf", "tiny_gltf.h", {"demos/motion_gltf.cpp"}},
+                                              {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
   return libraries;
 }
 

@@ -1,5 +1,5 @@
-// Bullet's step of a heap: its discrete world with default settings, one step a call, nothing deactivated.
-// Only the bullet_*.cpp of this folder name Bullet.
+// Bullet's step of a heap: its discrete world with default settings, one step a call, nothing deactivated
+// unless the heap sleeps. Only the bullet_*.cpp of this folder name Bullet.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -59,7 +59,9 @@ class BulletHeap {
                     btVector3(narrowed(p[0]), narrowed(p[1]), narrowed(p[2])));
     info.m_friction = narrowed(std::sqrt(pile.friction));  // Bullet multiplies the two
     bodies_.push_back(std::make_unique<btRigidBody>(info));
-    bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
+    const auto& v = body.velocity;
+    bodies_.back()->setLinearVelocity(btVector3(narrowed(v[0]), narrowed(v[1]), narrowed(v[2])));
+    if (!pile.sleeps) bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(bodies_.back().get());
   }
 

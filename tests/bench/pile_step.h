@@ -20,6 +20,7 @@ struct PlainBody {
   int solid = 0;
   PlainPose X_WB;
   bool is_static = false;
+  std::array<double, 3> velocity{};  ///< m/s.
 };
 
 struct PlainSolid {
@@ -35,14 +36,15 @@ struct PlainPile {
   double friction = 0.0;
   double step_s = 1.0 / 60.0;
   double gravity = 9.81;  ///< Along -z.
+  bool sleeps = false;    ///< What lies still is put to sleep; then all steps are timed, from the first.
 };
 
 inline constexpr double kSettling_s = 8.0;
 
-/// Milliseconds of each of `steps` calls, after as many as the heap has to settle again.
+/// Milliseconds of each of `steps` calls, after as many as the heap has to settle again unless it sleeps.
 template <typename Step>
 std::vector<double> settledSteps(const PlainPile& pile, int steps, const Step& step) {
-  for (double t = 0.0; t < kSettling_s; t += pile.step_s) step();
+  for (double t = 0.0; t < kSettling_s && !pile.sleeps; t += pile.step_s) step();
   std::vector<double> ms;
   for (int i = 0; i < steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();

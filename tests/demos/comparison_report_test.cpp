@@ -83,7 +83,8 @@ TEST_F(Report, ListsThePairsWorstFirstWithTheirImages) {
 
 TEST_F(Report, NeedsNothingFromOutside) {
   add("f.png", flatRaster(6, 5, 0), flatRaster(6, 5, 50));
-  const std::string html = page();
+  // The name of SVG's elements looks like an address, and nobody asks for it.
+  const std::string html = std::regex_replace(page(), std::regex("\"http://www.w3.org/2000/svg\""), "");
   EXPECT_FALSE(std::regex_search(html, std::regex("https?://|src=\"|href=|@import|url\\(|//cdn")));
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
   EXPECT_NE(html.find("prefers-color-scheme: dark"), std::string::npos);

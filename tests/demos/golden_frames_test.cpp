@@ -152,7 +152,8 @@ std::vector<fs::path> goldenFiles() {
 }
 
 /// A copy of a golden frame in a folder of its own, with the fifth row of pixels white, and another `State`
-/// where one is given; what `carom compare` says of it.
+/// where one is given, unsigned: else it would be a file that was changed after it was drawn; what `carom
+/// compare` says of it.
 ProgramEnd comparedWithChanged(const TemporaryFolder& folder, const fs::path& golden,
                                const std::string& state) {
   renderer::DecodedRaster frame = renderer::readPngRaster(golden);
@@ -160,7 +161,6 @@ ProgramEnd comparedWithChanged(const TemporaryFolder& folder, const fs::path& go
   std::fill_n(frame.raster.samples.begin() + static_cast<std::ptrdiff_t>(5 * row), row, std::uint16_t{255});
   for (auto& [key, value] : frame.text)
     if (key == "State" && !state.empty()) value = state;
-  // What is drawn otherwise is signed otherwise; here, not at all.
   std::erase_if(frame.text, [](const auto& entry) { return entry.first == "Pixels"; });
   writePng(folder.path() / "actual/frame_0001.png", frame.raster, frame.text);
   fs::create_directory(folder.path() / "golden");

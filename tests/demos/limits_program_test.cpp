@@ -1,5 +1,5 @@
-// The program under limits of memory and of processes: every command does its work, or ends with one line
-// and 4.
+// The program under limits of memory, of processes and of descriptors: every command does its work, or ends
+// with one line and 4.
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -63,6 +63,21 @@ TEST(Limits, WithTooLittleMemoryEveryCommandEndsWith4AndOneLine) {
   EXPECT_GT(refused, 0);
 }
 #endif
+
+// The first of them are what the shell has open.
+TEST(Limits, WithTooFewDescriptorsEveryCommandEndsWith4AndOneLine) {
+  const TemporaryFolder folder;
+  int refused = 0;
+  for (const auto& [name, command] : commands())
+    for (int count = 4; count <= 16; ++count) {
+      SCOPED_TRACE(name + " with " + std::to_string(count));
+      const ProgramEnd end = endUnder(folder, "ulimit -n " + std::to_string(count), command);
+      if (end.code == 127) continue;  // too few for the loader
+      expectDoneOrOneLine(end);
+      refused += end.code != 0;
+    }
+  EXPECT_GT(refused, 0);
+}
 
 // Root has no such limit, and runs it as nobody. Mesa waits for ever for threads that it did not get.
 TEST(Limits, WithoutAnotherProcessEveryCommandDoesItsWorkOrEndsWith4AndOneLine) {

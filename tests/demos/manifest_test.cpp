@@ -21,6 +21,8 @@ TEST(Manifest, HoldsTheIdentityOfTheRunAndOfEachFrame) {
   manifest.fps = 24.0;
   manifest.steps_per_second = 240.0;
   manifest.gl.version = "4.5 Mesa";
+  manifest.gl.backend = renderer::GlBackend::kEgl;
+  manifest.gl.reason = "there is no OSMesa";
   manifest.frames_planned = 2;
   FrameRecord record;
   record.frame = 1;
@@ -38,6 +40,8 @@ TEST(Manifest, HoldsTheIdentityOfTheRunAndOfEachFrame) {
   EXPECT_EQ(json.at("command").asString(), "carom render resting");
   EXPECT_EQ(json.at("sceneHash").asString(), "0000000000000abc");
   EXPECT_EQ(json.at("gl").at("version").asString(), "4.5 Mesa");
+  EXPECT_EQ(json.at("gl").at("context").asString(), "egl");
+  EXPECT_EQ(json.at("gl").at("reason").asString(), "there is no OSMesa");
   EXPECT_FALSE(json.at("complete").asBoolean());  // one frame of two
   EXPECT_FALSE(json.at("version").asString().empty());
   EXPECT_FALSE(json.at("build").asString().empty());

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
-#include "demos/shape_solid.h"
+#include "demos/mesh_solid.h"
 #include "engine/foundation/contract.h"
 #include "temporary_folder.h"
 #include "thrown_message.h"
@@ -58,9 +58,9 @@ std::filesystem::path shipped(const std::string& name) {
 class ShippedMeshes : public testing::TestWithParam<ShippedMesh> {};
 
 TEST_P(ShippedMeshes, HaveTheVolumeOfTheirClosedForm) {
-  MeshSolid mesh = meshParts(shipped(GetParam().file), 1.0, std::nullopt);
+  MeshSolid mesh = meshSolid(shipped(GetParam().file));
   EXPECT_EQ(static_cast<int>(mesh.parts.size()), GetParam().parts);
-  EXPECT_EQ(mesh.flat_parts, 0);
+  EXPECT_EQ(mesh.report.left_out, 0);
   // Files and importer hold coordinates in single precision: 6e-8 each, three of them in a volume, and half
   // as much again for the difference of sizes.
   EXPECT_NEAR(Solid(std::move(mesh.parts)).volume() / GetParam().volume, 1.0, 1e-6);
@@ -86,7 +86,7 @@ TEST(MeshImport, SinglePrecisionLeavesFacesWhole) {
                                                {"icosahedron.off", 20},
                                                {"pyramid.stl", 5}};
   for (const auto& [file, count] : faces)
-    EXPECT_EQ(meshParts(shipped(file), 1.0, std::nullopt).parts[0].core.faceCount(), count) << file;
+    EXPECT_EQ(meshSolid(shipped(file)).parts[0].core.faceCount(), count) << file;
 }
 
 TEST(MeshImport, AppliesTheTransformsOfNodes) {
@@ -94,7 +94,7 @@ TEST(MeshImport, AppliesTheTransformsOfNodes) {
   ASSERT_EQ(mesh.parts.size(), 3u);
   double low = 0.0, high = 0.0;
   for (const auto& part : mesh.parts)
-    for (const Vec3& p : part) {
+    for (const Vec3& p : part.vertices) {
       low = std::min(low, p.z());
       high = std::max(high, p.z());
     }
@@ -104,7 +104,7 @@ TEST(MeshImport, AppliesTheTransformsOfNodes) {
 }
 
 TEST(MeshImport, FitsTheLongestSideAndCentres) {
-  const std::vector<ConvexPart> parts = meshParts(shipped("hammer.obj"), 1.0, 0.3).parts;
+  const std::vector<ConvexPart> parts = meshSolid(shipped("hammer.obj"), {.fit_m = 0.3}).parts;
   Eigen::AlignedBox3d bounds;
   for (const ConvexPart& part : parts)
     for (const Vec3& p : part.core.vertices()) bounds.extend(p);
@@ -113,7 +113,7 @@ TEST(MeshImport, FitsTheLongestSideAndCentres) {
 }
 
 std::string refusal(const std::filesystem::path& path) {
-  const std::string message = thrownMessage<InputError>([&path] { meshParts(path, 1.0, std::nullopt); });
+  const std::string message = thrownMessage<InputError>([&path] { meshSolid(path); });
   EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0u) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   return message.substr(std::min(message.size(), path.string().size() + 2));
@@ -127,7 +127,7 @@ TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
   EXPECT_EQ(refusal(folder.file("empty.obj", "")).rfind("cannot be read as a mesh: ", 0), 0u);
   EXPECT_EQ(refusal(folder.file("cut.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")),
             "cannot be read as a mesh: the PLY header has no end_header");
-  EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("flat"),
+  EXPECT_NE(refusal(folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n")).find("open"),
             std::string::npos);
   std::string stl = readTextFile(shipped("pyramid.stl"));
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -162,14 +162,14 @@ TEST(MeshImport, ASmallFileThatClaimsToBeLargeTakesNeitherMemoryNorTime) {
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
 }
 
-TEST(MeshImport, LeavesOutFlatMeshesBesideSolidOnes) {
+TEST(MeshImport, OfHullsLeavesOutFlatMeshesBesideSolidOnes) {
   const TemporaryFolder folder;
   const auto path =
       folder.file("decal.obj",
                   "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
                   "o decal\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 5 6 7\n");
-  MeshSolid mesh = meshParts(path, 1.0, std::nullopt);
-  EXPECT_EQ(mesh.flat_parts, 1);
+  MeshSolid mesh = meshSolid(path, {.as_hull = true});
+  EXPECT_EQ(mesh.report.left_out, 1);
   EXPECT_NEAR(Solid(std::move(mesh.parts)).volume(), 1.0 / 6.0, 1e-12);
 }
 

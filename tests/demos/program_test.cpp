@@ -303,7 +303,7 @@ TEST(Program, ListNamesEveryShippedScene) {
             shippedScenes().size());
 }
 
-TEST(Program, CheckSaysInOneLineWhatASceneOrMeshHolds) {
+TEST(Program, CheckSaysInALineWhatASceneHoldsAndInOneWhatAMeshBecame) {
   const ProgramEnd mesh = runCarom({"check", std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj"});
   EXPECT_EQ(mesh.code, 0);
   EXPECT_NE(mesh.out.find(": ok  2 parts  16 vertices  12 faces  volume 0.08652"), std::string::npos)
@@ -311,7 +311,12 @@ TEST(Program, CheckSaysInOneLineWhatASceneOrMeshHolds) {
   const ProgramEnd scene =
       runCarom({"check", "drop-mesh", "--mesh", std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj"});
   EXPECT_EQ(scene.code, 0) << scene.err;
-  EXPECT_EQ(std::count(scene.out.begin(), scene.out.end(), '\n'), 1);
+  EXPECT_EQ(std::count(scene.out.begin(), scene.out.end(), '\n'), 2);
+  EXPECT_NE(scene.out.find("  \"mesh\": hammer.obj: 2 surfaces in 2 convex pieces of "), std::string::npos)
+      << scene.out;
+  const ProgramEnd hull = runCarom({"check", "drop-mesh", "--mesh",
+                                    std::string(CAROM_SOURCE_DIR) + "/assets/meshes/hammer.obj", "--hull"});
+  EXPECT_NE(hull.out.find("hammer.obj: the convex hulls of 2 meshes of "), std::string::npos) << hull.out;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::string cameraScene(const std::string& camera) {
   return "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
          " } ],\n \"cameras\": { \"main\": " + camera + " } }";
 }
-const char kOneOfShapes[] = "accepted: exactly one of box, sphere, capsule, hull, compound";
+const char kOneOfShapes[] = "accepted: exactly one of box, sphere, capsule, hull, mesh, compound";
 
 const Refusal kRefusals[] = {
     {"MisspeltTopKey", "{ \"format\": 1, \"boddies\": [] }",
@@ -46,7 +46,7 @@ const Refusal kRefusals[] = {
      "materials, air, fluids, bodies, cameras, duration"},
     {"MisspeltShape", bodyScene("\"shape\": { \"bx\": [1, 1, 1] }"),
      ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, "
-     "hull, compound"},
+     "hull, mesh, compound"},
     {"MisspeltMaterial",
      "{ \"format\": 1, \"materials\": { \"wood\": {} },\n \"bodies\": [ { \"name\": \"a\", \"material\": "
      "\"wod\", " +
@@ -87,7 +87,7 @@ const Refusal kRefusals[] = {
      ":3: bodies[0].shape.hull.fit: given together with \"scale\"; accepted: one of them"},
     {"NestedCompound", bodyScene("\"shape\": { \"compound\": [ { \"shape\": { \"compound\": [] } } ] }"),
      ":3: bodies[0].shape.compound[0].shape.compound: a compound cannot hold a compound; accepted: box, "
-     "sphere, capsule, hull"},
+     "sphere, capsule, hull, mesh"},
     {"ZeroMass", bodyScene(kBox + ", \"material\": { \"density\": 0 }"),
      ":3: bodies[0].material: density 0 for a body that moves; accepted: 1e-06 to 1e+06"},
     {"NegativeDensity", bodyScene(kBox + ", \"material\": { \"density\": -1 }"),

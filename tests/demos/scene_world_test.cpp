@@ -148,7 +148,7 @@ TEST(SceneWorld, TakesAMeshOnlyWhereOneCanBeReplaced) {
   const Scene scene = parseScene(
       "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"shape\": { \"box\": [1, 1, 1] } } ] }", "s.json");
   EXPECT_EQ(thrownMessage<InputError>([&] { makeSceneWorld(scene, "x.obj"); }),
-            "s.json: takes no --mesh: no hull in it says \"replaceable\": true");
+            "s.json: takes no --mesh: no mesh in it says \"replaceable\": true");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Options {
   int shrink = 1;  ///< Failures of each kind and family.
   int trials = 150;
   Limits limits;
-  std::filesystem::path open, cases, scene, out = "build/explored";
+  std::filesystem::path open, cases, scene, write, out = "build/explored";
 };
 
 struct Failure {
@@ -263,6 +263,14 @@ class Explorer {
   SeedReport longest_, most_events_, most_queries_;
 };
 
+int writeScenes(const Options& options) {
+  std::filesystem::create_directories(options.write);
+  for (std::uint64_t seed = options.from; seed < options.from + options.seeds; ++seed)
+    std::ofstream(options.write / ("seed-" + std::to_string(seed) + ".json"))
+        << sceneText(randomWorld(seed).scene);
+  return 0;
+}
+
 int runExplorer(int argc, char** argv) {
   Options options;
   CLI::App app{"Random worlds and closest-feature queries, held against oracles."};
@@ -277,7 +285,9 @@ int runExplorer(int argc, char** argv) {
   app.add_option("--open", options.open, "list of known failures");
   app.add_option("--cases", options.cases, "folder of scenes that are run first");
   app.add_option("--out", options.out, "folder for shrunken scenes");
+  app.add_option("--write", options.write, "a folder for the seeds' scenes, which are not run");
   CLI11_PARSE(app, argc, argv);
+  if (!options.write.empty()) return writeScenes(options);
   Explorer explorer(options);
   if (!options.scene.empty()) return explorer.repeatScene();
   return options.one ? explorer.repeatSeed() : explorer.exploreSeeds();

@@ -29,8 +29,8 @@ void readRecording(const fs::path& file) {
 }
 
 void readMesh(const fs::path& file) {
-  demos::MeshSolid mesh = demos::meshParts(file, 1.0, std::nullopt);
-  const Solid solid(std::move(mesh.parts));
+  demos::MeshSolid mesh = demos::meshSolid(file);
+  const Solid solid(std::move(mesh.parts), std::move(mesh.surface));
   demos::meshHull(file);
 }
 

@@ -21,7 +21,7 @@ struct Stage {
   void add(const Solid& solid, const Pose& X_WB, bool endless_ground = false) {
     solids.push_back(solid);
     boxes.push_back({});
-    for (const ConvexPart& part : solid.parts()) boxes.back().push_back(roundedBox(part));
+    boxes.back() = occludingBoxes(solid);
     poses.push_back({X_WB.rotation, X_WB.position - kEye});
     endless.push_back(endless_ground);
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/offscreen_context.h"
+
 namespace carom::renderer {
 namespace {
 

@@ -1,4 +1,4 @@
-// The partners a tree finds, against asking everybody.
+// What a tree finds, against asking everybody.
 
 #include "engine/broad_phase/bounds_tree.h"
 
@@ -15,17 +15,21 @@ using oracle::Random;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::vector<int> everyPartner(const std::vector<Proxy>& proxies, int i) {
-  const Proxy& p = proxies[static_cast<std::size_t>(i)];
-  std::vector<int> partners;
-  for (int j = 0; j < static_cast<int>(proxies.size()); ++j) {
-    const Proxy& q = proxies[static_cast<std::size_t>(j)];
-    bool apart = p.group == q.group || (!p.moves && !q.moves);
+std::vector<int> everyoneAt(const std::vector<Bounds>& all, const Bounds& where) {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    bool apart = false;
     for (int axis = 0; axis < 3; ++axis)
-      apart = apart || p.bounds.high[axis] < q.bounds.low[axis] || q.bounds.high[axis] < p.bounds.low[axis];
-    if (!apart) partners.push_back(j);
+      apart = apart || where.high[axis] < all[i].low[axis] || all[i].high[axis] < where.low[axis];
+    if (!apart) found.push_back(static_cast<int>(i));
   }
-  return partners;
+  return found;
+}
+
+std::vector<int> foundAt(const BoundsTree& tree, const Bounds& where) {
+  std::vector<int> found{-1};  // what was there before does not matter
+  tree.find(where, found);
+  return found;
 }
 
 Vec3 randomVector(Random& random, double low, double high) {
@@ -34,88 +38,98 @@ Vec3 randomVector(Random& random, double low, double high) {
   return v;
 }
 
-// Crowds with a few floors and walls among them.
-std::vector<Proxy> crowd(Random& random, int n) {
-  std::vector<Proxy> proxies;
-  const double spread = random.logUniform(0.1, 100.0);
-  const double size = random.logUniform(0.1, 10.0);
-  for (int i = 0; i < n; ++i) {
-    Proxy p;
-    p.bounds.low = spread * randomVector(random, -1, 1);
-    p.bounds.high = p.bounds.low + size * randomVector(random, 0, 1);
-    const int wide = random.integer(0, 50);
-    if (wide < 3) p.bounds.high[wide] += 3.0 * spread;
-    if (wide == 3) p.bounds.low.x() = p.bounds.low.y() = -kInfinity;
-    if (wide == 3) p.bounds.high.x() = p.bounds.high.y() = kInfinity;
-    p.group = random.integer(0, n / 2);
-    p.moves = random.integer(0, 3) > 0;
-    proxies.push_back(p);
-  }
-  return proxies;
+// Of crowds with a few floors and walls among them.
+struct Place {
+  double spread = 1.0;
+  double size = 1.0;
+};
+Bounds anyBounds(Random& random, const Place& place) {
+  Bounds bounds;
+  bounds.low = place.spread * randomVector(random, -1, 1);
+  bounds.high = bounds.low + place.size * randomVector(random, 0, 1);
+  const int wide = random.integer(0, 50);
+  if (wide < 3) bounds.high[wide] += 3.0 * place.spread;
+  if (wide == 3) bounds.low.x() = bounds.low.y() = -kInfinity;
+  if (wide == 3) bounds.high.x() = bounds.high.y() = kInfinity;
+  return bounds;
 }
 
-std::vector<int> partnersOf(const BoundsTree& tree, const std::vector<Proxy>& proxies, int i) {
-  std::vector<int> found{-1};  // what was there before does not matter
-  tree.findPartners(proxies, i, found);
-  return found;
-}
-
-// Grows one of them on some sides, mostly by little.
-void growOne(Random& random, std::vector<Proxy>& proxies, BoundsTree& tree) {
-  const int i = random.integer(0, static_cast<int>(proxies.size()) - 1);
-  Bounds& bounds = proxies[static_cast<std::size_t>(i)].bounds;
-  const double far = random.logUniform(1e-3, 30.0);
-  const Bounds onwards{bounds.low + far * randomVector(random, -1, 1),
-                       bounds.high + far * randomVector(random, -1, 1)};
-  bounds.low = bounds.low.cwiseMin(onwards.low);
-  bounds.high = bounds.high.cwiseMax(onwards.high);
-  tree.grow(i, onwards);
-}
-
-TEST(BoundsTree, FindsThePartnersThatAskingEverybodyFinds_WhileTheyGrow) {
+TEST(BoundsTree, FindsWhatAskingEverybodyFinds_WhileThingsMoveAndGrow) {
   Random random(43);
   BoundsTree tree;
-  std::size_t partners = 0;
+  std::size_t found = 0;
   for (int c = 0; c < 100; ++c) {
-    std::vector<Proxy> proxies = crowd(random, random.integer(1, 200));
-    tree.build(proxies);
-    for (int growth = 0; growth < 30; ++growth) {
-      const int i = random.integer(0, static_cast<int>(proxies.size()) - 1);
-      const std::vector<int> expected = everyPartner(proxies, i);
-      ASSERT_EQ(partnersOf(tree, proxies, i), expected) << "case " << c << " after " << growth;
-      partners += expected.size();
-      growOne(random, proxies, tree);
+    const Place place{random.logUniform(0.1, 100.0), random.logUniform(0.1, 10.0)};
+    std::vector<Bounds> all;
+    for (int i = random.integer(1, 200); i > 0; --i) all.push_back(anyBounds(random, place));
+    tree.build(all);
+    ASSERT_EQ(tree.size(), static_cast<int>(all.size()));
+    for (int change = 0; change < 200; ++change) {
+      const int i = random.integer(0, static_cast<int>(all.size()) - 1);
+      Bounds& bounds = all[static_cast<std::size_t>(i)];
+      const std::vector<int> expected = everyoneAt(all, bounds);
+      ASSERT_EQ(foundAt(tree, bounds), expected) << "case " << c << " after " << change;
+      found += expected.size();
+      if (change % 2 == 0) {
+        bounds = anyBounds(random, place);
+        tree.move(i, bounds);
+        ASSERT_TRUE(tree.bounds(i).contains(bounds) && bounds.contains(tree.bounds(i)));
+      } else {
+        const Bounds more = anyBounds(random, place);
+        bounds = {bounds.low.cwiseMin(more.low), bounds.high.cwiseMax(more.high)};
+        tree.grow(i, more);
+      }
     }
   }
-  EXPECT_GT(partners, 10000u);
+  EXPECT_GT(found, 100000u);
 }
 
-// Equal coordinates everywhere, and as many proxies as fill the leaves or are one more or fewer.
-TEST(BoundsTree, OfARowOfTouchingCubes_FindsBothNeighbours) {
+// By little, so that the tree keeps its shape, and to anywhere, so that it is built anew.
+TEST(BoundsTree, FindsWhatAskingEverybodyFinds_WhenAllMoveAtOnce) {
+  Random random(45);
   BoundsTree tree;
-  for (int n : {1, 2, 7, 8, 9, 16, 17, 64, 65, 127, 128, 129}) {
-    std::vector<Proxy> proxies;
-    for (int x = 0; x < n; ++x) proxies.push_back({{Vec3(x, 0, 0), Vec3(x + 1, 1, 1)}, x, true});
-    tree.build(proxies);
-    for (int i = 0; i < n; ++i) ASSERT_EQ(partnersOf(tree, proxies, i), everyPartner(proxies, i)) << n;
+  for (int c = 0; c < 50; ++c) {
+    const Place place{random.logUniform(0.1, 100.0), random.logUniform(0.1, 10.0)};
+    std::vector<Bounds> all(static_cast<std::size_t>(random.integer(1, 100)));
+    for (int change = 0; change < 10; ++change) {
+      for (Bounds& bounds : all) {
+        if (change % 5 == 0) bounds = anyBounds(random, place);
+        const Vec3 shift = 0.1 * place.size * random.direction();
+        bounds = {bounds.low + shift, bounds.high + shift};
+      }
+      tree.moveAll(all);
+      for (const Bounds& bounds : all) ASSERT_EQ(foundAt(tree, bounds), everyoneAt(all, bounds)) << c;
+    }
   }
 }
 
-TEST(BoundsTree, OfIdenticalBounds_FindsAllOthers) {
-  std::vector<Proxy> proxies(50, Proxy{{Vec3(1, 2, 3), Vec3(1, 2, 3)}, 0, true});
-  for (int i = 0; i < 50; ++i) proxies[static_cast<std::size_t>(i)].group = i;
+// Equal coordinates everywhere.
+TEST(BoundsTree, OfARowOfTouchingCubes_FindsBothNeighbours) {
   BoundsTree tree;
-  tree.build(proxies);
-  for (int i = 0; i < 50; ++i) EXPECT_EQ(partnersOf(tree, proxies, i).size(), 49u);
+  for (int n : {1, 2, 3, 7, 8, 9, 64, 65, 127, 128, 129}) {
+    std::vector<Bounds> all;
+    for (int x = 0; x < n; ++x) all.push_back({Vec3(x, 0, 0), Vec3(x + 1, 1, 1)});
+    tree.build(all);
+    for (const bool moved : {false, true}) {
+      for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(foundAt(tree, all[i]), everyoneAt(all, all[i]));
+      for (int i = 0; i < n && !moved; ++i) tree.move(i, all[static_cast<std::size_t>(i)]);
+    }
+  }
 }
 
-TEST(BoundsTree, IsBuiltUntilItIsCleared) {
+TEST(BoundsTree, OfIdenticalBounds_FindsAll) {
+  const std::vector<Bounds> all(50, Bounds{Vec3(1, 2, 3), Vec3(1, 2, 3)});
   BoundsTree tree;
-  EXPECT_FALSE(tree.isBuilt());
+  tree.build(all);
+  for (int i = 0; i < 50; ++i) tree.move(i, all[0]);
+  EXPECT_EQ(foundAt(tree, all[0]).size(), 50u);
+}
+
+TEST(BoundsTree, OfNothing_FindsNothing) {
+  BoundsTree tree;
+  EXPECT_TRUE(foundAt(tree, {Vec3::Zero(), Vec3::Ones()}).empty());
   tree.build({});
-  EXPECT_TRUE(tree.isBuilt());
-  tree.clear();
-  EXPECT_FALSE(tree.isBuilt());
+  EXPECT_TRUE(foundAt(tree, {Vec3::Zero(), Vec3::Ones()}).empty());
 }
 
 }  // namespace

@@ -89,47 +89,14 @@ TEST(CandidatePairs, DoNotDependOnTheOrderOfTheProxies) {
   EXPECT_EQ(back, candidatePairs(proxies));
 }
 
-void shift(Proxy& proxy, const Vec3& by) {
-  proxy.bounds.low += by;
-  proxy.bounds.high += by;
-}
-
-// A world of trembling things, of which in some steps a few leap, or all, or one begins to move, changes its
-// group, comes or goes.
-TEST(PairFinder, FindsInEveryStepWhatStartingAgainFinds) {
-  Random random(43);
-  for (int world = 0; world < 10; ++world) {
-    std::vector<Proxy> proxies = scattered(random, 200, 3, 2);
-    const auto any = [&]() -> Proxy& {
-      return proxies[static_cast<std::size_t>(random.integer(0, static_cast<int>(proxies.size()) - 1))];
-    };
-    PairFinder finder;
-    for (int step = 0; step < 100; ++step) {
-      const int event = random.integer(0, 9);
-      const double tremble = event == 0 ? 1.0 : 3e-5;
-      for (Proxy& proxy : proxies)
-        if (proxy.moves) shift(proxy, tremble * random.uniform(0, 1) * random.direction());
-      if (event == 1) shift(any(), random.direction());
-      if (event == 2 || event == 3)
-        for (int i = 0; i < 3; ++i) shift(any(), random.uniform(0, 3) * random.direction());
-      if (event == 4) any().moves = random.integer(0, 1) > 0;
-      if (event == 5) any().group = random.integer(0, 100);
-      if (event == 6) proxies.push_back(any());
-      if (event == 7) proxies.pop_back();
-      ASSERT_EQ(finder.find(proxies), candidatePairs(proxies)) << "world " << world << ", step " << step;
-    }
-  }
-}
-
 // Two hundred million pairs would take gigabytes before anything is known about them.
 TEST(CandidatePairs, MoreThanCanBeKeptAreRefusedBeforeTheyAreCollected) {
   std::vector<Proxy> proxies(20000);
   for (std::size_t i = 0; i < proxies.size(); ++i)
     proxies[i] = {{Vec3::Zero(), Vec3::Ones()}, static_cast<int>(i), true};
   EXPECT_THROW(candidatePairs(proxies), TooManyPairs);
-  EXPECT_THROW(PairFinder().find(proxies), TooManyPairs);
   proxies.resize(1414);  // the most whose pairs, 998 991, are fewer than a million
-  EXPECT_EQ(PairFinder().find(proxies).size(), 1414u * 1413u / 2u);
+  EXPECT_EQ(candidatePairs(proxies).size(), 1414u * 1413u / 2u);
 }
 
 TEST(Bounds, ContainThemselvesAndWhatLiesWithin) {

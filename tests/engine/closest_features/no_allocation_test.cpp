@@ -8,13 +8,12 @@
 
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/adversarial_pairs.h"
+#include "tests/oracle/allocations.h"
 
 namespace {
 
-thread_local long allocations = 0;
-
 void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
+  ++carom::oracle::allocations;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   if (void* p = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return p;
   throw std::bad_alloc();
@@ -62,6 +61,7 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
 namespace carom {
 namespace {
 
+using oracle::allocationsOf;
 using oracle::Family;
 using oracle::PosedPair;
 using oracle::Random;
@@ -82,12 +82,6 @@ class NoAllocation : public testing::Test {
 
 ClosestFeatures ask(const PosedPair& p, PairMemory& memory) {
   return closestFeatures(*p.a, p.X_WA, *p.b, p.X_WB, memory);
-}
-
-long allocationsOf(auto&& work) {
-  const long before = allocations;
-  work();
-  return allocations - before;
 }
 
 std::vector<PosedPair> pairsOf(oracle::AdversarialPairs& pairs, int per_family) {

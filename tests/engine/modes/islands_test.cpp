@@ -47,5 +47,16 @@ TEST(Islands, JoinedWithThemselvesStayAlone) {
   EXPECT_EQ(islands.of(2), 2);
 }
 
+TEST(Islands, PartedAreAloneWhateverWasJoined) {
+  Random random(132);
+  Islands islands(60);
+  for (int i = 0; i < 100; ++i) {
+    for (int j = random.integer(0, 40); j > 0; --j)
+      islands.join(random.integer(0, 59), random.integer(0, 59));
+    islands.part(60 + i);
+    for (int k = 0; k < 60 + i; ++k) ASSERT_EQ(islands.of(k), k) << i;
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,134 @@
+#!/usr/bin/env bash
+# One state hash everywhere: builds the program without its renderer by several compilers, at several levels, for several
+# processors (Debian's cross compilers, run by qemu-user), simulates every shipped scene and 200 random worlds of the
+# explorer with each, and prints a table of what equals the first cell's. hash_table.sh [CELL...]; without cells, those
+# that can be built here. Worlds run for WORLD_S seconds (1 and 0.25), SEEDS random ones (200).
+#
+# A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages; what is needed:
+#   apt-get install clang mmdebstrap qemu-user g++-{aarch64,i686,powerpc64le,s390x}-linux-gnu
+# Exit 1: a cell differs; each difference is a line of build/hashes/CELL.differs.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source demos/packages.sh
+
+SCENE_S=${SCENE_S:-1} SEED_S=${SEED_S:-0.25} SEEDS=${SEEDS:-200} JOBS=${JOBS:-$(nproc)}
+work=${CAROM_BUILD:-build}/hashes
+mkdir -p "$work"
+work=$(realpath "$work")
+
+# cell: compiler | flags | Debian's architecture | qemu-user's
+declare -A cells=(
+  [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
+  [clang-O3]="clang++|-O3" [clang-O2]="clang++|-O2" [clang-O0]="clang++|-O0" [clang-O3-avx2]="clang++|-O3 -mavx2 -mfma"
+  [i686-O3]="i686-linux-gnu-g++|-O3 -msse2 -mfpmath=sse|i386|i386" [aarch64-O3]="aarch64-linux-gnu-g++|-O3|arm64|aarch64"
+  [aarch64-O2]="aarch64-linux-gnu-g++|-O2|arm64|aarch64" [ppc64el-O3]="powerpc64le-linux-gnu-g++|-O3|ppc64el|ppc64le"
+  [s390x-O3]="s390x-linux-gnu-g++|-O3|s390x|s390x")
+order=(gcc-O3 gcc-O2 gcc-O0 gcc-O3-avx2 clang-O3 clang-O2 clang-O0 clang-O3-avx2 i686-O3 aarch64-O3 aarch64-O2 ppc64el-O3
+  s390x-O3)
+
+# field NAME NUMBER: of a cell's description.
+field() { cut -d'|' -f"$2" <<<"${cells[$1]}"; }
+
+# system_root ARCHITECTURE: the folder with that architecture's libraries, made where it is not there.
+system_root() {
+  local root=${CAROM_SYSTEM_ROOTS:-$work/roots}/$1
+  if [ ! -d "$root/usr" ]; then
+    mkdir -p "$(dirname "$root")"
+    mmdebstrap --quiet --variant=extract --architectures="$1" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev bookworm "$root" >&2
+    # What names places from the root up means this one.
+    sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
+    find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
+      ln -sfn "$root$(readlink "$link")" "$link"
+    done
+  fi
+  echo "$root"
+}
+
+# build CELL: the program of that cell; says nothing unless it fails.
+build() {
+  local folder=$work/$1 debian root more=()
+  debian=$(field "$1" 3)
+  if [ -n "$debian" ]; then
+    root=$(system_root "$debian")
+    more=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$(field "$1" 4)" -DCMAKE_SYSROOT="$root"
+      -DCMAKE_FIND_ROOT_PATH="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
+      -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
+    export PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_LIBDIR
+    PKG_CONFIG_LIBDIR=$(find "$root/usr" -name pkgconfig -type d | paste -sd:)
+  else
+    unset PKG_CONFIG_SYSROOT_DIR PKG_CONFIG_LIBDIR
+  fi
+  { cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$(field "$1" 1)" \
+      -DCMAKE_CXX_FLAGS_RELEASE="$(field "$1" 2) -DNDEBUG" -DCAROM_RENDERER=OFF -DCAROM_BUILD_TESTS=OFF "${more[@]}" &&
+    cmake --build "$folder" --target carom -j"$JOBS"; } >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
+}
+
+# run_cell CELL ARGUMENTS...: its program.
+run_cell() {
+  local cell=$1 debian
+  shift
+  debian=$(field "$cell" 3)
+  if [ -z "$debian" ]; then
+    "$work/$cell/demos/carom" "$@"
+  else
+    "qemu-$(field "$cell" 4)" -L "$(system_root "$debian")" "$work/$cell/demos/carom" "$@"
+  fi
+}
+
+# hash_world CELL SCENE SECONDS: "name hash of the state, hash of the recording"; the way it failed where it did.
+hash_world() {
+  local name hash record=$work/$1.recordings
+  name=$(basename "$2" .json)
+  hash=$(run_cell "$1" simulate "$2" --duration "$3" --fps 20 -q -o "$record/$name.carom" 2>/dev/null | head -n 1) || true
+  echo "$name ${hash:-refused} $(sha256sum <"$record/$name.carom" 2>/dev/null | cut -c1-16)"
+}
+
+# hash_worlds CELL: a line a world, into CELL.hashes.
+hash_worlds() {
+  mkdir -p "$work/$1.recordings"
+  { for scene in assets/scenes/*.json; do echo "$PWD/$scene $SCENE_S"; done
+    find "$work/worlds" -name '*.json' | sort -V | sed "s/\$/ $SEED_S/"; } |
+    xargs -d '\n' -P "$JOBS" -n 1 bash -c 'hash_world "$0" "${1% *}" "${1##* }"' "$1" | sort >"$work/$1.hashes"
+}
+export -f hash_world run_cell field system_root
+export work
+
+wanted=("$@")
+if [ ${#wanted[@]} -eq 0 ]; then
+  for cell in "${order[@]}"; do
+    debian=$(field "$cell" 3)
+    command -v "$(field "$cell" 1)" >/dev/null || continue
+    [ -z "$debian" ] || command -v "qemu-$(field "$cell" 4)" >/dev/null || continue
+    wanted+=("$cell")
+  done
+fi
+for cell in "${wanted[@]}"; do
+  [ -n "${cells[$cell]-}" ] || { echo "no cell $cell; accepted: ${order[*]}" >&2; exit 2; }
+done
+# The shell's functions see an associative array only as text.
+cells_text=$(declare -p cells)
+export cells_text
+field() { eval "$cells_text"; cut -d'|' -f"$2" <<<"${cells[$1]}"; }
+export -f field
+
+rm -rf "$work/worlds"
+if [ "$SEEDS" -gt 0 ]; then
+  build_release explore >&2
+  "$(build_folder release)/tests/explore" --write "$work/worlds" --seeds "$SEEDS"
+fi
+
+first=${wanted[0]} code=0
+echo "| cell | worlds | same states | same recordings | reads the first cell's |"
+echo "|---|---|---|---|---|"
+for cell in "${wanted[@]}"; do
+  if ! build "$cell"; then echo "| $cell | not built | | | |"; code=1; continue; fi
+  hash_worlds "$cell"
+  join "$work/$first.hashes" "$work/$cell.hashes" | awk '$2 != $4 || $3 != $5' >"$work/$cell.differs"
+  states=$(join "$work/$first.hashes" "$work/$cell.hashes" | awk '$2 == $4' | wc -l)
+  recordings=$(join "$work/$first.hashes" "$work/$cell.hashes" | awk '$3 == $5' | wc -l)
+  sum=$(run_cell "$cell" export "$work/$first.recordings/resting.carom" -q --csv /dev/stdout | sha256sum | cut -c1-16)
+  [ "$cell" != "$first" ] || first_sum=$sum
+  echo "| $cell | $(wc -l <"$work/$cell.hashes") | $states | $recordings | $([ "$sum" = "$first_sum" ] && echo yes || echo no) |"
+  [ ! -s "$work/$cell.differs" ] && [ "$sum" = "$first_sum" ] || code=1
+done
+exit $code
