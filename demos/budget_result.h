@@ -1,6 +1,6 @@
 #pragma once
 // What `carom budget` found out, ready to be told: what was measured, every replay, the least times and the
-// verdict. Tested in tests/demos/budget_result_test.cpp.
+// verdict. Tested in tests/demos/budget_report_test.cpp.
 
 #include <optional>
 #include <string>

@@ -23,14 +23,19 @@ void addWork(FrameCost& cost, const StepCounters& step) {
   cost.worked(Work::kSteps) += step.substeps;
   cost.worked(Work::kPairs) += step.candidate_pairs;
   cost.worked(Work::kQueries) += step.distance_queries;
+  cost.worked(Work::kStatesWalked) += step.states_walked;
   cost.worked(Work::kContactPoints) += step.contact_points;
+  cost.worked(Work::kRowVisits) += step.row_visits;
+  cost.worked(Work::kLandings) += step.landings;
+  cost.worked(Work::kProjectedPaths) += step.projected_paths;
+  cost.worked(Work::kClearedPaths) += step.cleared_paths;
   cost.worked(Work::kEvents) += step.events;
   cost.worked(Work::kImpacts) += step.impacts;
   cost.worked(Work::kNewtonSteps) += step.newton_steps;
 }
 
 /// Adds what there was to draw and to pack.
-void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
+void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures, renderer::PngSequence& files,
                    std::span<const renderer::Instance> instances, const renderer::Camera& camera,
                    std::span<const renderer::WaterVolume> water, FrameCost& cost) {
   watch.begin(FramePhase::kDraw);
@@ -41,11 +46,13 @@ void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
   const renderer::Image& image = pictures.draw(instances, camera, drawn, water);
   watch.end();
   const FramePhaseScope phase(watch, FramePhase::kEncode);
-  cost.worked(Work::kBytes) = static_cast<std::int64_t>(renderer::encodePng(image).size());
+  cost.worked(Work::kBytes) = static_cast<std::int64_t>(files.encode(image, {}).size());
+  cost.worked(Work::kBands) = files.packedBands();
   const renderer::DrawWork& work = pictures.work();
   cost.worked(Work::kTriangles) = work.triangles;
   cost.worked(Work::kPixels) = work.pixels;
   cost.worked(Work::kShadowTexels) = work.shadow_texels;
+  cost.worked(Work::kMirrorTexels) = work.mirror_texels;
 }
 
 double totalOf(const Replay& replay) {
@@ -75,6 +82,7 @@ struct FrameLoop::Parts {
 
   const ReplayPlan& plan;
   renderer::FrameRenderer& pictures;
+  renderer::PngSequence files;
   SceneWorld scene;
   PhaseStopwatch watch;
   RunFacts facts;
@@ -95,7 +103,7 @@ FrameCost FrameLoop::next() {
   const std::span<const BodyState> bodies = p.states.advanceTo(p.frame);
   const std::vector<renderer::Instance> instances = drawnInstances(p.scene, bodies);
   const double time_s = p.plan.clock.time(p.frame);
-  drawAndEncode(p.watch, p.pictures, instances, p.plan.camera.at(time_s, bodies),
+  drawAndEncode(p.watch, p.pictures, p.files, instances, p.plan.camera.at(time_s, bodies),
                 drawnWater(p.plan.scene, time_s), p.cost);
   p.watch.endFrame(p.cost);
   p.cost.time_s = time_s;

@@ -1,6 +1,6 @@
 #pragma once
 // Measures a scene: the loop of `render` on one thread (step, draw, read back, encode, with no file written),
-// run from the beginning as often as asked. Tested in tests/demos/budget_run_test.cpp.
+// run from the beginning as often as asked. Tested in tests/demos/budget_work_test.cpp.
 
 #include <functional>
 #include <memory>

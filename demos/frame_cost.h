@@ -38,16 +38,23 @@ enum class Work : std::uint8_t {
   kSteps,  ///< With substeps.
   kPairs,
   kQueries,
+  kStatesWalked,  ///< Pairs of features visited by the queries.
   kContactPoints,
+  kRowVisits,  ///< Of contact rows, in all sweeps.
+  kLandings,
+  kProjectedPaths,
+  kClearedPaths,
   kEvents,
   kImpacts,
   kNewtonSteps,
   kTriangles,
   kPixels,
   kShadowTexels,
-  kBytes  ///< Of the PNG.
+  kMirrorTexels,
+  kBands,  ///< Of the picture that are not as in the one before.
+  kBytes   ///< Of the PNG.
 };
-inline constexpr std::size_t kWorkKinds = 11;
+inline constexpr std::size_t kWorkKinds = 18;
 /// A kind's name and the phase that it costs time in.
 struct WorkKind {
   const char* name;
@@ -56,15 +63,23 @@ struct WorkKind {
 inline constexpr std::array<WorkKind, kWorkKinds> kWork = {{{"steps", FramePhase::kForces},
                                                             {"candidate pairs", FramePhase::kBroadPhase},
                                                             {"queries", FramePhase::kClosestFeatures},
+                                                            {"states walked", FramePhase::kClosestFeatures},
                                                             {"contact points", FramePhase::kImpulses},
+                                                            {"row visits", FramePhase::kImpulses},
+                                                            {"landings", FramePhase::kImpulses},
+                                                            {"projected paths", FramePhase::kImpulses},
+                                                            {"cleared paths", FramePhase::kTimeOfImpact},
                                                             {"events", FramePhase::kTimeOfImpact},
                                                             {"impacts", FramePhase::kTimeOfImpact},
                                                             {"newton steps", FramePhase::kTimeOfImpact},
                                                             {"triangles", FramePhase::kDraw},
                                                             {"pixels drawn", FramePhase::kDraw},
                                                             {"shadow texels", FramePhase::kDraw},
+                                                            {"mirror texels", FramePhase::kDraw},
+                                                            {"bands packed", FramePhase::kEncode},
                                                             {"bytes packed", FramePhase::kEncode}}};
 using WorkCounts = std::array<std::int64_t, kWorkKinds>;
+inline constexpr std::int64_t kNotCounted = -1;  ///< By a program that does not know the kind.
 
 struct FrameCost {
   int frame = 0;

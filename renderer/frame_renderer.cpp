@@ -302,6 +302,7 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
 
   count(blocks, bodies, work.pixels);
   count(damage.shadow_map.blocks(), casters, work.shadow_texels);
+  if (mirror_pass) work.mirror_texels += mirror_pass->texels();
   if (mirror_pass && inputs.ground_seen) work.triangles += trianglesOf(mirrored);
   uploadBlock(inputs.block);
   geometry.uploadInstances(gl, records);

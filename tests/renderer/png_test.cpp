@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include "engine/foundation/contract.h"
+#include "renderer/quick_deflate.h"
 #include "tests/fuzz/png_mutations.h"
 
 namespace carom::renderer {
@@ -65,6 +66,41 @@ TEST_F(PngFile, ASequenceHasTheBytesOfItsPicturesAlone) {
       EXPECT_EQ(bytes, encodePng(image, {{"Row", std::to_string(row)}})) << height << ", " << row;
       EXPECT_EQ(readPng(write(bytes)).image.rgb, image.rgb) << height << ", " << row;
       EXPECT_EQ(sequence.encode(image, {}), encodePng(image, {}));
+    }
+  }
+}
+
+TEST_F(PngFile, ASequenceSaysHowManyBandsItPacked) {
+  PngSequence sequence;
+  Image image = noise(60, 200);
+  sequence.encode(image, {});
+  EXPECT_EQ(sequence.packedBands(), 4);
+  image.rgb[180 * 130] ^= 1;
+  sequence.encode(image, {});
+  EXPECT_EQ(sequence.packedBands(), hasQuickDeflate() ? 1 : 4);
+  sequence.encode(image, {});
+  EXPECT_EQ(sequence.packedBands(), hasQuickDeflate() ? 0 : 4);
+}
+
+// Of a packer that looked beyond its input, or at memory that it had not set, the bytes would differ now and
+// then.
+TEST_F(PngFile, PackedBytesDoNotDependOnTheMemoryAround) {
+  if (!hasQuickDeflate()) GTEST_SKIP() << "built without a quick deflate";
+  std::mt19937 random(5);
+  for (const std::size_t size : {1u, 100u, 4001u, 60001u}) {
+    std::vector<std::uint8_t> row;
+    for (std::size_t i = 0; i < size; ++i)
+      row.push_back(static_cast<std::uint8_t>(i % 50 == 0 ? random() & 7u : i / 900));
+    for (int trial = 0; trial < 20; ++trial) {
+      constexpr std::size_t kAround = 1000;
+      std::vector<std::uint8_t> memory(size + 2 * kAround + 64);
+      // Zeros, what would go on with the input's pattern, noise.
+      for (std::size_t i = 0; i < memory.size() && trial > 0; ++i)
+        memory[i] = static_cast<std::uint8_t>(trial == 1 ? row[i % size] : random() & 255u);
+      std::uint8_t* begin = memory.data() + kAround + static_cast<std::size_t>(trial);
+      std::copy(row.begin(), row.end(), begin);
+      const std::vector<std::uint8_t> packed = quickDeflatePart({begin, size}, trial % 2 == 0).packed;
+      EXPECT_EQ(quickDeflatePart(row, trial % 2 == 0).packed, packed) << size << ", " << trial;
     }
   }
 }
