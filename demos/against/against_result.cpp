@@ -62,6 +62,7 @@ std::vector<std::string> otherWork(const std::vector<AgainstRound>& rounds) {
   for (std::size_t w = 0; w < kWorkKinds; ++w) {
     std::int64_t now = 0, other = 0;
     bool differs = false;
+    if (round.now[0].work[w] == kNotCounted || round.other[0].work[w] == kNotCounted) continue;
     for (std::size_t i = 0; i < round.now.size(); ++i) {
       now += round.now[i].work[w];
       other += round.other[i].work[w];

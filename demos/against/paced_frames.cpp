@@ -1,5 +1,6 @@
 #include "demos/against/paced_frames.h"
 
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -17,7 +18,8 @@ std::string pacedLine(const FrameCost& cost) {
   line.precision(9);
   line << hexText(cost.state_hash) << ' ' << cost.total_ms;
   for (const double phase_ms : cost.phase_ms) line << ' ' << phase_ms;
-  for (const std::int64_t count : cost.work) line << ' ' << count;
+  for (std::size_t w = 0; w < kWorkKinds; ++w)
+    line << (w == 0 ? ' ' : ',') << kWork[w].name << '=' << cost.work[w];
   return line.str();
 }
 
@@ -26,8 +28,14 @@ FrameCost readPacedLine(const std::string& line, const std::string& program) {
   FrameCost cost;
   in >> std::hex >> cost.state_hash >> std::dec >> cost.total_ms;
   for (double& phase_ms : cost.phase_ms) in >> phase_ms;
-  for (std::int64_t& count : cost.work) in >> count;
-  if (!in)
+  cost.work.fill(kNotCounted);
+  for (std::string kind; std::getline(in >> std::ws, kind, ',');) {
+    const std::size_t equals = kind.find('=');
+    const std::string name = kind.substr(0, equals);
+    for (std::size_t w = 0; w < kWorkKinds && equals != std::string::npos; ++w)
+      if (name == kWork[w].name) cost.work[w] = std::atoll(kind.c_str() + equals + 1);
+  }
+  if (cost.work[0] == kNotCounted)
     throw InputError("--against: " + program + " answers \"" + line +
                      "\"; accepted: a carom that knows --paced");
   return cost;

@@ -3,7 +3,7 @@
 // of its times and work, so that another program can take turns with it (--against). Tested through the
 // program in tests/demos/against/against_program_test.cpp.
 //   first line    carom-paced 1 FRAMES
-//   each answer   state hash, frame time, phases' times (ms), work counts, with spaces between
+//   each answer   state hash, frame time, phases' times (ms), with spaces between; work as "queries=12,..."
 
 #include <string>
 
@@ -17,7 +17,8 @@ void servePacedFrames(const ReplayPlan& plan, renderer::FrameRenderer& pictures)
 /// The first line.
 std::string pacedGreeting(int frames);
 std::string pacedLine(const FrameCost& cost);
-/// Throws InputError, naming `program`, where it is no such line.
+/// A kind of work that the line does not name, as that of an older program, is kNotCounted. Throws
+/// InputError, naming `program`, where it is no such line.
 FrameCost readPacedLine(const std::string& line, const std::string& program);
 
 }  // namespace carom::demos

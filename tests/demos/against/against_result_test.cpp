@@ -103,6 +103,19 @@ TEST(PacedLine, ComesBackAndAnotherIsRefused) {
   EXPECT_EQ(back.phase_ms, cost.phase_ms);
   EXPECT_EQ(back.work, cost.work);
   EXPECT_THROW(readPacedLine("hello", "x"), InputError);
+  EXPECT_THROW(readPacedLine("1 2 0 0 0 0 0 0 0 0 0", "x"), InputError);
+}
+
+TEST(PacedLine, OfAProgramThatCountsOtherKindsIsReadAndWhatBothCountIsCompared) {
+  const FrameCost older = readPacedLine("1 2 0 0 0 0 0 0 0 0 0 0 steps=4,queries=7,unheard of=3", "x");
+  EXPECT_EQ(older.work[static_cast<std::size_t>(Work::kSteps)], 4);
+  EXPECT_EQ(older.work[static_cast<std::size_t>(Work::kQueries)], 7);
+  EXPECT_EQ(older.work[static_cast<std::size_t>(Work::kRowVisits)], kNotCounted);
+  std::vector<AgainstRound> rounds = played(1);
+  for (AgainstRound& round : rounds)
+    for (FrameCost& f : round.other) f.worked(Work::kRowVisits) = kNotCounted;
+  EXPECT_EQ(againstLines(result(rounds))[1], "states equal in every frame");
+  EXPECT_EQ(againstLines(result(rounds)).size(), againstLines(result(played(1))).size());
 }
 
 }  // namespace
