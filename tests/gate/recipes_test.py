@@ -44,8 +44,9 @@ def check_yaml(path):
     jobs = data["jobs"] if "jobs" in data else {"frames": data["frames"]}
     for name, job in jobs.items():
         steps = job.get("steps") or job.get("script")
-        if not steps:
-            sys.exit("%s: job %s does nothing" % (path, name))
+        does = steps and all(isinstance(step, str) or ("uses" in step) != ("run" in step) for step in steps)
+        if not does:
+            sys.exit("%s: job %s has a step that does nothing, or two things" % (path, name))
 
 
 def check_services(carom):
