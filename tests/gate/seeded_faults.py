@@ -139,16 +139,16 @@ def camera(scene, rng):
 
 
 def mesh_vertex(scene, rng, folder):
-    hulls = [b for b in movers(scene) if "hull" in b["shape"] and b["shape"]["hull"].get("file", "").endswith(".obj")]
-    body = pick(rng, hulls)
-    hull = body["shape"]["hull"]
-    lines = pathlib.Path(hull["file"]).read_text().splitlines()
+    meshes = [b for b in movers(scene) if b["shape"].get("mesh", {}).get("file", "").endswith(".obj")]
+    body = pick(rng, meshes)
+    mesh = body["shape"]["mesh"]
+    lines = pathlib.Path(mesh["file"]).read_text().splitlines()
     at = rng.choice([i for i, line in enumerate(lines) if line.startswith("v ")])
     numbers = [float(x) * 1.08 for x in lines[at].split()[1:4]]
     lines[at] = "v %g %g %g" % tuple(numbers)
     copy_ = folder / "edited.obj"
     copy_.write_text("\n".join(lines) + "\n")
-    hull["file"] = str(copy_)
+    mesh["file"] = str(copy_)
     return [named(body), re.compile("shape")]
 
 

@@ -82,26 +82,31 @@ TEST_F(PngFile, ASequenceSaysHowManyBandsItPacked) {
   EXPECT_EQ(sequence.packedBands(), hasQuickDeflate() ? 0 : 4);
 }
 
-// Of a packer that looked beyond its input, or at memory that it had not set, the bytes would differ now and
-// then.
-TEST_F(PngFile, PackedBytesDoNotDependOnTheMemoryAround) {
+// ISA-L's stream lies elsewhere the second time; of 20000 inputs that begin like their middle, 17 came out
+// otherwise.
+TEST_F(PngFile, PackedBytesDoNotDependOnAddresses) {
   if (!hasQuickDeflate()) GTEST_SKIP() << "built without a quick deflate";
   std::mt19937 random(5);
-  for (const std::size_t size : {1u, 100u, 4001u, 60001u}) {
-    std::vector<std::uint8_t> row;
-    for (std::size_t i = 0; i < size; ++i)
-      row.push_back(static_cast<std::uint8_t>(i % 50 == 0 ? random() & 7u : i / 900));
-    for (int trial = 0; trial < 20; ++trial) {
-      constexpr std::size_t kAround = 1000;
-      std::vector<std::uint8_t> memory(size + 2 * kAround + 64);
-      // Zeros, what would go on with the input's pattern, noise.
-      for (std::size_t i = 0; i < memory.size() && trial > 0; ++i)
-        memory[i] = static_cast<std::uint8_t>(trial == 1 ? row[i % size] : random() & 255u);
-      std::uint8_t* begin = memory.data() + kAround + static_cast<std::size_t>(trial);
-      std::copy(row.begin(), row.end(), begin);
-      const std::vector<std::uint8_t> packed = quickDeflatePart({begin, size}, trial % 2 == 0).packed;
-      EXPECT_EQ(quickDeflatePart(row, trial % 2 == 0).packed, packed) << size << ", " << trial;
-    }
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::vector<std::uint8_t> row(700);
+    for (std::size_t i = 0; i < 4; ++i) row[i] = row[i + 350] = static_cast<std::uint8_t>(random() & 255u);
+    const std::vector<std::uint8_t> packed = quickDeflatePart(row, true).packed;
+    std::vector<std::vector<char>> held;
+    for (int i = 0; i < 3; ++i) held.emplace_back(70000);
+    ASSERT_EQ(quickDeflatePart(row, true).packed, packed) << trial;
+  }
+}
+
+TEST_F(PngFile, OfAnyLengthPackedBytesAreWhole) {
+  if (!hasQuickDeflate()) GTEST_SKIP() << "built without a quick deflate";
+  std::mt19937 random(7);
+  for (std::size_t size = 1; size < 600; size += size < 20 ? 1 : 29) {
+    std::vector<std::uint8_t> bytes(size), back(size);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() & 3u);
+    const std::vector<std::uint8_t> packed = quickDeflate(bytes);
+    uLongf length = size;
+    EXPECT_EQ(uncompress(back.data(), &length, packed.data(), packed.size()), Z_OK) << size;
+    EXPECT_EQ(back, bytes) << size;
   }
 }
 
