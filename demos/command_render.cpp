@@ -462,8 +462,8 @@ int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& ov
 /// A record tells of a run: shards, streams, recordings and overlays, which watch the world themselves,
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
-  return options.states && options.shard.empty() && options.from.empty() &&
-         options.stream.empty() && options.ffmpeg.empty() && !options.at_s && !overlays.any();
+  return options.states && options.shard.empty() && options.from.empty() && options.stream.empty() &&
+         options.ffmpeg.empty() && !options.at_s && !overlays.any();
 }
 
 /// None where the frames go into a stream or a video.
