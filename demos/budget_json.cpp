@@ -36,7 +36,8 @@ Json subjectJson(const BudgetSubject& s) {
                        {"threads", s.threads},
                        {"machine", s.machine},
                        {"renderer", s.renderer},
-                       {"build", s.build}});
+                       {"build", s.build},
+                       {"clock", s.clock}});
 }
 
 Json overrunJson(const BudgetResult& result) {
@@ -65,6 +66,40 @@ Json slowestJson(const BudgetResult& result) {
   return slowest;
 }
 
+Json timesJson(const std::vector<double>& times_ms) {
+  Json json = Json::array();
+  for (const double time_ms : times_ms) json.push(time_ms);
+  return json;
+}
+
+Json workJson(const std::vector<FrameCost>& frames) {
+  Json work = Json::array();
+  for (std::size_t w = 0; w < kWorkKinds; ++w) {
+    double sum = 0.0;
+    Json counts = Json::array();
+    for (const FrameCost& f : frames) {
+      sum += static_cast<double>(f.work[w]);
+      counts.push(static_cast<double>(f.work[w]));
+    }
+    work.push(Json::object({{"name", kWork[w].name},
+                            {"phase", kFramePhaseNames[static_cast<std::size_t>(kWork[w].phase)]},
+                            {"sum", sum},
+                            {"frames", std::move(counts)}}));
+  }
+  return work;
+}
+
+Json workChangesJson(const BaselineComparison& comparison) {
+  Json changes = Json::array();
+  for (const WorkChange& c : comparison.work)
+    changes.push(Json::object({{"name", kWork[c.kind].name},
+                               {"before", static_cast<double>(c.before)},
+                               {"now", static_cast<double>(c.now)},
+                               {"firstFrame", c.first_frame},
+                               {"verdict", c.is_over ? "over" : "within"}}));
+  return changes;
+}
+
 Json comparisonJson(const BaselineComparison& comparison) {
   Json changes = Json::array();
   for (const PhaseChange& c : comparison.changes)
@@ -76,7 +111,10 @@ Json comparisonJson(const BaselineComparison& comparison) {
   return Json::object({{"file", comparison.file},
                        {"tolerance_percent", comparison.tolerance_percent},
                        {"verdict", verdictName(comparison.verdict)},
-                       {"changes", std::move(changes)}});
+                       {"timesCompared", comparison.other_machine.empty()},
+                       {"changes", std::move(changes)},
+                       {"workTolerance_percent", comparison.work_tolerance_percent},
+                       {"work", workChangesJson(comparison)}});
 }
 
 }  // namespace
@@ -102,6 +140,8 @@ Json budgetJson(const BudgetResult& result, const BaselineComparison* comparison
                             {"replaySpread", spreadOf(result.evidence.replays_ms)},
                             {"outsideLoad", orNull(result.outside_load)},
                             {"slowest", slowestJson(result)},
+                            {"work", workJson(result.least)},
+                            {"frameTimes_ms", timesJson(totals)},
                             {"finalState", hexText(result.least.back().state_hash)}});
   if (comparison != nullptr) json.set("baseline", comparisonJson(*comparison));
   return json;

@@ -30,7 +30,10 @@ std::string headText(const BudgetResult& result) {
                             result.replays.size(), hexText(result.least.back().state_hash).c_str());
   text += s.machine + "; " + s.renderer + "; " + s.build;
   if (s.threads > 1) text += format("; %d threads step", s.threads);
-  if (result.outside_load) text += format("; others used %.0f %% of the CPU", 100.0 * *result.outside_load);
+  if (s.clock == "cpu")
+    text += "; CPU time of all threads";
+  else if (result.outside_load)
+    text += format("; others used %.0f %% of the CPU", 100.0 * *result.outside_load);
   return text + "\n";
 }
 

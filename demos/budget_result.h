@@ -25,6 +25,8 @@ struct BudgetSubject {
   std::string machine;   ///< CPU and cores.
   std::string renderer;  ///< What draws.
   std::string build;
+  std::string clock =
+      "wall";  ///< What times are: on the wall, or of the CPU in all of the process's threads.
 };
 
 struct BudgetGate {

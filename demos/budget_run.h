@@ -1,8 +1,9 @@
 #pragma once
 // Measures a scene: the loop of `render` on one thread (step, draw, read back, encode, with no file written),
-// run from the beginning as often as asked. Tested in tests/demos/budget_program_test.cpp.
+// run from the beginning as often as asked. Tested in tests/demos/budget_work_test.cpp.
 
 #include <functional>
+#include <memory>
 
 #include "demos/camera_path.h"
 #include "demos/frame_clock.h"
@@ -18,8 +19,27 @@ struct ReplayPlan {
   const CameraPath& camera;
   int frames = 0;
   int replays = 0;
-  int threads = 1;            ///< That step.
-  bool keeps_slices = false;  ///< Of the quickest replay.
+  int threads = 1;                  ///< That step.
+  bool keeps_slices = false;        ///< Of the quickest replay.
+  std::function<double()> clock_s;  ///< What times are told by: `steadySeconds` or `processSeconds`.
+};
+
+/// One replay, frame by frame. Draws once before the clock starts, for shaders are compiled on first use. The
+/// plan and the renderer must outlive this.
+class FrameLoop {
+ public:
+  FrameLoop(const ReplayPlan& plan, renderer::FrameRenderer& pictures);
+  ~FrameLoop();
+  FrameLoop(const FrameLoop&) = delete;
+  FrameLoop& operator=(const FrameLoop&) = delete;
+
+  /// Frames come in order, from 0. Throws Interrupted, SimulationInvalid.
+  FrameCost next();
+  std::vector<PhaseSlice> takeSlices();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// Draws once before the clock starts, for shaders are compiled on first use. `done` is told how many frames

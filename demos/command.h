@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "demos/exit_code.h"
 #include "demos/scene.h"
@@ -127,9 +128,23 @@ struct CompareOptions {
   std::filesystem::path junit;
   bool json = false;
   bool update = false;
+  std::vector<std::string> accepted;  ///< Names of pairs: an update of these alone.
+  bool undo = false;                  ///< Of the last update.
+  std::vector<std::string> masks;     ///< See picture_mask.h.
   Telling telling;
 };
 ExitCode compare(const CompareOptions& options);
+
+struct RegressOptions {
+  std::filesystem::path suite;  ///< A folder with suite.json, or such a file.
+  std::filesystem::path output = "regress-out";
+  int jobs = 0;  ///< Scenes at a time; 0: one for each processor.
+  bool json = false;
+  std::filesystem::path junit;
+  bool update = false;
+  Telling telling;
+};
+ExitCode regress(const RegressOptions& options);
 
 struct BudgetOptions {
   SceneChoice choice;
@@ -144,8 +159,14 @@ struct BudgetOptions {
   std::string json;  ///< A file, "-" for standard output, or empty; so is `csv`.
   std::string csv;
   std::filesystem::path trace;
+  std::filesystem::path plot;  ///< .svg or .html; empty: none.
   std::filesystem::path baseline;
   double tolerance_percent = 10.0;
+  double work_tolerance_percent = 0.0;
+  std::string clock = "wall";      ///< Or "cpu".
+  std::string against;             ///< Another carom with options of its own, as a command line.
+  bool paced = false;              ///< Draws a frame a line of standard input.
+  std::vector<std::string> words;  ///< As typed, for the other program.
   std::string gl = "auto";
   Telling telling;
 };

@@ -2,18 +2,23 @@
 // difference images, JUnit), replaces golden files last, so that the report still shows what they were.
 #include "demos/command.h"
 
+#include <algorithm>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "demos/atomic_file.h"
 #include "demos/cause/cause.h"
 #include "demos/cause/cause_json.h"
+#include "demos/cause/picture_mask.h"
 #include "demos/comparison_json.h"
 #include "demos/comparison_report.h"
 #include "demos/comparison_run.h"
+#include "demos/golden_undo.h"
 #include "demos/interrupt.h"
 #include "demos/junit.h"
+#include "demos/nearest_name.h"
 #include "demos/printable.h"
 #include "demos/progress.h"
 #include "engine/foundation/contract.h"
@@ -41,8 +46,12 @@ void checkOptions(const CompareOptions& options) {
                        ", and would be compared the next time; accepted: a folder elsewhere");
 }
 
+bool isUpdate(const CompareOptions& options) {
+  return options.update || !options.accepted.empty();
+}
+
 std::vector<Comparison> compareAll(const CompareOptions& options, const Gate& gate) {
-  const std::vector<ImagePair> pairs = imagePairs({options.actual, options.golden, options.update});
+  const std::vector<ImagePair> pairs = imagePairs({options.actual, options.golden, isUpdate(options)});
   const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);
   Progress progress({"pair", static_cast<int>(pairs.size())}, style, std::cerr, steadySeconds);
   return comparedPairs(pairs, gate, [&progress](int count) { progress.done(count); });
@@ -85,8 +94,9 @@ void writeDifferences(const CompareOptions& options, const std::vector<Compariso
   for (const Comparison& c : comparisons) {
     if (c.verdict != Verdict::kBeyond) continue;
     throwIfInterrupted();
-    const renderer::Raster actual = renderer::readPngRaster(c.pair.actual).raster;
+    renderer::Raster actual = renderer::readPngRaster(c.pair.actual).raster;
     const renderer::Raster golden = renderer::readPngRaster(c.pair.golden).raster;
+    if (gate.mask != nullptr) gate.mask->apply(c.pair, actual, golden);
     const int tolerance = gate.toleranceOf(actual.fullScale());
     AtomicFile file(options.differences / c.pair.name);
     file.write(renderer::encodePng(renderer::differenceImage(actual, golden, {tolerance, options.amplify})));
@@ -100,15 +110,44 @@ void writeJunit(const CompareOptions& options, const std::vector<Comparison>& co
   file.commit();
 }
 
-std::vector<Update> updateAll(const std::vector<Comparison>& comparisons) {
-  std::vector<Update> updates;
-  std::set<fs::path> folders;
+/// The folder that the golden files lie in, below which an update can be taken back.
+fs::path goldenRoot(const CompareOptions& options) {
+  std::error_code ignored;
+  return fs::is_regular_file(options.golden, ignored) ? options.golden.parent_path() : options.golden;
+}
+
+bool isChosen(const CompareOptions& options, const Comparison& c) {
+  return options.accepted.empty() ||
+         std::find(options.accepted.begin(), options.accepted.end(), c.pair.name) != options.accepted.end();
+}
+
+void requireKnown(const CompareOptions& options, const std::vector<Comparison>& comparisons) {
+  std::vector<std::string> names;
+  for (const Comparison& c : comparisons) names.push_back(c.pair.name);
+  for (const std::string& name : options.accepted)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("--accept " + name + ": there is no such pair" + acceptedNames(name, names));
+}
+
+std::vector<Update> updateAll(const CompareOptions& options, const std::vector<Comparison>& comparisons) {
+  GoldenUndo undo(goldenRoot(options));
+  std::map<fs::path, const ImagePair*> folders;
+  for (const Comparison& c : comparisons) {
+    if (!isChosen(options, c)) continue;
+    folders.try_emplace(c.pair.golden.parent_path(), &c.pair);
+    const Update planned = plannedUpdate(c);
+    if (planned == Update::kReplaced || planned == Update::kAdded) undo.keep(c.pair.golden);
+  }
+  for (const auto& [folder, pair] : folders)
+    if (hasRecord(*pair)) undo.keep(folder / kRecordName);
+  undo.commit();
+  std::vector<Update> done;
   for (const Comparison& c : comparisons) {
     throwIfInterrupted();
-    updates.push_back(updateGolden(c));
-    if (folders.insert(c.pair.golden.parent_path()).second) updateRecord(c.pair);
+    done.push_back(isChosen(options, c) ? updateGolden(c) : Update::kNone);
   }
-  return updates;
+  for (const auto& [folder, pair] : folders) updateRecord(*pair);
+  return done;
 }
 
 /// The pairs that do not pass, worst first, and the counts.
@@ -132,8 +171,8 @@ std::string shellWord(const std::string& word) {
   return quoted + "'";
 }
 
-/// The command that would accept what was rendered, with the gate of this one.
-std::string updateCommand(const CompareOptions& options) {
+/// The command that would accept what was rendered, with the gate of this one; ends in `how`.
+std::string updateCommand(const CompareOptions& options, const std::string& how = " --update") {
   std::string command =
       "carom compare " + shellWord(options.actual.string()) + " " + shellWord(options.golden.string());
   const CompareOptions plain;
@@ -142,7 +181,8 @@ std::string updateCommand(const CompareOptions& options) {
     command += " --tolerance16 " + std::to_string(options.tolerance16);
   if (options.allowed_pixels != plain.allowed_pixels)
     command += " --allow-pixels " + std::to_string(options.allowed_pixels);
-  return command + " --update";
+  for (const std::string& mask : options.masks) command += " --mask " + shellWord(mask);
+  return command + how;
 }
 
 const Comparison* firstUnreadable(const std::vector<Comparison>& comparisons) {
@@ -194,21 +234,36 @@ ExitCode afterComparison(const CompareOptions& options, const ComparisonOutcome&
 
 ExitCode compare(const CompareOptions& options) {
   checkOptions(options);
+  if (options.undo) {
+    const int count = undoUpdate(goldenRoot(options));
+    std::cout << count << (count == 1 ? " file" : " files") << " of " << printable(options.golden.string())
+              << " as before the last update\n";
+    return ExitCode::kOk;
+  }
   catchInterrupts();
-  const Gate gate{options.tolerance, options.tolerance16, options.allowed_pixels};
-  std::vector<Comparison> comparisons = compareAll(options, gate);
   RecordShelf shelf;
+  const PictureMask mask(options.masks, shelf);
+  Gate gate{options.tolerance, options.tolerance16, options.allowed_pixels, nullptr};
+  if (mask.any()) gate.mask = &mask;
+  std::vector<Comparison> comparisons = compareAll(options, gate);
+  requireKnown(options, comparisons);
   explain(comparisons, gate, shelf);
   const Tally tally = tallyOf(comparisons);
   const fs::path report = reportPath(options, tally.passed == tally.total);
   if (!report.empty())
     writeComparisonReport(report, comparisons,
-                          {options.actual.string(), options.golden.string(), gate, options.report_pairs,
-                           options.amplify, options.update});
+                          {options.actual.string(),
+                           options.golden.string(),
+                           gate,
+                           options.report_pairs,
+                           options.amplify,
+                           isUpdate(options),
+                           {options.accepted.begin(), options.accepted.end()},
+                           updateCommand(options, " --accept ")});
   if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
   if (!options.junit.empty()) writeJunit(options, comparisons, gate);
   ComparisonOutcome outcome{comparisons, gate, report.string(), {}};
-  if (options.update) outcome.updates = updateAll(comparisons);
+  if (isUpdate(options)) outcome.updates = updateAll(options, comparisons);
   if (options.json) {
     std::cout << comparisonJson(outcome).text(2) << '\n';
   } else {
@@ -218,6 +273,7 @@ ExitCode compare(const CompareOptions& options) {
     noteUnseen(comparisons, shelf);
     for (const std::string& problem : shelf.problems()) std::cerr << "note: " << printable(problem) << '\n';
   }
+  if (!options.accepted.empty()) return ExitCode::kOk;
   return options.update ? afterUpdate(outcome) : afterComparison(options, outcome);
 }
 

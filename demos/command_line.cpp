@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "demos/against/against_result.h"
 #include "demos/build_info.h"
 #include "demos/command.h"
 #include "demos/manual_page.h"
@@ -133,6 +134,7 @@ struct CommandLine {
   CheckOptions check_options;
   DistanceOptions distance_options;
   CompareOptions compare_options;
+  RegressOptions regress_options;
   BudgetOptions budget_options;
   FiguresOptions figures_options;
   DoctorOptions doctor_options;
@@ -142,6 +144,7 @@ struct CommandLine {
   std::string budget_size;
   std::string figures_size;
   std::string budget_tolerance;
+  std::string budget_work_tolerance;
   CLI::App* list_command = nullptr;
   CLI::App* render_command = nullptr;
   CLI::App* simulate_command = nullptr;
@@ -149,6 +152,7 @@ struct CommandLine {
   CLI::App* check_command = nullptr;
   CLI::App* distance_command = nullptr;
   CLI::App* compare_command = nullptr;
+  CLI::App* regress_command = nullptr;
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
   CLI::App* doctor_command = nullptr;
@@ -162,6 +166,7 @@ struct CommandLine {
   void addExport();
   void addDistance();
   void addCompare();
+  void addRegress();
   void addBudget();
   void addFigures();
 };
@@ -190,6 +195,7 @@ CommandLine::CommandLine() {
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
   addCompare();
+  addRegress();
   addBudget();
   addFigures();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
@@ -371,10 +377,39 @@ void CommandLine::addCompare() {
   compare_command->add_option("--junit", options.junit, "JUnit XML file for a build server");
   compare_command->add_flag("--update", options.update,
                             "Replaces the golden files that do not pass, and adds new ones; deletes none");
+  compare_command
+      ->add_option("--accept", options.accepted,
+                   "Replaces or adds the golden files of these pairs alone (names, comma separated)")
+      ->delimiter(',');
+  compare_command->add_flag("--undo", options.undo, "Takes the last --update or --accept of GOLDEN back");
+  compare_command->add_option(
+      "--mask", options.masks,
+      "What is not looked at: body:NAME (frames with --states), rect:X,Y,W,H or png:FILE,\n"
+      "whose pixels that are not black; may be given several times");
   addTellingOptions(*compare_command, options.telling);
   compare_command->footer(
       "Example: carom compare out tests/golden/sliding --report out/report.html --junit out/report.xml\n"
       "Accept what was rendered: carom compare out tests/golden/sliding --update");
+}
+
+void CommandLine::addRegress() {
+  RegressOptions& options = regress_options;
+  regress_command = app.add_subcommand(
+      "regress",
+      "Draws and compares all scenes that a suite lists, several at a time; exit 1 when one differs");
+  regress_command->add_option("DIR", options.suite, "A folder with suite.json and golden frames, or the file")
+      ->required();
+  regress_command->add_option("-o,--output", options.output, "Folder for frames, reports and index.html")
+      ->capture_default_str();
+  regress_command->add_option("--jobs", options.jobs, "Scenes at a time (0: one for each processor)")
+      ->check(CLI::Range(0, kMostWorkers))
+      ->capture_default_str();
+  regress_command->add_flag("--json", options.json, "One JSON object instead of lines");
+  regress_command->add_option("--junit", options.junit, "JUnit XML file for a build server");
+  regress_command->add_flag("--update", options.update,
+                            "Accepts all frames that do not pass, and their records");
+  addTellingOptions(*regress_command, options.telling);
+  regress_command->footer("Example: carom regress tests/golden -o out --junit out/junit.xml");
 }
 
 void CommandLine::addBudget() {
@@ -390,7 +425,7 @@ void CommandLine::addBudget() {
       ->capture_default_str();
   budget_command
       ->add_option("--replays", options.replays,
-                   "Runs of the same scene; a frame counts with the least of its times")
+                   "Runs of the same scene; a frame counts with the least of its times (--against: 21)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   budget_command->add_option("--fps", options.fps, "Frames a second of the scene's time")
@@ -407,14 +442,34 @@ void CommandLine::addBudget() {
   budget_command->add_option("--trace", options.trace,
                              "The quickest replay as trace events, for ui.perfetto.dev");
   budget_command->add_option(
+      "--plot", options.plot,
+      "The frame times as a picture (.svg, or .html): phases stacked, deadline, percentiles,\n"
+      "slowest frames; with --baseline or --against the other run as a line over it");
+  budget_command->add_option(
       "--baseline", options.baseline,
       "An earlier --json of the same scene on the same machine: exit 1 when a phase got\n"
       "slower, and which");
   budget_command->add_option("--tolerance", budget_tolerance, "How much slower a phase may be (10%)");
+  budget_command->add_option("--work-tolerance", budget_work_tolerance,
+                             "How much more exact work than --baseline tells of a frame may do (0%), on any\n"
+                             "machine");
+  budget_command
+      ->add_option("--clock", options.clock,
+                   "wall, or cpu: CPU time of all threads, for machines that are shared")
+      ->check(CLI::IsMember({"wall", "cpu"}))
+      ->capture_default_str();
+  budget_command->add_option(
+      "--against", options.against,
+      "Another carom (\"old/carom --preset fast\"), taking turns frame by frame: exit 1\n"
+      "when this one is slower, by an exact sign test, and in which phase");
+  budget_command->add_flag("--paced", options.paced,
+                           "Draws a frame for each line on standard input, and answers with its times: what\n"
+                           "--against starts");
   addTellingOptions(*budget_command, options.telling);
   budget_command->footer(
       "Example: carom budget fifty-bodies --size 640x360 --json now.json --trace now.trace.json\n"
-      "After a change: carom budget fifty-bodies --size 640x360 --baseline now.json --tolerance 10%");
+      "After a change: carom budget fifty-bodies --size 640x360 --baseline now.json --tolerance 10%\n"
+      "Against the program before: carom budget fifty-bodies --size 640x360 --against old/carom");
 }
 
 void CommandLine::addFigures() {
@@ -529,8 +584,21 @@ void checkBudget(CommandLine& line) {
   if (!line.budget_size.empty()) readSize(line.budget_size, options);
   if (!line.budget_tolerance.empty()) {
     options.tolerance_percent = readPercentage("--tolerance", line.budget_tolerance);
-    if (options.baseline.empty()) throw UsageError("--tolerance is of --baseline, which is missing");
+    if (options.baseline.empty() && options.against.empty())
+      throw UsageError("--tolerance is of --baseline, which is missing");
   }
+  if (!options.plot.empty() && options.plot.extension() != ".svg" && options.plot.extension() != ".html")
+    throw UsageError("--plot " + options.plot.string() + ": accepted: a name that ends in .svg or .html");
+  if (!line.budget_work_tolerance.empty()) {
+    options.work_tolerance_percent = readPercentage("--work-tolerance", line.budget_work_tolerance);
+    if (options.baseline.empty()) throw UsageError("--work-tolerance is of --baseline, which is missing");
+  }
+  if (!options.against.empty() && line.budget_command->count("--replays") == 0)
+    options.replays = kFewestRounds;
+  if (!options.against.empty() &&
+      (!options.baseline.empty() || !options.trace.empty() || !options.csv.empty()))
+    throw UsageError(
+        "--against takes turns with another program: accepted without --baseline, --csv and --trace");
   if (options.json == "-" && options.csv == "-")
     throw UsageError("--json - and --csv -: standard output can take one of them");
 }
@@ -583,6 +651,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     return ExitCode::kOk;
   }
   checkValues(line);
+  for (int i = 1; i < argc; ++i) line.budget_options.words.emplace_back(argv[i]);
   line.render_options.states = line.render_options.states || line.render_options.portable;
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);
@@ -592,6 +661,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.check_command->parsed()) return check(line.check_options);
   if (line.distance_command->parsed()) return distance(line.distance_options);
   if (line.compare_command->parsed()) return compare(line.compare_options);
+  if (line.regress_command->parsed()) return regress(line.regress_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
   if (line.figures_command->parsed()) return figures(line.figures_options);
   return doctor(line.doctor_options);

@@ -455,8 +455,8 @@ void requireStreamable(const RenderOptions& options, const std::vector<FrameOutp
 /// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
-  return options.states && options.frames.empty() && options.shard.empty() && options.from.empty() &&
-         options.stream.empty() && options.ffmpeg.empty() && !options.at_s && !overlays.any();
+  return options.states && options.shard.empty() && options.from.empty() && options.stream.empty() &&
+         options.ffmpeg.empty() && !options.at_s && !overlays.any();
 }
 
 /// Overlays need the engine itself, and so does a still. A record holds pixels, which are drawn where it is

@@ -14,12 +14,16 @@
 
 namespace carom::demos {
 
+class PictureMask;
+
 /// No pixel's channel may differ by more. The 16-bit images are depth and ids: data, where a neighbour's id
 /// is one step away.
 struct Gate {
   int tolerance = 2;                ///< Of 8-bit images, in steps of 1/255.
   int tolerance16 = 0;              ///< Of 16-bit images, in steps of 1/65535.
   std::int64_t allowed_pixels = 0;  ///< This many pixels of an image may differ by more all the same.
+
+  const PictureMask* mask = nullptr;  ///< What is not looked at; none: all is.
 
   int toleranceOf(int full_scale) const { return full_scale == 255 ? tolerance : tolerance16; }
 };
@@ -47,7 +51,8 @@ struct Comparison {
   bool passes() const { return verdict == Verdict::kWithin || verdict == Verdict::kSame; }
 };
 
-/// Reads both images and judges them. Never throws for an unreadable file: that is a verdict.
+/// Reads both images and judges them; of several accepted golden images (`goldenVariants`) against the one
+/// that comes nearest, which the pair then names. Never throws for an unreadable file: that is a verdict.
 Comparison compared(const ImagePair& pair, const Gate& gate);
 
 /// "unreadable", "size differs", "missing", "extra", "differs", "within tolerance", "same"

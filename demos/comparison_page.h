@@ -88,6 +88,8 @@ button:focus-visible, #stage:focus-visible, .filter:focus-within { outline: 2px 
 #cause .then { fill: none; stroke: var(--soft); stroke-width: 1.5; stroke-dasharray: 5 4; }
 #cause .now { fill: none; stroke: #d55e00; stroke-width: 1.5; }
 #cause text { font-size: 11px; fill: var(--ink); }
+#list li { position: relative; } #list input { position: absolute; right: 10px; bottom: 10px; }
+#accept { padding: 10px 14px; font-size: 13px; overflow-wrap: anywhere; } #accept[hidden] { display: none; }
 #note { margin: 10px 0 0; color: var(--soft); font-size: 13px; }
 .empty { padding: 60px 20px; text-align: center; color: var(--soft); border: 1px dashed var(--line);
   border-radius: 8px; }
@@ -111,11 +113,13 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
   <nav aria-label="Pairs of images, worst first">
     <label class="filter" id="filter"><input type="checkbox" id="passing"> <span id="passing-text"></span></label>
     <ol id="list"></ol>
+    <p id="accept" hidden>accept the chosen with<br><code id="accept-command"></code></p>
   </nav>
   <section id="viewer">
     <h2 class="name" id="name"></h2>
     <p id="about" aria-live="polite"></p>
     <div id="cause" hidden></div>
+    <svg id="ink" width="0" height="0" aria-hidden="true"></svg>
     <div class="tools">
       <div class="tabs" role="tablist" aria-label="View">
         <button role="tab" data-view="swap">Swap</button>
@@ -197,6 +201,13 @@ function fillHeader() {
   byId("filter").hidden = failing === 0 || failing === pairs.length;
   byId("passing-text").textContent = "also show the " + grouped(pairs.length - failing) + " that pass";
 }
+const chosen = new Set();
+const quoted = name => /^[A-Za-z0-9_.\/-]+$/.test(name) ? name : "'" + name.replaceAll("'", "'\\''") + "'";
+function fillAccept() {
+  byId("accept").hidden = chosen.size === 0;
+  const names = [...chosen].sort((a, b) => a - b).map(i => quoted(pairs[i].name));
+  byId("accept-command").textContent = facts.accept + names.join(",");
+}
 function fillList() {
   byId("list").replaceChildren(...listed().map(i => {
     const pair = pairs[i], button = element("button"), row = element("div", "row"), item = element("li");
@@ -212,6 +223,14 @@ function fillList() {
     button.dataset.pair = i;
     button.addEventListener("click", () => select(i));
     item.append(button);
+    if (pair.acceptable && facts.accept) {
+      const box = element("input");
+      box.type = "checkbox";
+      box.title = "accept " + pair.name;
+      box.checked = chosen.has(i);
+      box.addEventListener("change", () => { box.checked ? chosen.add(i) : chosen.delete(i); fillAccept(); });
+      item.append(box);
+    }
     return item;
   }));
 }
@@ -225,12 +244,12 @@ function pathsOf(moved) {
   const order = [0, 1, 2].sort((i, j) => (high[j] - low[j]) - (high[i] - low[i])).slice(0, 2).sort();
   const scale = 190 / Math.max(1e-6, (high[order[1]] - low[order[1]]), (high[order[0]] - low[order[0]]) / 2.4);
   const place = p => [20 + scale * (p[order[0]] - low[order[0]]), 205 - scale * (p[order[1]] - low[order[1]])];
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const svg = document.createElementNS(byId("ink").namespaceURI, "svg");
   svg.setAttribute("viewBox", "0 0 560 230");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "Paths then, dashed, and now");
   const add = (tag, attributes, text) => {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    const made = document.createElementNS(byId("ink").namespaceURI, tag);
     for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
     if (text) made.textContent = text;
     svg.append(made);
@@ -264,6 +283,7 @@ function fillAbout(pair) {
   const about = byId("about");
   about.replaceChildren(element("strong", "", pair.verdict), document.createTextNode("  " + pair.detail.replaceAll("  ", " \u00b7 ")));
   fillCause(pair.cause);
+  if (pair.variant) about.append(element("br"), document.createTextNode("nearest of several accepted: " + pair.variant));
   if (pair.update) about.append(element("br"), document.createTextNode("golden image " + pair.update));
 }
 function transformOf(pair) {

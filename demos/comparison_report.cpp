@@ -6,6 +6,7 @@
 #include "demos/atomic_file.h"
 #include "demos/base64.h"
 #include "demos/cause/cause_json.h"
+#include "demos/cause/picture_mask.h"
 #include "demos/comparison_page.h"
 #include "demos/interrupt.h"
 #include "demos/json.h"
@@ -105,8 +106,10 @@ Json imagesOf(const Comparison& c, const ReportPlan& plan) {
   if (actual) images.set("actual", dataAddress(shown(*actual, range)));
   if (has_difference) {
     const int tolerance = plan.gate.toleranceOf(actual->fullScale());
+    Raster looked_at = *actual;
+    if (plan.gate.mask != nullptr) plan.gate.mask->apply(c.pair, looked_at, *golden);
     images.set("difference",
-               dataAddress(renderer::differenceImage(*actual, *golden, {tolerance, plan.amplify})));
+               dataAddress(renderer::differenceImage(looked_at, *golden, {tolerance, plan.amplify})));
   }
   images.set("note", noteOf(has_difference, stretched, range, plan));
   return images;
@@ -130,7 +133,11 @@ Json pairJson(const Comparison& c, bool embedded, const ReportPlan& plan) {
                             {"height", frame.height},
                             {"embedded", embedded}});
   if (c.cause.known()) pair.set("cause", causeJson(c.cause, CauseDetail::kTracks));
-  if (plan.updates && !c.passes()) pair.set("update", updateName(plannedUpdate(c)));
+  if (!c.passes() && c.actual_shape) pair.set("acceptable", true);
+  if (c.pair.golden.parent_path().extension() == ".variants")
+    pair.set("variant", c.pair.golden.filename().string());
+  if (plan.updates && !c.passes() && (plan.accepted.empty() || plan.accepted.contains(c.pair.name)))
+    pair.set("update", updateName(plannedUpdate(c)));
   if (c.verdict != Verdict::kBeyond && c.verdict != Verdict::kWithin) return pair;
   const renderer::ImageDifference& d = c.difference;
   pair.set("largest", d.largest);
@@ -176,6 +183,7 @@ void writeComparisonReport(const std::filesystem::path& path, const std::vector<
             Json::object({{"summary", tallyText(tallyOf(comparisons))},
                           {"about", std::move(about)},
                           {"embedded", plan.embedded},
+                          {"accept", plan.accept_command},
                           {"pairs", std::move(pairs)}}));
   file.write(kPageBottom);
   file.commit();

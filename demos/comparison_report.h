@@ -5,6 +5,7 @@
 // tests/demos/report_browser_test.cpp.
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,11 @@ struct ReportPlan {
   std::string actual;  ///< The paths that were compared, as given.
   std::string golden;
   Gate gate;
-  int embedded = 20;     ///< Of this many pairs, the worst, the report holds the images.
-  int amplify = 16;      ///< See renderer::DifferencePicture.
-  bool updates = false;  ///< The golden images are about to be replaced.
+  int embedded = 20;                    ///< Of this many pairs, the worst, the report holds the images.
+  int amplify = 16;                     ///< See renderer::DifferencePicture.
+  bool updates = false;                 ///< The golden images are about to be replaced.
+  std::set<std::string> accepted = {};  ///< Only those of these pairs; empty: all that do not pass.
+  std::string accept_command = {};      ///< What the names of chosen pairs are to be put behind; empty: none.
 };
 
 /// Throws CannotWrite.

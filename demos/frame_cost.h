@@ -33,6 +33,54 @@ constexpr FramePhase framePhase(StepPhase phase) {
 }
 static_assert(framePhase(StepPhase::kModes) == FramePhase::kModes && kStepPhases == 6);
 
+/// What there was to do, exactly: the same for any number of threads, on any machine, under any load.
+enum class Work : std::uint8_t {
+  kSteps,  ///< With substeps.
+  kPairs,
+  kQueries,
+  kStatesWalked,  ///< Pairs of features visited by the queries.
+  kContactPoints,
+  kRowVisits,  ///< Of contact rows, in all sweeps.
+  kLandings,
+  kProjectedPaths,
+  kClearedPaths,
+  kEvents,
+  kImpacts,
+  kNewtonSteps,
+  kTriangles,
+  kPixels,
+  kShadowTexels,
+  kMirrorTexels,
+  kBands,  ///< Of the picture that are not as in the one before.
+  kBytes   ///< Of the PNG.
+};
+inline constexpr std::size_t kWorkKinds = 18;
+/// A kind's name and the phase that it costs time in.
+struct WorkKind {
+  const char* name;
+  FramePhase phase;
+};
+inline constexpr std::array<WorkKind, kWorkKinds> kWork = {{{"steps", FramePhase::kForces},
+                                                            {"candidate pairs", FramePhase::kBroadPhase},
+                                                            {"queries", FramePhase::kClosestFeatures},
+                                                            {"states walked", FramePhase::kClosestFeatures},
+                                                            {"contact points", FramePhase::kImpulses},
+                                                            {"row visits", FramePhase::kImpulses},
+                                                            {"landings", FramePhase::kImpulses},
+                                                            {"projected paths", FramePhase::kImpulses},
+                                                            {"cleared paths", FramePhase::kTimeOfImpact},
+                                                            {"events", FramePhase::kTimeOfImpact},
+                                                            {"impacts", FramePhase::kTimeOfImpact},
+                                                            {"newton steps", FramePhase::kTimeOfImpact},
+                                                            {"triangles", FramePhase::kDraw},
+                                                            {"pixels drawn", FramePhase::kDraw},
+                                                            {"shadow texels", FramePhase::kDraw},
+                                                            {"mirror texels", FramePhase::kDraw},
+                                                            {"bands packed", FramePhase::kEncode},
+                                                            {"bytes packed", FramePhase::kEncode}}};
+using WorkCounts = std::array<std::int64_t, kWorkKinds>;
+inline constexpr std::int64_t kNotCounted = -1;  ///< By a program that does not know the kind.
+
 struct FrameCost {
   int frame = 0;
   double time_s = 0.0;           ///< Of the scene.
@@ -43,6 +91,8 @@ struct FrameCost {
   int pairs = 0;          ///< Candidate pairs; the most in a step of the frame.
   int queries = 0;        ///< Closest-feature queries of all its steps.
   int events = 0;         ///< Times of impact of all its steps.
+  WorkCounts work{};      ///< Sums over all its steps.
+  std::int64_t& worked(Work kind) { return work[static_cast<std::size_t>(kind)]; }
 };
 
 /// A stretch of one phase on the clock; stretches nest.

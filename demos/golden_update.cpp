@@ -34,11 +34,14 @@ Update updateGolden(const Comparison& comparison) {
   return update;
 }
 
-void updateRecord(const ImagePair& pair) {
-  const std::filesystem::path record = pair.actual.parent_path() / kRecordName;
+bool hasRecord(const ImagePair& pair) {
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(record, ignored))
-    copyWhole(record, pair.golden.parent_path() / kRecordName);
+  return std::filesystem::is_regular_file(pair.actual.parent_path() / kRecordName, ignored);
+}
+
+void updateRecord(const ImagePair& pair) {
+  if (hasRecord(pair))
+    copyWhole(pair.actual.parent_path() / kRecordName, pair.golden.parent_path() / kRecordName);
 }
 
 const char* updateName(Update update) {

@@ -23,6 +23,9 @@ Update plannedUpdate(const Comparison& comparison);
 /// has gone since it was compared.
 Update updateGolden(const Comparison& comparison);
 
+/// Whether the actual frames have a record beside them.
+bool hasRecord(const ImagePair& pair);
+
 /// Puts the record of the actual frames' folder (cause/motion_record.h) beside the golden ones, where there
 /// is one. Throws CannotWrite.
 void updateRecord(const ImagePair& pair);

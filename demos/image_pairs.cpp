@@ -4,11 +4,14 @@
 #include <map>
 
 #include "demos/exit_code.h"
+#include "demos/golden_undo.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
 namespace {
 namespace fs = std::filesystem;
+
+constexpr char kVariants[] = ".variants";
 
 enum class Kind { kNothing, kFile, kFolder };
 
@@ -27,6 +30,10 @@ bool isPng(const fs::path& path) {
   return extension == ".png";
 }
 
+bool holdsNoPairs(const fs::path& folder) {
+  return folder.filename() == kUndoFolder || folder.extension() == kVariants;
+}
+
 /// The relative names of the PNG files below a folder; none when there is no folder.
 std::vector<std::string> pngNames(const fs::path& folder, Kind kind) {
   std::vector<std::string> names;
@@ -35,9 +42,11 @@ std::vector<std::string> pngNames(const fs::path& folder, Kind kind) {
   fs::recursive_directory_iterator entries(folder, failed);
   // What is no folder is a pair's, even a link that leads nowhere, which is that pair's failure alone.
   std::error_code unknown;
-  for (; !failed && entries != fs::recursive_directory_iterator(); entries.increment(failed))
+  for (; !failed && entries != fs::recursive_directory_iterator(); entries.increment(failed)) {
+    if (entries->is_directory(unknown) && holdsNoPairs(entries->path())) entries.disable_recursion_pending();
     if (isPng(entries->path()) && !entries->is_directory(unknown))
       names.push_back(entries->path().lexically_relative(folder).generic_string());
+  }
   if (failed) throw InputError("cannot read '" + folder.string() + "': " + failed.message());
   return names;
 }
@@ -67,6 +76,16 @@ std::vector<ImagePair> folderPairs(const ComparedPaths& paths, Kind golden_kind)
 }
 
 }  // namespace
+
+std::vector<fs::path> goldenVariants(const fs::path& golden) {
+  const fs::path folder = golden.parent_path() / (golden.stem().string() + kVariants);
+  std::vector<fs::path> variants;
+  std::error_code failed;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
+    if (isPng(entry.path())) variants.push_back(entry.path());
+  std::sort(variants.begin(), variants.end());
+  return variants;
+}
 
 std::vector<ImagePair> imagePairs(const ComparedPaths& paths) {
   const Kind actual = kindOf(paths.actual);

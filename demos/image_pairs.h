@@ -16,6 +16,10 @@ struct ImagePair {
   bool has_golden = false;
 };
 
+/// Other images that are accepted in the place of this one: the PNG files of the folder "frame_0001.variants"
+/// beside "frame_0001.png", by name. Such folders hold no pairs.
+std::vector<std::filesystem::path> goldenVariants(const std::filesystem::path& golden);
+
 /// What is to be compared with what; both files or both folders.
 struct ComparedPaths {
   std::filesystem::path actual;

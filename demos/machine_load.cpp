@@ -15,13 +15,6 @@ double ticksPerSecond() {
   return static_cast<double>(std::max(sysconf(_SC_CLK_TCK), 1L));
 }
 
-/// CPU time of all threads of this process.
-double ownSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::optional<CpuTime> cpuTimeNow() {
   std::ifstream in("/proc/stat");
   std::ostringstream text;
@@ -30,6 +23,12 @@ std::optional<CpuTime> cpuTimeNow() {
 }
 
 }  // namespace
+
+double processSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 // "cpu user nice system idle iowait irq softirq steal ...": guests are part of user and nice.
 std::optional<CpuTime> parseCpuTime(const std::string& proc_stat, double ticks_per_second) {
@@ -54,12 +53,13 @@ double outsideShare(const CpuTime& before, const CpuTime& after, double own_s, d
   return std::min(others_s / total_s, 1.0);
 }
 
-MachineLoad::MachineLoad() : before_(cpuTimeNow()), own_before_s_(ownSeconds()) {}
+MachineLoad::MachineLoad() : before_(cpuTimeNow()), own_before_s_(processSeconds()) {}
 
 std::optional<double> MachineLoad::outsideShare() const {
   const std::optional<CpuTime> now = cpuTimeNow();
   if (!before_ || !now) return std::nullopt;
-  return demos::outsideShare(*before_, *now, ownSeconds() - own_before_s_, processors() / ticksPerSecond());
+  return demos::outsideShare(*before_, *now, processSeconds() - own_before_s_,
+                             processors() / ticksPerSecond());
 }
 
 int processors() {

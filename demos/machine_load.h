@@ -18,6 +18,9 @@ std::optional<CpuTime> parseCpuTime(const std::string& proc_stat, double ticks_p
 /// `own_s`: CPU time of this process between the two. 0 where the time is too short to tell from the ticks.
 double outsideShare(const CpuTime& before, const CpuTime& after, double own_s, double resolution_s);
 
+/// CPU seconds of all threads of this process.
+double processSeconds();
+
 /// Counts from its making.
 class MachineLoad {
  public:

@@ -8,13 +8,29 @@
 
 namespace carom::demos {
 
+namespace {
+
+/// The clock must be the only thing that two replays differ in.
+void requireSameWork(const FrameCost& first, const FrameCost& other, std::size_t replay) {
+  for (std::size_t w = 0; w < kWorkKinds; ++w)
+    if (first.work[w] != other.work[w])
+      throw SimulationInvalid("replays 1 and " + std::to_string(replay) + " do other work at frame " +
+                              std::to_string(first.frame) + ": " + kWork[w].name + " " +
+                              std::to_string(first.work[w]) + " became " + std::to_string(other.work[w]));
+}
+
+}  // namespace
+
 void requireSameStates(const std::vector<Replay>& replays) {
   for (std::size_t r = 1; r < replays.size(); ++r) {
     REQUIRE(replays[r].frames.size() == replays[0].frames.size(), r);
     for (std::size_t i = 0; i < replays[0].frames.size(); ++i) {
       const FrameCost& first = replays[0].frames[i];
       const FrameCost& other = replays[r].frames[i];
-      if (first.state_hash == other.state_hash) continue;
+      if (first.state_hash == other.state_hash) {
+        requireSameWork(first, other, r + 1);
+        continue;
+      }
       throw SimulationInvalid("replays 1 and " + std::to_string(r + 1) + " part at frame " +
                               std::to_string(first.frame) + ": state " + hexText(first.state_hash) +
                               " became " + hexText(other.state_hash) +

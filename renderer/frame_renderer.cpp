@@ -84,6 +84,12 @@ bool isWhole(std::span<const GridBlock> blocks, const Settings& settings) {
   return blocks.size() == 1 && blocks.front() == GridBlock{0, settings.width, 0, settings.height};
 }
 
+std::int64_t trianglesOf(std::span<const DrawGroup> groups) {
+  std::int64_t triangles = 0;
+  for (const DrawGroup& group : groups) triangles += std::int64_t{group.range.count} / 3 * group.count;
+  return triangles;
+}
+
 }  // namespace
 
 struct FrameRenderer::Impl {
@@ -129,6 +135,7 @@ struct FrameRenderer::Impl {
   void drawOcclusion(const FrameInputs& inputs, std::span<const GridBlock> blocks,
                      const ScreenBounds& bounds) const;
   void readBack(std::span<const GridBlock> blocks);
+  void count(std::span<const GridBlock> blocks, std::span<const BlockGroups> bodies, std::int64_t& area);
   const SurfaceImage& knownSurfaces();
 
   // What the frame at hand shows.
@@ -166,6 +173,7 @@ struct FrameRenderer::Impl {
   bool view_drawn = false;  // Whether `image` shows all of `view`.
   std::optional<FrameInputs>
       in_targets;  // What the targets and `pixels` were drawn from, if all from the same.
+  DrawWork work;
   SurfaceImage surfaces;
   bool surfaces_known = true;  // Those of a view that shows nothing yet: none.
 };
@@ -228,6 +236,7 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
+  work = {};
   if (showsAlready(instances, camera, water)) {
     if (drawn) drawn();
     return image;
@@ -263,6 +272,13 @@ bool FrameRenderer::Impl::showsAlready(std::span<const Instance> instances, cons
                     [](const Instance& a, const Instance& b) { return isSame(a, b); });
 }
 
+// Adds the blocks' area to `area`, and the triangles drawn within them.
+void FrameRenderer::Impl::count(std::span<const GridBlock> blocks, std::span<const BlockGroups> bodies,
+                                std::int64_t& area) {
+  for (const GridBlock& block : blocks) area += block.area();
+  for (const BlockGroups& within : bodies) work.triangles += trianglesOf(within.groups);
+}
+
 // The passes: shadow map, mirrored bodies, sky and ground, bodies, the ground's shadows, contact shadows,
 // water; each within the blocks that are not yet as they should be. Those of the image are returned.
 std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
@@ -284,6 +300,10 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
   for (const DrawnBody& body : drawnBodies(view.list.mirrored, view.list.records))
     appendTo(mirrored, records, body);
 
+  count(blocks, bodies, work.pixels);
+  count(damage.shadow_map.blocks(), casters, work.shadow_texels);
+  if (mirror_pass) work.mirror_texels += mirror_pass->texels();
+  if (mirror_pass && inputs.ground_seen) work.triangles += trianglesOf(mirrored);
   uploadBlock(inputs.block);
   geometry.uploadInstances(gl, records);
   shadow_map.draw(casters, geometry);
@@ -443,6 +463,9 @@ const Image& FrameRenderer::draw(std::span<const Instance> instances, const Came
 }
 const SurfaceImage& FrameRenderer::surfaces() {
   return impl_->knownSurfaces();
+}
+const DrawWork& FrameRenderer::work() const {
+  return impl_->work;
 }
 ContextInfo FrameRenderer::info() const {
   return impl_->context->info();

@@ -5,6 +5,7 @@
 // what of a frame is as in the one before is not drawn again, and would come out the same. Tested in
 // tests/renderer/frame_renderer_test.cpp and partial_drawing_test.cpp.
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -49,6 +50,14 @@ struct Settings {
       0;  ///< That fill pixels; 0: as many as Mesa likes. The first renderer of a process decides.
 };
 
+/// What the last `draw` had to do: the same on every machine and either back end.
+struct DrawWork {
+  std::int64_t triangles = 0;      ///< Of bodies, in the picture, the shadow map and the mirror.
+  std::int64_t pixels = 0;         ///< Of the blocks drawn anew, over all exposures.
+  std::int64_t shadow_texels = 0;  ///< The same of the shadow map, ...
+  std::int64_t mirror_texels = 0;  ///< ... and of what the ground mirrors.
+};
+
 class FrameRenderer {
  public:
   /// Creates the context and uploads the solids' geometry (kept by value; the span need not outlive the
@@ -73,6 +82,7 @@ class FrameRenderer {
   /// Its depth alone.
   const DepthImage& depth() { return surfaces().depth; }
   ContextInfo info() const;
+  const DrawWork& work() const;
 
  private:
   struct Impl;

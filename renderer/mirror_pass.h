@@ -2,6 +2,7 @@
 // What the ground mirrors: bodies, where alpha is one. Half as fine as the image: the exposures blur it
 // anyway. Tested through the frames of tests/renderer/preset_test.cpp.
 
+#include <cstdint>
 #include <span>
 
 #include "renderer/draw_list.h"
@@ -15,6 +16,7 @@ class MirrorPass {
   MirrorPass(const GlFunctions& gl, GLuint program, int width, int height);
 
   GLuint texture() const { return texture_; }
+  std::int64_t texels() const { return std::int64_t{width_} * height_; }
 
   /// Draws the groups of the instances that are uploaded, and nothing else; the shadow map must be bound.
   void draw(std::span<const DrawGroup> groups, const SceneGeometry& geometry) const;

@@ -395,6 +395,7 @@ Rows rowsOf(const Image& image) {
 // pixels alone. Files get no larger by it.
 struct PngSequence::Bands {
   static constexpr int kRows = 64;
+  static int bandsOf(const Rows& rows) { return (rows.height + kRows - 1) / kRows; }
 
   // A zlib stream (RFC 1950) of the picture.
   std::vector<std::uint8_t> pack(const Rows& rows) {
@@ -405,7 +406,8 @@ struct PngSequence::Bands {
       parts.clear();
     }
     const bool is_first = parts.empty();
-    parts.resize(static_cast<std::size_t>((height + kRows - 1) / kRows));
+    packed = 0;
+    parts.resize(static_cast<std::size_t>(bandsOf(rows)));
     std::vector<std::uint8_t> stream = {0x78, 0x01};
     uLong adler = 1;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -416,6 +418,7 @@ struct PngSequence::Bands {
       std::uint8_t* known = pixels.data() + (band.data - rows.data);
       if (is_first || std::memcmp(known, band.data, bytes) != 0) {
         std::memcpy(known, band.data, bytes);
+        ++packed;
         parts[i] = quickDeflatePart(filtered(band, Filter::kSub), i + 1 == parts.size());
       }
       stream.insert(stream.end(), parts[i].packed.begin(), parts[i].packed.end());
@@ -429,6 +432,7 @@ struct PngSequence::Bands {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;  // Of the picture before.
   std::vector<DeflatedPart> parts;   // Its bands.
+  int packed = 0;                    // Of them, by the last call.
 };
 
 PngSequence::PngSequence() : bands_(std::make_unique<Bands>()) {}
@@ -436,8 +440,15 @@ PngSequence::~PngSequence() = default;
 
 std::vector<std::uint8_t> PngSequence::encode(const Image& image, const PngText& text) {
   const Rows rows = rowsOf(image);
-  if (!hasQuickDeflate()) return zlibFile(rows, Zlib::kSub, text);
+  if (!hasQuickDeflate()) {
+    bands_->packed = Bands::bandsOf(rows);
+    return zlibFile(rows, Zlib::kSub, text);
+  }
   return packedFile(rows, bands_->pack(rows), text);
+}
+
+int PngSequence::packedBands() const {
+  return bands_->packed;
 }
 
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text, PngDeflate deflate) {

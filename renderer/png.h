@@ -43,6 +43,8 @@ class PngSequence {
   PngSequence(const PngSequence&) = delete;
   PngSequence& operator=(const PngSequence&) = delete;
   std::vector<std::uint8_t> encode(const Image& image, const PngText& text);
+  /// By the last call of `encode`: bands that were packed, not kept.
+  int packedBands() const;
 
  private:
   struct Bands;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "demos/cause/picture_evidence.h"
+#include "demos/cause/picture_mask.h"
 #include "demos/content_hash.h"
 #include "engine/foundation/contract.h"
 
@@ -314,12 +315,6 @@ double turnBetween(const RoundedPose& a, const RoundedPose& b) {
   return 2.0 * std::acos(std::min(1.0, std::abs(dot) / std::sqrt(norm_a * norm_b))) * kDegrees;
 }
 
-const RecordedShot* shotOf(const MotionRecord& record, const std::string& file) {
-  for (const RecordedShot& shot : record.shots)
-    if (shot.file == file) return &shot;
-  return nullptr;
-}
-
 std::vector<Vec3> trackOf(const MotionRecord& record, std::size_t body, const RecordedShot& shot) {
   std::vector<Vec3> track;
   for (const RecordedMoment& moment : record.moments)
@@ -552,7 +547,9 @@ Cause causeByText(const renderer::DecodedRaster& actual, const renderer::Decoded
 }
 
 const MotionRecord* RecordShelf::of(const std::filesystem::path& frame) {
-  const std::filesystem::path file = frame.parent_path() / kRecordName;
+  std::filesystem::path folder = frame.parent_path();
+  if (folder.extension() == ".variants") folder = folder.parent_path();
+  const std::filesystem::path file = folder / kRecordName;
   const auto [at, is_new] = records_.try_emplace(file);
   std::error_code ignored;
   if (is_new && std::filesystem::exists(file, ignored)) {
@@ -569,7 +566,7 @@ Cause causeInRecords(const MotionRecord& actual, const MotionRecord& golden) {
   if (actual.scene != golden.scene) return {};
   Cause unseen;
   for (const RecordedShot& was : golden.shots) {
-    const RecordedShot* is = shotOf(actual, was.file);
+    const RecordedShot* is = actual.shotOf(was.file);
     if (is == nullptr || is->time_s != was.time_s) continue;
     const Side a{actual, *is}, g{golden, was};
     if (is->state_hash != was.state_hash) return causeAtShots(a, g);
@@ -588,13 +585,15 @@ Cause causeOfDifference(const Comparison& c, const Gate& gate, RecordShelf& shel
   if (!by_text.changes.empty() && by_text.changes.front().part == "encoder") return by_text;
   const MotionRecord *a = shelf.of(c.pair.actual), *g = shelf.of(c.pair.golden);
   if (a == nullptr || g == nullptr) return by_text;
-  const RecordedShot* shot_a = shotOf(*a, c.pair.actual.filename().string());
-  const RecordedShot* shot_g = shotOf(*g, c.pair.golden.filename().string());
+  const RecordedShot* shot_a = a->shotOf(c.pair.actual.filename().string());
+  const RecordedShot* shot_g = g->shotOf(std::filesystem::path(c.pair.name).filename().string());
   // A record that an earlier run left says nothing of this frame.
   if (shot_a == nullptr || shot_g == nullptr || hexText(shot_a->state_hash) != textOf(actual.text, "State"))
     return by_text;
   Cause cause = causeAtShots({*a, *shot_a}, {*g, *shot_g});
-  addPictureEvidence({actual.raster, golden.raster, gate.toleranceOf(actual.raster.fullScale())},
+  renderer::Raster looked_at = actual.raster;
+  if (gate.mask != nullptr) gate.mask->apply(c.pair, looked_at, golden.raster);
+  addPictureEvidence({looked_at, golden.raster, gate.toleranceOf(actual.raster.fullScale())},
                      {{*a, *shot_a}, {*g, *shot_g}}, cause);
   return cause;
 }

@@ -261,6 +261,12 @@ RecordedShot readShot(const Json& json) {
 
 }  // namespace
 
+const RecordedShot* MotionRecord::shotOf(const std::string& file) const {
+  for (const RecordedShot& shot : shots)
+    if (shot.file == file) return &shot;
+  return nullptr;
+}
+
 RoundedPose roundedPose(const Pose& X_WB, double length_quantum_m) {
   RoundedPose rounded;
   for (int i = 0; i < 3; ++i)

@@ -81,6 +81,9 @@ struct MotionRecord {
   std::vector<RecordedMoment> moments;
   std::vector<RecordedStrike> strikes;
   std::vector<RecordedShot> shots;
+
+  /// The shot of that file; null where there is none.
+  const RecordedShot* shotOf(const std::string& file) const;
 };
 
 RoundedPose roundedPose(const Pose& X_WB, double length_quantum_m);

@@ -72,6 +72,7 @@ class Look {
       const ClosestFeatures there =
           closestFeatures(*a_.part, a_.path->at(t), *b_.part, b_.path->at(t), tracked);
       ++found.queries;
+      found.states += there.states;
       gap = there.distance_m;
       if (!(gap > reached)) return true;
       if (ends) {
@@ -273,6 +274,7 @@ void lookOnce(Look& look, const MovingPart& a, const MovingPart& b, const Impact
     found.closest =
         closestFeatures(*a.part, a.path->at(found.time_s), *b.part, b.path->at(found.time_s), tracked);
     ++found.queries;
+    found.states += found.closest.states;
   }
   const double gap = found.closest.distance_m;
   const double speed = look.separatingSpeedAt(found.time_s, found.closest);

@@ -59,13 +59,18 @@ class Assembly {
     keepRows(pairs, stretches[0]);
     for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
     for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
-    counters_.distance_queries += stretches[1].counters.distance_queries;
+    addQueries(stretches[1].counters);
     contacts_.stretches.swap(stretches);
     joinRows();
     return islandsOf(pairs);
   }
 
  private:
+  void addQueries(const StepCounters& made) {
+    counters_.distance_queries += made.distance_queries;
+    counters_.states_walked += made.states_walked;
+  }
+
   // In the order of the rows: those of an island together, those of a crowd by descending part of it.
   struct LastingPair {
     int island = -1;  // at first a body of it
@@ -189,8 +194,7 @@ class Assembly {
            ++i)
         makeRowsOf(lasting_[i], stretch);
     });
-    for (const RowStretch& stretch : contacts_.stretches)
-      counters_.distance_queries += stretch.counters.distance_queries;
+    for (const RowStretch& stretch : contacts_.stretches) addQueries(stretch.counters);
   }
 
   void makeRowsOf(const LastingPair& lasting, RowStretch& stretch) {

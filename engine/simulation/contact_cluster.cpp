@@ -79,10 +79,13 @@ const ClosestFeatures& ContactCluster::look(int index) {
   if (pair_seen_[at(index)] == number_) return closest_[at(index)];
   pair_seen_[at(index)] = number_;
   ShapePair& pair = table_.pairs()[at(index)];
+  ClosestFeatures& closest = closest_[at(index)];
+  closest = closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
+                            *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_),
+                            pair.tracked);
   ++counters_.distance_queries;
-  return closest_[at(index)] = closestFeatures(
-             *shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
-             *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_), pair.tracked);
+  counters_.states_walked += closest.states;
+  return closest;
 }
 
 int ContactCluster::join(int index) {

@@ -112,8 +112,9 @@ class ContactPaths {
                                  std::span(contacts_.rows).subspan(rows.begin, rows.end - rows.begin),
                                  counters))
         raised = true;
-      if (counters.distance_queries > 0)
-        std::atomic_ref<int>(counters_.distance_queries) += counters.distance_queries;
+      if (counters.distance_queries == 0) return;
+      std::atomic_ref(counters_.distance_queries) += counters.distance_queries;
+      std::atomic_ref(counters_.states_walked) += counters.states_walked;
     });
     return raised;
   }
@@ -152,6 +153,8 @@ class ContactPaths {
                               half.spin,
                               step_s_});
     });
+    counters_.projected_paths += static_cast<int>(
+        std::ranges::count_if(bodies_, [&](int i) { return contacts_.touched[at(i)] != 0; }));
     findBends();
     forBodies([&](std::size_t i) {
       if (contacts_.touched[i])

@@ -119,6 +119,7 @@ class EventLoop {
       const Prediction& prediction = predictions_[at(i)];
       if (!prediction.looked) continue;
       counters_.distance_queries += prediction.found.queries;
+      counters_.states_walked += prediction.found.states;
       counters_.newton_steps += prediction.found.newton_steps;
       search_work_ += prediction.found.work;
     }
@@ -253,11 +254,13 @@ class EventLoop {
 
   void look(int index) {
     const int queries = predictions_[at(index)].found.queries;
+    const long states = predictions_[at(index)].found.states;
     const int newton_steps = predictions_[at(index)].found.newton_steps;
     const long work = predictions_[at(index)].found.work;
     carryOn(index);
     search_work_ += predictions_[at(index)].found.work - work;
     counters_.distance_queries += predictions_[at(index)].found.queries - queries;
+    counters_.states_walked += predictions_[at(index)].found.states - states;
     counters_.newton_steps += predictions_[at(index)].found.newton_steps - newton_steps;
   }
 
@@ -293,10 +296,12 @@ class EventLoop {
     ShapePair& pair = table_.pairs()[at(index)];
     if (!(time_s > 0.0)) return pair.closest;
     if (const ClosestFeatures* seen = cluster_.closestSeen(index, time_s)) return *seen;
+    const ClosestFeatures closest = closestFeatures(
+        *shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
+        *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s), pair.tracked);
     ++counters_.distance_queries;
-    return closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
-                           *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s),
-                           pair.tracked);
+    counters_.states_walked += closest.states;
+    return closest;
   }
 
   // Whether what a look has found is no collision: paths that are at the floor, while the momenta, which

@@ -71,6 +71,7 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
   const ClosestFeatures closest =
       closestFeatures(*a.shape.part, later.X_WA, *b.shape.part, later.X_WB, tracked);
   ++counters.distance_queries;
+  counters.states_walked += closest.states;
   if (!(closest.distance_m > 0.0)) return;
   later.closest = &closest;
   RememberedPoints now;

@@ -210,6 +210,7 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
     ++counters.distance_queries;
+    counters.states_walked += pair.closest.states;
     counters.iteration_limits += pair.closest.reached_limit;
     collected_.push_back(add(std::move(pair), bodies));
   }
@@ -244,6 +245,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
           closestFeatures(*shapes[at(both.a)].part, bodies[at(pair.body_a)].path.at(time_s),
                           *shapes[at(both.b)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
       ++counters.distance_queries;
+      counters.states_walked += pair.closest.states;
       const int place = add(std::move(pair), bodies);
       active_.push_back(place);
       extended_.push_back(place);
@@ -310,6 +312,7 @@ void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape
                         StepCounters& counters) {
   crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     int queries = 0, limits = 0;
+    long states = 0;
     for (std::size_t i = begin; i < end; ++i) {
       ShapePair& pair = pairAt(active_[i]);
       const Body& a = bodies[at(pair.body_a)];
@@ -318,9 +321,11 @@ void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape
       pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
                                      b.X_WB, pair.tracked);
       ++queries;
+      states += pair.closest.states;
       limits += pair.closest.reached_limit;
     }
     std::atomic_ref(counters.distance_queries) += queries;
+    std::atomic_ref(counters.states_walked) += states;
     std::atomic_ref(counters.iteration_limits) += limits;
   });
 }

@@ -82,10 +82,12 @@ struct Overlap {
 struct StepCounters {
   int candidate_pairs = 0;
   int distance_queries = 0;
+  long states_walked = 0;  ///< Feature pairs visited by these queries.
   int contact_points = 0;
   int events = 0;            ///< Times at which impulses acted between steps, ...
   int impacts = 0;           ///< ... of these, roots: fast approaches that came into the window.
   int landings = 0;          ///< Pairs without restitution that were foreseen to come down, and held in time.
+  int projected_paths = 0;   ///< Bodies whose paths were led along their contacts; each time counts.
   int cleared_paths = 0;     ///< Times that two paths were led apart, without impulses.
   long row_visits = 0;       ///< Contact rows looked at by the solvers.
   int newton_steps = 0;      ///< Of the searches for times of impact.

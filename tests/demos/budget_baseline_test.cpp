@@ -109,6 +109,65 @@ TEST(BudgetBaseline, AnotherSceneSizeLengthMachineOrBuildIsRefusedByName) {
   }
 }
 
+/// A hundred queries and a thousand triangles a frame, but for what `change` does.
+BudgetResult worked(const std::function<void(FrameCost&)>& change = {}) {
+  const Replay replay = sampleReplay(120, [&](FrameCost& f) {
+    f.worked(Work::kQueries) = 100;
+    f.worked(Work::kTriangles) = 1000;
+    if (change) change(f);
+  });
+  return sampleResult(kGate, {replay, replay});
+}
+
+TEST(BudgetBaseline, OneQueryMoreInOneFrameIsNamedWithItsFrameWhateverTheTimes) {
+  const Baseline baseline = savedAndRead(worked());
+  const BaselineComparison c = comparedToBaseline(
+      worked([](FrameCost& f) { f.worked(Work::kQueries) += f.frame == 17 ? 1 : 0; }), baseline, 10.0);
+  EXPECT_EQ(c.verdict, BudgetVerdict::kOver);
+  EXPECT_EQ(
+      baselineLines(c)[1],
+      "more work: queries, 12001, was 12000 (+0.00833 %), first at frame 17: 101, was 100; in no more time");
+  EXPECT_EQ(
+      comparedToBaseline(worked([](FrameCost& f) { f.worked(Work::kQueries) += f.frame == 17 ? 1 : 0; }),
+                         baseline, 10.0, 1.0)
+          .verdict,
+      BudgetVerdict::kWithin);
+}
+
+TEST(BudgetBaseline, LessWorkAndTheSameWorkPass) {
+  const Baseline baseline = savedAndRead(worked());
+  const BaselineComparison less =
+      comparedToBaseline(worked([](FrameCost& f) { f.worked(Work::kTriangles) = 900; }), baseline, 10.0);
+  EXPECT_EQ(less.verdict, BudgetVerdict::kWithin);
+  EXPECT_EQ(baselineLines(less)[1],
+            "less work: triangles, 108000, was 120000 (-10 %), first at frame 0: 900, was 1000");
+  EXPECT_EQ(baselineLines(comparedToBaseline(worked(), baseline, 10.0))[1],
+            "the same work in every frame as in old.json");
+}
+
+TEST(BudgetBaseline, TimeWithoutWorkIsToldFromTimeOfWork) {
+  const Baseline baseline = savedAndRead(worked());
+  const auto slower = [](FrameCost& f) { phaseOf(f, FramePhase::kDraw) = 1.5; };
+  EXPECT_EQ(baselineLines(comparedToBaseline(worked(slower), baseline, 10.0))[0],
+            "slower: draw, mean 1.5 ms, was 1 ms (+50 %, tolerance 10 %); with no more work");
+  EXPECT_EQ(baselineLines(comparedToBaseline(worked([&](FrameCost& f) {
+                                               slower(f);
+                                               f.worked(Work::kTriangles) = 1500;
+                                             }),
+                                             baseline, 10.0))[0],
+            "slower: draw, mean 1.5 ms, was 1 ms (+50 %, tolerance 10 %); with more work: triangles +50 %");
+}
+
+TEST(BudgetBaseline, OfAnotherMachineGatesTheWorkAlone) {
+  Baseline baseline = savedAndRead(worked());
+  baseline.subject.machine = "another";
+  const BaselineComparison c =
+      comparedToBaseline(worked([](FrameCost& f) { phaseOf(f, FramePhase::kDraw) = 9.0; }), baseline, 10.0);
+  EXPECT_EQ(c.verdict, BudgetVerdict::kWithin);
+  EXPECT_EQ(baselineLines(c)[0],
+            "no times were compared: old.json is of another machine: another, not a CPU, 2 cores");
+}
+
 TEST(BudgetBaseline, AFileFromBeforeThreadsIsOfOne) {
   const TemporaryFolder folder;
   std::string text = budgetJson(sampleResult(kGate, {sampleReplay(120), sampleReplay(120)}), nullptr).text(2);

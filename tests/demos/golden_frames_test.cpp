@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
 #include "demos/drawn_water.h"
+#include "demos/regress/regress_suite.h"
 #include "demos/scene_file.h"
 #include "demos/scene_world.h"
 #include "png_files.h"
@@ -167,6 +169,19 @@ ProgramEnd comparedWithChanged(const TemporaryFolder& folder, const fs::path& go
   fs::copy_file(golden, folder.path() / "golden/frame_0001.png", fs::copy_options::overwrite_existing);
   return runCarom({"compare", (folder.path() / "actual").string(), (folder.path() / "golden").string(), "-q",
                    "--report", (folder.path() / "report.html").string()});
+}
+
+TEST(GoldenFramesOfAllScenes, AreASuiteForCaromRegress) {
+  std::set<std::string> folders, scenes;
+  for (const auto& entry : fs::directory_iterator(goldenFolder("")))
+    if (entry.is_directory()) folders.insert(entry.path().filename().string());
+  const std::vector<std::string> drawn_as = {"--portable", "--size",     "320x180", "--fps",
+                                             "2",          "--duration", "1.5"};
+  for (const SuiteScene& scene : readSuite(goldenFolder("")).scenes) {
+    scenes.insert(scene.name);
+    EXPECT_EQ(scene.render, drawn_as) << scene.name;
+  }
+  EXPECT_EQ(scenes, folders);
 }
 
 TEST(GoldenFramesOfAllScenes, HoldTheirStateAndAFailureTellsPhysicsFromRendererAndHowToAcceptIt) {

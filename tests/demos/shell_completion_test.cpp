@@ -32,7 +32,7 @@ class Completion : public testing::Test {
 };
 
 TEST_F(Completion, OffersCommandsThenOptionsThenValuesAndScenes) {
-  EXPECT_EQ(offered("re"), "render");
+  EXPECT_EQ(offered("ren"), "render");
   EXPECT_EQ(offered("--v"), "--version");
   EXPECT_EQ(offered("budget --ba"), "--baseline");
   EXPECT_EQ(offered("compare a b --tol"), "--tolerance --tolerance16");

@@ -139,16 +139,16 @@ def camera(scene, rng):
 
 
 def mesh_vertex(scene, rng, folder):
-    hulls = [b for b in movers(scene) if "hull" in b["shape"] and b["shape"]["hull"].get("file", "").endswith(".obj")]
-    body = pick(rng, hulls)
-    hull = body["shape"]["hull"]
-    lines = pathlib.Path(hull["file"]).read_text().splitlines()
+    meshes = [b for b in movers(scene) if b["shape"].get("mesh", {}).get("file", "").endswith(".obj")]
+    body = pick(rng, meshes)
+    mesh = body["shape"]["mesh"]
+    lines = pathlib.Path(mesh["file"]).read_text().splitlines()
     at = rng.choice([i for i, line in enumerate(lines) if line.startswith("v ")])
     numbers = [float(x) * 1.08 for x in lines[at].split()[1:4]]
     lines[at] = "v %g %g %g" % tuple(numbers)
     copy_ = folder / "edited.obj"
     copy_.write_text("\n".join(lines) + "\n")
-    hull["file"] = str(copy_)
+    mesh["file"] = str(copy_)
     return [named(body), re.compile("shape")]
 
 
@@ -294,10 +294,13 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--mutants", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--kinds", help="only these, comma separated: " + ", ".join(KINDS + list(MUTANTS)))
     options = parser.parse_args()
     work = options.out or pathlib.Path(tempfile.mkdtemp(prefix="carom-faults-"))
     work.mkdir(parents=True, exist_ok=True)
     kinds = KINDS + ([k for k in MUTANTS if (options.mutants / k).exists()] if options.mutants else [])
+    if options.kinds:
+        kinds = [k for k in kinds if k in options.kinds.split(",")]
     gate = Gate(os.path.abspath(options.carom), options.mutants and options.mutants.resolve(), work.resolve())
     table = {kind: {} for kind in kinds}
     twins_failed = 0

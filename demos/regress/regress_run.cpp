@@ -1,0 +1,163 @@
+#include "demos/regress/regress_run.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <thread>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "demos/asset_path.h"
+#include "demos/exit_code.h"
+#include "demos/interrupt.h"
+#include "engine/foundation/contract.h"
+
+namespace carom::demos {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr auto kLook = std::chrono::milliseconds(10);  // between two looks at what runs
+
+/// One process of this program, its output in files.
+class Child {
+ public:
+  Child(std::vector<std::string> words, const fs::path& out, const fs::path& err) {
+    words.insert(words.begin(), "/proc/self/exe");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const std::string out_name = out.string(), err_name = err.string();
+    id_ = ::fork();
+    if (id_ < 0) throw CannotWrite(std::string("cannot start a process: ") + std::strerror(errno));
+    if (id_ > 0) return;
+    const int to_out = ::open(out_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int to_err = ::open(err_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (::dup2(to_out, STDOUT_FILENO) == STDOUT_FILENO && ::dup2(to_err, STDERR_FILENO) == STDERR_FILENO)
+      ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  Child(Child&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Child& operator=(Child&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Child() {
+    if (id_ <= 0) return;
+    ::kill(id_, SIGTERM);
+    while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  /// Its exit code, or 128 and the signal, once it has ended.
+  std::optional<int> ended() {
+    int status = 0;
+    if (::waitpid(id_, &status, WNOHANG) != id_) return std::nullopt;
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t id_ = -1;
+};
+
+/// The files of a scene in the output folder.
+struct Files {
+  fs::path frames, out, err, report, junit;
+};
+Files filesOf(const fs::path& output, const std::string& name) {
+  const fs::path folder = output / name;
+  return {folder / "frames", folder / "compare.json", folder / "errors.txt", folder / "report.html",
+          folder / "junit.xml"};
+}
+
+std::vector<std::string> renderWords(const SuiteScene& scene, const Files& files) {
+  std::vector<std::string> words = {"render", scene.scene, "-q"};
+  words.insert(words.end(), scene.render.begin(), scene.render.end());
+  words.insert(words.end(), {"-o", (files.frames / "frame_%04d.png").string()});
+  return words;
+}
+
+std::vector<std::string> compareWords(const SuiteScene& scene, const Files& files, bool update) {
+  std::vector<std::string> words = {"compare", files.frames.string(), scene.golden.string(), "-q"};
+  words.insert(words.end(), scene.compare.begin(), scene.compare.end());
+  words.insert(words.end(), {"--json", "--report", files.report.string(), "--junit", files.junit.string()});
+  if (update) words.emplace_back("--update");
+  return words;
+}
+
+std::string firstLine(const fs::path& file) {
+  const std::string text = readTextFile(file);
+  return text.substr(0, text.find('\n'));
+}
+
+/// The <testsuite> of a JUnit file.
+std::string suiteElement(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return "";
+  const std::string text = readTextFile(file);
+  const std::size_t from = text.find("  <testsuite "), end = text.find("</testsuites>");
+  return from == std::string::npos || end == std::string::npos ? "" : text.substr(from, end - from);
+}
+
+/// A scene under way: first drawn, then compared.
+struct Running {
+  std::size_t index;
+  bool drawing;
+  Child child;
+};
+
+}  // namespace
+
+std::vector<SceneOutcome> runSuite(const RegressSuite& suite, const RegressPlan& plan,
+                                   const std::function<void(int)>& done) {
+  std::vector<SceneOutcome> outcomes(suite.scenes.size());
+  std::vector<Running> running;
+  std::size_t next = 0;
+  int finished = 0;
+  const auto begin = [&](std::size_t i) {
+    const SuiteScene& scene = suite.scenes[i];
+    const Files files = filesOf(plan.output, scene.name);
+    std::error_code failed;
+    fs::remove_all(files.frames.parent_path(), failed);
+    fs::create_directories(files.frames.parent_path(), failed);
+    if (failed) throw CannotWrite("cannot write '" + files.frames.string() + "': " + failed.message());
+    outcomes[i].name = scene.name;
+    running.push_back({i, true, Child(renderWords(scene, files), files.out, files.err)});
+  };
+  while (next < suite.scenes.size() || !running.empty()) {
+    throwIfInterrupted();
+    while (next < suite.scenes.size() && running.size() < static_cast<std::size_t>(plan.jobs)) begin(next++);
+    for (Running& run : running) {
+      const std::optional<int> code = run.child.ended();
+      if (!code) continue;
+      const SuiteScene& scene = suite.scenes[run.index];
+      const Files files = filesOf(plan.output, scene.name);
+      SceneOutcome& outcome = outcomes[run.index];
+      outcome.code = *code;
+      if (run.drawing && *code == 0) {
+        run.drawing = false;
+        run.child = Child(compareWords(scene, files, plan.update), files.out, files.err);
+        continue;
+      }
+      std::error_code ignored;
+      if (*code != 0) outcome.problem = firstLine(files.err);
+      if (!run.drawing) {
+        const std::string text = readTextFile(files.out);
+        if (!text.empty()) outcome.comparison = Json::parse(text, files.out.string());
+        outcome.junit = suiteElement(files.junit);
+        if (fs::exists(files.report, ignored)) outcome.report = fs::path(scene.name) / "report.html";
+      }
+      run.index = suite.scenes.size();  // done
+      done(++finished);
+    }
+    std::erase_if(running, [&](const Running& run) { return run.index == suite.scenes.size(); });
+    std::this_thread::sleep_for(kLook);
+  }
+  return outcomes;
+}
+
+}  // namespace carom::demos
