@@ -6,8 +6,8 @@
 
   equal   CAROM against itself while --load processes keep the machine busy. Fails where one is called slower.
   slowed  CAROM against itself, beneath both the library that the build makes of tests/demos/slow_encoding.cpp (for
-          Ninja: build/release/tests/libslow_encoding.so), which lengthens packing by the share of its own CPU time in
-          one of the two. Fails where fewer than 95 of 100 are told with their phase, or another phase is blamed.
+          Ninja: build/release/tests/libslow_encoding.so), which lengthens packing in one of the two, so
+          that its phase takes --share more CPU time. Fails where fewer than 95 of 100 are told with their phase, or another phase is blamed.
 
 Prints a line a pair and what came out. --seconds ends it after the pair in which that time has passed: it then says of
 how many pairs it tells.
@@ -37,7 +37,7 @@ def load(count):
 
 
 def verdict(options, other, environment):
-    """(what is called slower, what faster, the smallest change of encoding and of a frame that would be seen)"""
+    """(what is called slower, what faster, the smallest change that would be seen by phase, the change by phase)"""
     words = [options.carom, "budget", options.scene, "-q", "--size", options.size, "--duration", str(options.duration),
              "--clock", options.clock, "--replays", str(options.rounds), "--against", other, "--json", "-"]
     end = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **environment})
@@ -47,7 +47,7 @@ def verdict(options, other, environment):
     changes = said["phases"] + [said["frame"]]
     of = lambda speed: [change["name"] for change in changes if change["verdict"] == speed]
     seen = {change["name"]: change["smallestSeen"] for change in changes}
-    return of("slower"), of("faster"), seen
+    return of("slower"), of("faster"), seen, {change["name"]: change["change"] for change in changes}
 
 
 def equal(options):
@@ -55,7 +55,7 @@ def equal(options):
     end_s = time.monotonic() + options.seconds
     with load(options.load):
         while done < options.pairs and time.monotonic() < end_s:
-            names_slower, names_faster, _ = verdict(options, options.carom, {})
+            names_slower, names_faster, _, _ = verdict(options, options.carom, {})
             done += 1
             slower += bool(names_slower)
             faster += bool(names_faster)
@@ -73,12 +73,15 @@ def slowed(options):
     with tempfile.TemporaryDirectory(prefix="carom-timing-") as name, load(options.load):
         other = pathlib.Path(name) / "carom"
         # The other of the two has the library beneath it as well, and is not slowed.
-        other.write_text("#!/bin/sh\nCAROM_SLOWDOWN=%s exec '%s' \"$@\"\n" % ("0" * len(str(options.share)), options.carom))
+        other.write_text("#!/bin/sh\nCAROM_SLOWDOWN=%s exec '%s' \"$@\"\n" % ("0.00000", options.carom))
         other.chmod(0o755)
+        slow = lambda share: verdict(options, str(other), {"LD_PRELOAD": library, "CAROM_SLOWDOWN": "%.5f" % share})
+        # Packing is a part of its phase: how large a part is seen where it takes twice its time.
+        part = slow(1.0)[3]["encode"]
+        print("packing is %.0f %% of its phase" % (100 * part), flush=True)
         while done < options.pairs and time.monotonic() < end_s:
             begin_s = time.monotonic()
-            slower, faster, seen = verdict(options, str(other), {"LD_PRELOAD": library,
-                                                                 "CAROM_SLOWDOWN": str(options.share)})
+            slower, faster, seen, _ = slow(options.share / part)
             longest_s = max(longest_s, time.monotonic() - begin_s)
             done += 1
             blamed = [phase for phase in slower if phase not in ("encode", "frame")] + faster
@@ -87,7 +90,7 @@ def slowed(options):
             if "encode" not in slower or blamed:
                 print("pair %d: slower %s, faster %s; of packing %s would have been seen"
                       % (done, slower, faster, seen["encode"]), flush=True)
-    print("%d pairs, packing slowed by %g, %s clock: %d named, %d blamed on another phase, at most %.0f s a pair"
+    print("%d pairs, encoding slowed by %g, %s clock: %d named, %d blamed on another phase, at most %.0f s a pair"
           % (done, options.share, options.clock, right, wrong, longest_s))
     return 0 if done and not wrong and 100 * right >= 95 * done else 1
 
