@@ -1,7 +1,8 @@
 #pragma once
-// The path of a body over a time interval: constant acceleration, and constant spin or torque-free tumbling,
-// evaluated exactly at any instant. In flight the acceleration is gravity (an exact parabola), in air and
-// water the mean one; in lasting contact it is zero. Tested in tests/engine/motion/trajectory_test.cpp.
+// The path of a body over a time interval: constant acceleration, and constant spin, torque-free tumbling or
+// a spin that changes evenly about its axis, evaluated exactly at any instant. In flight the acceleration is
+// gravity (an exact parabola), in air and water the mean one; in lasting contact it is zero. A prescribed
+// path (prescribed_path.h) is made of such pieces. Tested in tests/engine/motion/trajectory_test.cpp.
 
 #include "engine/foundation/elementary.h"
 #include "engine/foundation/frames.h"
@@ -9,13 +10,20 @@
 
 namespace carom {
 
+/// A spin that changes evenly, along its own axis.
+struct SpinChange {
+  Vec3 rate = Vec3::Zero();   ///< rad/s^2.
+  double fastest_spin = 0.0;  ///< rad/s: a bound over the whole interval.
+};
+
 struct Trajectory {
   double start_s = 0.0;
   Pose X_WB;                     ///< At `start_s`.
   Vec3 velocity = Vec3::Zero();  ///< Of the centre of mass at `start_s`.
   Vec3 acceleration = Vec3::Zero();
-  Vec3 spin = Vec3::Zero();  ///< rad/s, world frame, constant; of a body that tumbles, the mean.
-  Tumbling tumbling = {};    ///< Without inertia: it turns at its spin.
+  Vec3 spin = Vec3::Zero();     ///< rad/s, world frame, constant; of a body that tumbles, the mean.
+  Tumbling tumbling = {};       ///< Without inertia: it turns at its spin.
+  SpinChange spin_change = {};  ///< Of a body that does not tumble; `spin` is that at `start_s`.
 
   Vec3 positionAt(double t_s) const {
     const double t = t_s - start_s;
@@ -28,19 +36,27 @@ struct Trajectory {
     if (t == 0.0) return X;
     if (tumbling.inertia != nullptr)
       X.rotation = rotationAfter(tumbling, X_WB.rotation, t).normalized();
+    else if (!spin_change.rate.isZero(0.0))
+      X.rotation = (rotationBy(t * spin + (0.5 * t * t) * spin_change.rate) * X_WB.rotation).normalized();
     else if (!spin.isZero(0.0))
       X.rotation = (rotationBy(t * spin) * X_WB.rotation).normalized();
     return X;
   }
   Vec3 velocityAt(double t_s) const { return velocity + (t_s - start_s) * acceleration; }
   Vec3 angularVelocityAt(double t_s) const {
-    if (tumbling.inertia == nullptr) return spin;
+    if (tumbling.inertia == nullptr)
+      return spin_change.rate.isZero(0.0) ? spin : Vec3(spin + (t_s - start_s) * spin_change.rate);
     return angularVelocity(*tumbling.inertia, at(t_s).rotation, tumbling.momentum);
   }
-  double fastestSpin() const { return tumbling.inertia == nullptr ? spin.norm() : tumbling.fastest_spin; }
+  double fastestSpin() const {
+    if (tumbling.inertia != nullptr) return tumbling.fastest_spin;
+    return spin_change.rate.isZero(0.0) ? spin.norm() : spin_change.fastest_spin;
+  }
   /// What turning can accelerate a point by, m/s^2 for each metre from the centre of mass: centripetally by
   /// omega^2, and no more than that again by d omega / dt, as no principal moment exceeds the others' sum.
   double turningAcceleration() const {
+    if (!spin_change.rate.isZero(0.0))
+      return spin_change.fastest_spin * spin_change.fastest_spin + spin_change.rate.norm();
     return tumbling.inertia == nullptr ? spin.squaredNorm()
                                        : 2.0 * tumbling.fastest_spin * tumbling.fastest_spin;
   }
@@ -48,8 +64,12 @@ struct Trajectory {
   void turnAt(const Vec3& constant_spin) {
     spin = constant_spin;
     tumbling = {};
+    spin_change = {};
   }
-  bool still() const { return velocity.isZero(0.0) && acceleration.isZero(0.0) && spin.isZero(0.0); }
+  bool still() const {
+    return velocity.isZero(0.0) && acceleration.isZero(0.0) && spin.isZero(0.0) &&
+           spin_change.rate.isZero(0.0);
+  }
 };
 
 }  // namespace carom
