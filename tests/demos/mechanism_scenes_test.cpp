@@ -101,14 +101,20 @@ double linking(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return sum / (4.0 * 3.14159265358979323846);
 }
 
-// The middle line of a link: two half circles about y with straight pieces along x between them.
+// The middle line of a link: two half circles about y with straight pieces along x between them, in short
+// chords.
 std::vector<Vec3> middleLine(const BodyState& state, double half_length, double radius) {
   std::vector<Vec3> line;
-  constexpr int kPoints = 240;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2.0 * 3.14159265358979323846 * (i + 0.5) / kPoints;
-    const double side = std::cos(angle) > 0.0 ? half_length : -half_length;
-    line.push_back(state.X_WB * Vec3(side + radius * std::cos(angle), radius * std::sin(angle), 0.0));
+  constexpr int kPoints = 120;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i < kPoints; ++i) {
+      const double angle = 3.14159265358979323846 * ((i + 0.5) / kPoints - 0.5);
+      line.push_back(state.X_WB *
+                     (side * Vec3(half_length + radius * std::cos(angle), radius * std::sin(angle), 0.0)));
+    }
+    for (int i = 0; i < kPoints && half_length > 0.0; ++i)
+      line.push_back(state.X_WB *
+                     (side * Vec3(half_length * (1.0 - 2.0 * (i + 0.5) / kPoints), radius, 0.0)));
   }
   return line;
 }
