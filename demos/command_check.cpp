@@ -25,10 +25,14 @@ SceneWorld checkedWorld(const Scene& scene, const SceneChoice& choice) {
 void checkScene(const SceneChoice& choice) {
   const Scene scene = chosenScene(choice);
   const SceneWorld made = checkedWorld(scene, choice);
-  int moving = 0;
-  for (const BodyDescription& body : made.world.bodies()) moving += body.is_static ? 0 : 1;
+  int moving = 0, kinematic = 0;
+  for (const BodyDescription& body : made.world.bodies()) {
+    moving += body.is_static ? 0 : 1;
+    kinematic += body.is_kinematic;
+  }
   std::cout << scene.file.string() << ": ok  " << made.world.bodies().size() << " bodies (" << moving
-            << " move)  " << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  "
+            << " move" << (kinematic > 0 ? ", " + std::to_string(kinematic) + " of them kinematic" : "")
+            << ")  " << made.world.solids().size() << " solids  " << scene.cameras.size() << " cameras  "
             << scene.duration_s << " s at " << scene.rate_hz << " steps/s  scene hash "
             << hexText(sceneHash(scene, choice.mesh)) << '\n';
   for (const auto& [body, mesh] : made.meshes)

@@ -71,8 +71,10 @@ void printFacts(const World& world, const RunFacts& facts) {
             << " bodies=" << world.bodies().size() << " resting=" << audit.resting_bodies
             << " kinetic_J=" << audit.kinetic_energy_J << " potential_J=" << audit.potential_energy_J
             << " smallest_gap_m=" << facts.smallest_gap_m << " events=" << facts.events
-            << " stopped_bodies=" << facts.stopped_bodies << " iteration_limits=" << facts.iteration_limits
-            << '\n';
+            << " stopped_bodies=" << facts.stopped_bodies << " iteration_limits=" << facts.iteration_limits;
+  if (facts.work_J != 0.0) std::cout << " work_J=" << facts.work_J;
+  if (facts.kinematic_late_s > 0.0) std::cout << " kinematic_late_s=" << facts.kinematic_late_s;
+  std::cout << '\n';
 }
 
 }  // namespace

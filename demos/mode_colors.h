@@ -6,7 +6,7 @@
 
 namespace carom::demos {
 
-inline constexpr std::size_t kModes = 6;
+inline constexpr std::size_t kModes = 7;
 
 inline renderer::Color modeColor(Mode mode) {
   switch (mode) {
@@ -22,6 +22,8 @@ inline renderer::Color modeColor(Mode mode) {
       return {0.80f, 0.47f, 0.65f};
     case Mode::kResting:
       return {0.00f, 0.62f, 0.45f};
+    case Mode::kKinematic:
+      return {0.00f, 0.45f, 0.70f};
   }
   return {};
 }

@@ -175,13 +175,15 @@ std::vector<int> addMeshes(tinygltf::Model& model, Accessors& accessors, const S
 /// Names as in the scene's file.
 tinygltf::Value physics(const BodyDescription& body) {
   const Material& m = body.material;
-  return tinygltf::Value({{"staticFriction", tinygltf::Value(m.static_friction)},
-                          {"dynamicFriction", tinygltf::Value(m.dynamic_friction)},
-                          {"rollingResistance", tinygltf::Value(m.rolling_resistance_m)},
-                          {"spinningResistance", tinygltf::Value(m.spinning_resistance_m)},
-                          {"restitution", tinygltf::Value(m.restitution)},
-                          {"density", tinygltf::Value(m.density_kgpm3)},
-                          {"static", tinygltf::Value(body.is_static)}});
+  tinygltf::Value::Object values({{"staticFriction", tinygltf::Value(m.static_friction)},
+                                  {"dynamicFriction", tinygltf::Value(m.dynamic_friction)},
+                                  {"rollingResistance", tinygltf::Value(m.rolling_resistance_m)},
+                                  {"spinningResistance", tinygltf::Value(m.spinning_resistance_m)},
+                                  {"restitution", tinygltf::Value(m.restitution)},
+                                  {"density", tinygltf::Value(m.density_kgpm3)},
+                                  {"static", tinygltf::Value(body.is_static)}});
+  if (body.is_kinematic) values["kinematic"] = tinygltf::Value(true);
+  return tinygltf::Value(values);
 }
 
 /// Appends a node below the first one, which is the root.

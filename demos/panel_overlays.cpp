@@ -47,7 +47,7 @@ ShownEnergy shownEnergy(const World& world, std::span<const BodyState> states) {
   ShownEnergy energy;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyDescription& body = world.bodies()[i];
-    if (body.is_static) continue;
+    if (body.is_static || body.is_kinematic) continue;
     const Solid& solid = world.solids()[static_cast<std::size_t>(body.solid)];
     const Inertia inertia = inertiaOf(body.material.density_kgpm3, solid.volume(), solid.unitInertia());
     energy.kinetic_J += kineticEnergy(inertia, states[i].X_WB.rotation,
@@ -96,6 +96,7 @@ Panel legendPanel(const OverlayFrame& frame) {
   Panel rows;
   for (std::size_t i = 0; i < kModes; ++i) {
     const Mode mode = static_cast<Mode>(i);
+    if (mode == Mode::kKinematic && counts[i] == 0) continue;  // few scenes have such bodies
     rows.push_back({std::string(modeName(mode)) + "  " + std::to_string(counts[i]), modeColor(mode)});
   }
   return rows;

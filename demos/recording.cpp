@@ -96,7 +96,7 @@ bool isState(const BodyState& state) {
 void takeBody(PayloadCursor& cursor, BodyState& state) {
   const auto flags = static_cast<unsigned>(cursor.take(1));
   const unsigned mode = flags & kModeBits;
-  if (mode > static_cast<unsigned>(Mode::kResting)) cursor.whole = false;
+  if (mode > static_cast<unsigned>(Mode::kKinematic)) cursor.whole = false;
   state.mode = static_cast<Mode>(mode);
   if ((flags & kPoseFollows) != 0) {
     state.X_WB.position = cursor.vector();

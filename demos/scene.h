@@ -95,6 +95,13 @@ struct Body {
   SurfaceLook look;
   std::vector<renderer::Color> colors;  ///< Taken in turn by the copies; empty: the look's colour.
   bool is_static = false;
+  std::optional<double> mass_kg;  ///< In place of the material's density.
+  bool is_kinematic = false;      ///< At its velocities for ever, or along `keyframes`, of the frame S.
+  std::vector<Keyframe> keyframes;
+  Interpolation interpolation = Interpolation::kLinear;
+  bool path_repeats = false;
+  AxisLocks locks;
+  AppliedLoad load;
   Repeat repeat;
   Place place;
 };

@@ -84,6 +84,27 @@ void requireReplaceableHull(const Scene& scene) {
   throw InputError(scene.file.string() + ": takes no --mesh: no mesh in it says \"replaceable\": true");
 }
 
+// How it is moved, and of what mass it is.
+void setMotion(const Body& body, const Solid& solid, const Pose& X_SB, BodyDescription& description) {
+  description.mass_kg = body.mass_kg;
+  if (body.mass_kg) {
+    const double density = *body.mass_kg / solid.volume();
+    if (!(density >= kSmallestDensity_kgpm3 && density <= kLargestDensity_kgpm3)) {
+      std::ostringstream text;
+      text << body.place << ": a mass of " << *body.mass_kg << " kg makes a density of " << density
+           << " kg/m^3; accepted: a density of " << kSmallestDensity_kgpm3 << " to " << kLargestDensity_kgpm3;
+      throw InputError(text.str());
+    }
+  }
+  description.is_kinematic = body.is_kinematic;
+  for (const Keyframe& keyframe : body.keyframes)
+    description.keyframes.push_back({keyframe.time_s, keyframe.X_WB * X_SB});
+  description.interpolation = body.interpolation;
+  description.repeats = body.path_repeats;
+  description.locks = body.locks;
+  description.load = body.load;
+}
+
 void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh) {
   const Body& body = scene.bodies[index];
   std::vector<MeshReport> reports;
@@ -98,6 +119,7 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
     description.angular_velocity = body.angular_velocity;
     description.material = body.material;
     description.is_static = body.is_static;
+    setMotion(body, made.world.solids()[static_cast<std::size_t>(solid)], X_SB, description);
     made.world.addBody(description);
     made.names.push_back(nameOfCopy(body, copy));
     made.looks.push_back(body.look);

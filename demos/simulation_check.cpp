@@ -18,6 +18,8 @@ bool isFinite(const BodyState& state) {
 void checkStep(const World& world, const Audit& audit, std::span<const std::string> names, RunFacts& facts) {
   facts.smallest_gap_m = std::min(facts.smallest_gap_m, audit.smallest_gap_m);
   facts.events += audit.last_step.events;
+  facts.work_J = audit.work_J;
+  facts.kinematic_late_s = audit.kinematic_late_s;
   facts.stopped_bodies += audit.last_step.stopped_bodies;
   facts.iteration_limits += audit.last_step.iteration_limits;
   std::ostringstream message;

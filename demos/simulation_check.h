@@ -15,6 +15,8 @@ struct RunFacts {
   double smallest_gap_m = std::numeric_limits<double>::infinity();
   long long events = 0;
   long long stopped_bodies = 0;
+  double work_J = 0.0;            ///< Of kinematic bodies and loads.
+  double kinematic_late_s = 0.0;  ///< See Audit.
   long long iteration_limits = 0;
 };
 

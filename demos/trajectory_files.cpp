@@ -7,7 +7,7 @@
 namespace carom::demos {
 namespace {
 
-constexpr Mode kLastMode = Mode::kResting;
+constexpr Mode kLastMode = Mode::kKinematic;
 
 /// Names come from JSON, which is UTF-8 throughout; a path converts them.
 std::u32string characters(const std::string& utf8) {

@@ -209,14 +209,14 @@ class Look {
            acceleration.norm() + (direction.frame == &a_ ? turning_b : turning_a);
   }
 
-  static double turningSpeed(const Trajectory& path, const Vec3& n) {
-    return path.tumbling.empty() ? n.cross(path.spin).norm() : path.fastestSpin();
+  static double turningSpeed(const Trajectory& path, double t, const Vec3& n) {
+    return path.tumbling.empty() ? n.cross(path.angularVelocityAt(t)).norm() : path.fastestSpin();
   }
 
   // A speed that no two points of the parts separate slower than along n, but for the curvature.
   double slowestSpeed(double t, const Vec3& n) const {
-    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) - turningSpeed(*a_.path, n) * a_.reach_m -
-           turningSpeed(*b_.path, n) * b_.reach_m;
+    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) -
+           turningSpeed(*a_.path, t, n) * a_.reach_m - turningSpeed(*b_.path, t, n) * b_.reach_m;
   }
 
   Direction turningWith(const MovingPart* frame, double begin, const Vec3& n) const {

@@ -265,6 +265,10 @@ BodyForces bodyForces(const Environment& environment, const EnvironmentBody& bod
   const Acting a{environment, body, X_WB, velocity, t_s, scratch, forces};
   const double gravity = environment.gravity.norm();
   forces.load.head<3>() = body.inertia->mass_kg * (X_WB.rotation.conjugate() * environment.gravity);
+  if (body.load != nullptr) {
+    forces.load.head<3>() += X_WB.rotation.conjugate() * body.load->force_W + body.load->force_B;
+    forces.load.tail<3>() += X_WB.rotation.conjugate() * body.load->torque_W + body.load->torque_B;
+  }
   StreamDrag wind;
   wind.velocity = a.relativeTo(environment.air.wind);
   for (const PartSurface& part : body.surface->parts) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/environment/air.h"
+#include "engine/environment/applied_load.h"
 #include "engine/environment/drag.h"
 #include "engine/environment/fluid.h"
 #include "engine/environment/rounded_cut.h"
@@ -30,6 +31,7 @@ struct EnvironmentBody {
   const SolidSurface* surface = nullptr;
   const Inertia* inertia = nullptr;
   std::optional<double> drag_coefficient;  ///< In place of the standard ones.
+  const AppliedLoad* load = nullptr;       ///< What else acts on it.
 };
 
 struct BodyForces {

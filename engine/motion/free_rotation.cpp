@@ -261,7 +261,7 @@ double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angula
 }
 
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
-  if (angular_velocity.isZero(0.0)) return angular_velocity;
+  if (angular_velocity.isZero(0.0) || inertia.isIsotropic()) return angular_velocity;
   return FreeRotation(inertia, R_WB, angular_velocity).meanSpin(R_WB, dt_s);
 }
 

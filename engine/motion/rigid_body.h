@@ -14,6 +14,9 @@ struct Inertia {
   Mat3 inverse_tensor_B = Mat3::Zero();
   Mat3 principal_axes_B = Mat3::Identity();  ///< Columns: right-handed, by rising moment.
   Vec3 principal_moments = Vec3::Zero();
+
+  /// It turns as a ball does: at a constant spin.
+  bool isIsotropic() const { return principal_moments[0] == principal_moments[2]; }
 };
 Inertia inertiaOf(double density_kgpm3, double volume, const Mat3& unit_inertia);
 

@@ -57,6 +57,32 @@ std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, i
 
 }  // namespace
 
+namespace {
+
+// Of a body that is so heavy along its locked axes that what an iteration lets it move there is below the
+// rounding of the rest.
+Mat6 lockedInertia(const ImpulseBody& body) {
+  constexpr double kHeavy = 0x1p40;
+  const double mass = 1.0 / body.inverse_mass;
+  Mat6 inertia = Mat6::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) inertia(i, i) = body.free_axes[i] > 0.0 ? mass : kHeavy * mass;
+  // The tensor is 1/J about one axis, or nothing: about that axis J, about the others heavy.
+  const double answer = body.inverse_tensor.trace();
+  if (!(answer > 0.0)) {
+    inertia.bottomRightCorner<3, 3>() = kHeavy * mass * Mat3::Identity();  // as if its radius were a metre
+    return inertia;
+  }
+  constexpr double kRounding = 1e-12;
+  const Mat3 about_axis = body.inverse_tensor / answer;
+  const bool one_axis = (about_axis * about_axis - about_axis).norm() <= kRounding;
+  inertia.bottomRightCorner<3, 3>() =
+      one_axis ? Mat3((about_axis + kHeavy * (Mat3::Identity() - about_axis)) / answer)
+               : Mat3(body.inverse_tensor.inverse());
+  return inertia;
+}
+
+}  // namespace
+
 HeldRows::HeldRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
   placeBodies(rows, bodies);
   placeBlocks(rows);
@@ -82,8 +108,12 @@ void HeldRows::placeBodies(std::span<const ContactRow> rows, std::span<const Imp
     const int body = found[at(order[slot])];
     slots_[at(body)] = static_cast<int>(slot);
     Mat6 inertia = Mat6::Zero();
-    inertia.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / bodies[at(body)].inverse_mass);
-    inertia.bottomRightCorner<3, 3>() = bodies[at(body)].inverse_tensor.inverse();
+    if (bodies[at(body)].has_locks) {
+      inertia = lockedInertia(bodies[at(body)]);
+    } else {
+      inertia.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / bodies[at(body)].inverse_mass);
+      inertia.bottomRightCorner<3, 3>() = bodies[at(body)].inverse_tensor.inverse();
+    }
     inertia_.push_back(inertia);
   }
 }

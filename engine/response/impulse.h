@@ -17,10 +17,20 @@ struct ImpulseBody {
   // Of the contact solver:
   double stir = 0.0;  ///< The sum of the speeds, m/s, that its rows have changed.
   int place = -1;     ///< While it lists the bodies of its rows: where this one is in the list.
+  /// 1 along the world's axes that it can move along, 0 along those that are locked. Locked turning is in
+  /// the tensor.
+  Vec3 free_axes = Vec3::Ones();
+  bool has_locks = false;  ///< Of either.
+
+  /// The speed along n that a unit impulse along n gives the centre.
+  double inverseMassAlong(const Vec3& n) const {
+    if (!has_locks) return inverse_mass;
+    return inverse_mass * free_axes.cwiseProduct(n).squaredNorm();
+  }
 
   /// Changes the velocity by an impulse (N s) at arm r from the centre of mass.
   void apply(const Vec3& impulse, const Vec3& r) {
-    velocity.linear += inverse_mass * impulse;
+    velocity.linear += inverse_mass * free_axes.cwiseProduct(impulse);
     turn(r.cross(impulse));
   }
   /// The same by a torque impulse (N m s).
@@ -28,8 +38,13 @@ struct ImpulseBody {
 };
 
 /// K, 1/kg: the change of the relative velocity at a point is K times the impulse on B (and its opposite on
-/// A).
+/// A). Of bodies with locked axes K may answer nothing in some directions; it then has a trace of an answer
+/// there, below the rounding of what it answers elsewhere, so that it has an inverse.
 Mat3 collisionMatrix(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b);
+
+/// Whether locked axes leave so little of a response, 1/kg, along some direction that no impulse changes the
+/// relative velocity of the two.
+bool isUnanswered(const ImpulseBody& a, const ImpulseBody& b, double response);
 
 /// The paper's j, N s along n (A to B): brings the separating speed u to -e u. Zero when u >= 0.
 double frictionlessImpulse(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b,

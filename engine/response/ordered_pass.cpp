@@ -42,7 +42,7 @@ void settle(std::span<const UpperEnd> ends, std::span<const ContactRow> rows, st
       const bool is_b = row.b == ends[k].body;
       const Vec3& r = is_b ? row.r_b : row.r_a;
       const Vec3 lever = r.cross(row.n);
-      const double response = body.inverse_mass + lever.dot(body.inverse_tensor * lever);
+      const double response = body.inverseMassAlong(row.n) + lever.dot(body.inverse_tensor * lever);
       const double miss = row.n.dot(rowVelocityInWorld(row, bodies)) - row.lowest_speed;
       const double impulse = std::max(0.0, impulses[k] - miss / response);
       const double change = impulse - impulses[k];

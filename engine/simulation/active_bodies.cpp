@@ -16,8 +16,8 @@ std::size_t at(int i) {
 void ActiveBodies::beginStep(std::vector<Body>& bodies) {
   std::erase_if(active_, [&](int i) {
     Body& body = bodies[at(i)];
-    body.active = body.moves() || !body.lay;
-    body.lay = !body.moves();
+    body.active = body.travels() || !body.lay;
+    body.lay = !body.travels();
     return !body.active;
   });
 }

@@ -2,10 +2,12 @@
 // What the world keeps of a body and of its parts. Internal to the simulation floor.
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "engine/modes/resting.h"
 #include "engine/modes/swinging.h"
+#include "engine/motion/axis_locks.h"
 #include "engine/motion/rigid_body.h"
 #include "engine/motion/trajectory.h"
 #include "engine/response/impulse.h"
@@ -18,6 +20,7 @@ enum class Travel : std::uint8_t {
   kStill,      ///< Static or resting.
   kBallistic,  ///< Free flight: gravity and what else surrounds the body act along the path.
   kCarried,    ///< In lasting contact, whose forces act evenly over the step (paper §2.4).
+  kDriven,     ///< A kinematic body on its prescribed path.
   kHeld        ///< Stopped at its last safe time for the rest of the step.
 };
 
@@ -44,6 +47,10 @@ struct StepMotion {
     const double dt = t_s - path.start_s;
     if (travel == Travel::kStill || dt == 0.0) return v;
     v.linear += dt * acceleration;
+    if (travel == Travel::kDriven) {
+      v.angular += dt * path.spin_change.rate;
+      return v;
+    }
     if (v.angular.isZero(0.0) && torque.isZero(0.0)) return v;
     const Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular) + dt * torque;
     if (travel == Travel::kBallistic) {
@@ -61,6 +68,11 @@ struct Body : StepMotion {
   Material material;
   double radius_m = 0.0;
   bool is_static = false;
+  bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it, ...
+  double late_s = 0.0;        ///< ... but it may be stopped: for so long it was, and is late on its path.
+  bool was_stopped = false;   ///< In the last step.
+  double piece_end_s = std::numeric_limits<double>::infinity();  ///< Of the path, within the step.
+  AxisLocks locks;
   bool resting = false;
   int next_at_rest = -1;   ///< Those that came to rest together are a ring.
   bool active = true;      ///< In the list of active bodies (active_bodies.h).
@@ -87,7 +99,13 @@ struct Body : StepMotion {
   int cleared = 0;  ///< How often its path was led clear of another body.
   bool collided = false;
 
-  bool moves() const { return !is_static && !resting; }
+  /// Whether impulses can move it.
+  bool yields() const { return !is_static && !is_kinematic; }
+  bool moves() const { return yields() && !resting; }
+  /// Whether it has a path through the step.
+  bool travels() const { return moves() || is_kinematic; }
+  /// What lies on it cannot come to rest.
+  bool isDriven() const { return is_kinematic && !path.still(); }
   bool liesStill() const { return !moves() || carom::liesStill(velocity, radius_m); }
   /// Nothing has turned it in this step but its own spin.
   bool flewFreely() const {
@@ -103,8 +121,14 @@ struct Body : StepMotion {
   }
 
   ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {
-    return {v, X.position, inertia.inverse_mass,
-            is_static ? Mat3(Mat3::Zero()) : inverseTensorInWorld(inertia, X.rotation)};
+    ImpulseBody seen{v, X.position, inertia.inverse_mass,
+                     yields() ? inverseTensorInWorld(inertia, X.rotation) : Mat3(Mat3::Zero())};
+    if (yields() && locks.any()) {
+      seen.free_axes = locks.free_axes;
+      seen.has_locks = true;
+      if (locks.turning != AxisLocks::Turning::kFree) seen.inverse_tensor = turningResponse(inertia, locks);
+    }
+    return seen;
   }
 };
 
@@ -122,7 +146,7 @@ inline constexpr double kTumblingMiss = 1e-9;
 inline void turnFreely(Body& body, double dt_s) {
   const Quat& R = body.path.X_WB.rotation;
   const Vec3& omega = body.momentum_velocity.angular;
-  if (omega.isZero(0.0) || dt_s == 0.0) return body.path.turnAt(omega);
+  if (omega.isZero(0.0) || dt_s == 0.0 || body.inertia.isIsotropic()) return body.path.turnAt(omega);
   const FreeRotation free(body.inertia, R, omega);
   body.path.turnAt(free.meanSpin(R, dt_s));
   if (tumblingMiss(body.inertia, R, omega, dt_s) > kTumblingMiss) body.path.tumbling = free;

@@ -96,7 +96,7 @@ int ContactCluster::join(int index) {
   if (!body.is_static && !body.active) table_.activate(index, bodies_, settings_);
   Member member;
   member.body = index;
-  member.expanded = body.is_static;
+  member.expanded = !body.yields();
   if (!body.is_static) {
     member.momentum_before = body.velocityAt(time_s_);
     member.path_before = {body.path.velocityAt(time_s_) + 0.5 * restOfStep() * body.path.acceleration,
@@ -127,6 +127,10 @@ void ContactCluster::fixPath(std::size_t i) {
 Velocity ContactCluster::gainedByForces(const Body& body) const {
   if (body.is_static) return {};
   Velocity gain{restOfStep() * body.acceleration, Vec3::Zero()};
+  if (body.is_kinematic) {
+    if (body.travel == Travel::kDriven) gain.angular = restOfStep() * body.path.spin_change.rate;
+    return gain;
+  }
   if (!body.torque.isZero(0.0))
     gain.angular = angularVelocity(body.inertia, body.path.at(time_s_).rotation, restOfStep() * body.torque);
   return gain;
@@ -233,7 +237,7 @@ bool ContactCluster::isNear(const ShapePair& pair) const {
 // that its outcome does not depend on who is asked first.
 void ContactCluster::joinSimultaneous(double approach_mps) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (bodies_[at(members_[i].body)].is_static) continue;
+    if (!bodies_[at(members_[i].body)].yields()) continue;
     for (int p : table_.pairsOf(members_[i].body)) {
       const ShapePair& pair = table_.pairs()[at(p)];
       if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
@@ -350,10 +354,23 @@ bool ContactCluster::collidesLater(const ContactRow& row, const SourcedRow& sour
   return pair.restitution > 0.0 || sourced.gap_m > pair.window.ceiling;
 }
 
+double ContactCluster::workOfCollision() const {
+  double work_J = 0.0;
+  for (const ContactRow& row : rows_) {
+    const Vec3 impulse = rowImpulse(row, row.impulse);
+    if (bodies_[at(members_[at(row.a)].body)].is_kinematic)
+      work_J += impulse.dot(momentum_[at(row.a)].velocity.at(row.r_a));
+    if (bodies_[at(members_[at(row.b)].body)].is_kinematic)
+      work_J -= impulse.dot(momentum_[at(row.b)].velocity.at(row.r_b));
+  }
+  return work_J;
+}
+
 // Ends the forces between the bodies of a pair, both members.
 void ContactCluster::releaseForces(int index) {
   pair_released_[at(index)] = number_;
   const ShapePair& pair = table_.pairs()[at(index)];
+  counters_.work_J -= workOfForces(pair, bodies_, time_s_, settings_.step_s);
   const int member_a = join(pair.body_a);
   const int member_b = join(pair.body_b);
   ImpulseBody& a = ends_[at(member_a)];
@@ -427,7 +444,7 @@ void ContactCluster::recallPoints() {
 bool ContactCluster::meetsCarried() const {
   return std::any_of(members_.begin(), members_.end(), [this](const Member& m) {
     const Body& body = bodies_[at(m.body)];
-    return !body.is_static && body.travel != Travel::kBallistic;
+    return body.yields() && body.travel != Travel::kBallistic;
   });
 }
 
@@ -450,7 +467,7 @@ void ContactCluster::support() {
     takeOverForces(first, end - first);
   }
   for (std::size_t i = 0, known = members_.size(); i < known; ++i) {
-    if (bodies_[at(members_[i].body)].is_static) continue;
+    if (!bodies_[at(members_[i].body)].yields()) continue;
     if (members_[i].expanded) {
       releaseDistant(members_[i].body);
     } else if (i < 2) {
@@ -497,6 +514,7 @@ void ContactCluster::keepForces() {
       pair.remembered.push_back(now);
       if (row.impulse.x() > 0.0) pressed_[at(row.a)] = pressed_[at(row.b)] = 1;
     }
+    counters_.work_J += workOfForces(pair, bodies_, time_s_, settings_.step_s);
   }
 }
 

@@ -60,6 +60,8 @@ class ContactCluster {
   void begin(int pair, const ClosestFeatures& closest, double time_s);
   /// The collision at the contacts, between the bodies of the event alone or with all that they press.
   void collide(bool spreads);
+  /// What kinematic bodies did by the impulses of the collision, J.
+  double workOfCollision() const;
   /// Whether forces of lasting contact act on some member.
   bool meetsCarried() const;
   /// The forces of lasting contact for the rest of the step, after the collision: those that act are taken

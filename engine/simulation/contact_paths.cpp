@@ -72,8 +72,12 @@ class ContactPaths {
     contacts_.paths.resize(world_.bodies.size());
     forBodies([&](std::size_t i) {
       contacts_.paths[i] = contacts_.bodies[i];
-      if (!contacts_.touched[i]) return;
       Velocity& mean = contacts_.paths[i].velocity;
+      if (world_.bodies[i].is_kinematic) {
+        mean.linear -= 0.5 * contacts_.gained[i].linear;
+        mean.angular -= 0.5 * contacts_.gained[i].angular;
+      }
+      if (!contacts_.touched[i]) return;
       mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
       mean.angular = meanSpin(world_.bodies[i], contacts_.half_turns[i], mean.angular, step_s_);
     });
@@ -170,7 +174,7 @@ class ContactPaths {
     accelerations.resize(world_.bodies.size());
     forBodies([&](std::size_t i) {
       bends[i] = contacts_.touched[i];
-      accelerations[i] = world_.bodies[i].moves() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
+      accelerations[i] = world_.bodies[i].travels() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
     });
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i)

@@ -21,8 +21,8 @@ std::size_t at(int i) {
 // surface, or where two of them miss their radii by the same share; halfway between two that are flat. On
 // what cannot turn nothing is missed.
 double leaningOf(const ShapePair& pair, const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  const bool a_static = bodies[at(pair.body_a)].is_static;
-  if (a_static != bodies[at(pair.body_b)].is_static) return a_static ? 1.0 : -1.0;
+  const bool a_yields = bodies[at(pair.body_a)].yields();
+  if (a_yields != bodies[at(pair.body_b)].yields()) return a_yields ? -1.0 : 1.0;
   const double radius_a = shapes[at(pair.shapes.a)].part->radius_m;
   const double radius_b = shapes[at(pair.shapes.b)].part->radius_m;
   if (radius_a == radius_b) return 0.0;
@@ -115,6 +115,8 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
     row.friction = friction;
     row.resistance = resistance;
     prepareRow(row, solver_bodies);
+    if (isUnanswered(solver_bodies[at(row.a)], solver_bodies[at(row.b)], row.normal_response.x()))
+      rows.pop_back();
   };
   for (const ManifoldPoint& point : manifold.view()) append(point);
   if (!request.struck) return;
@@ -126,6 +128,25 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
   if (!known && manifold.count < ContactManifold::kMaxPoints)
     append({struck, request.closest->n_W, request.closest->distance_m,
             contactId(request.closest->features, PointRole::kClosest), request.closest->features});
+}
+
+double workOfForces(const ShapePair& pair, const std::vector<Body>& bodies, double begin_s, double end_s) {
+  const Body& a = bodies[at(pair.body_a)];
+  const Body& b = bodies[at(pair.body_b)];
+  if (a.travel != Travel::kDriven && b.travel != Travel::kDriven) return 0.0;
+  double work_J = 0.0;
+  const auto add = [&](const Body& body, const RememberedImpulse& acting, double sign, const Vec3& arm) {
+    if (body.travel != Travel::kDriven || body.was_stopped) return;
+    const double middle_s = 0.5 * (begin_s + end_s);
+    const Velocity mean{body.path.velocityAt(middle_s), body.path.angularVelocityAt(middle_s)};
+    work_J +=
+        sign * (end_s - begin_s) * (acting.force_W.dot(mean.at(arm)) + acting.torque_W.dot(mean.angular));
+  };
+  for (const RememberedImpulse& acting : pair.remembered) {
+    add(a, acting, 1.0, acting.arm_a);
+    add(b, acting, -1.0, acting.arm_b);
+  }
+  return work_J;
 }
 
 Friction combinedFriction(const Material& a, const Material& b) {

@@ -47,6 +47,10 @@ double combinedRestitution(const Material& a, const Material& b);
 /// Of turning: geometric means, as of friction.
 TurningResistance combinedResistance(const Material& a, const Material& b);
 
+/// What a kinematic body does by the forces of a pair's contacts between two times of the step, J: they act
+/// evenly, on its velocity in the mean. 0 for pairs without one.
+double workOfForces(const ShapePair& pair, const std::vector<Body>& bodies, double begin_s, double end_s);
+
 /// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
 /// contacts than it needs can lie still on all of them; above the band it may close to it, gently where the
 /// contact `presses` already: bodies wedged between others never find all their gaps within the band. Where

@@ -35,8 +35,9 @@ struct Event {
   bool looked = false;          // then it is an impact or a stop at that time, and parts ...
   double separating_mps = 0.0;  // ... so fast
   std::uint64_t rank = 0;       // of the pair
-  int pair = -1;
+  int pair = -1;                // none: a kinematic body comes to the next piece of its path, before all else
   int version = 0;
+  int body = -1;
 };
 
 // Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
@@ -80,11 +81,20 @@ class EventLoop {
     if (!holdLandings(solve_landings)) return false;
     for (const int i : table_.active())
       if (predictions_[at(i)].searched) await(i);
+    for (const int i : active_.list()) {
+      if (!bodies_[at(i)].is_kinematic) continue;
+      awaitNextPiece(i);
+      countForcesOf(i, 0.0, 1.0);
+    }
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
     while (!events_.empty()) {
       const Event event = events_.top();
       events_.pop();
+      if (event.pair < 0) {
+        beginNextPiece(event.body);
+        continue;
+      }
       const Prediction& prediction = predictions_[at(event.pair)];
       if (event.version != prediction.version) continue;
       if (event.looked && !hasSpentSearch()) {
@@ -150,6 +160,9 @@ class EventLoop {
       if (found.outcome == TimeOfImpact::Outcome::kClear ||
           found.outcome == TimeOfImpact::Outcome::kPending || isSlow(i))
         continue;
+      // By then it goes another way.
+      if (found.time_s > std::min(bodies_[at(pair.body_a)].piece_end_s, bodies_[at(pair.body_b)].piece_end_s))
+        continue;
       pair.landing = landingOf(pair, found);
       landings.push_back(i);
     }
@@ -173,12 +186,69 @@ class EventLoop {
     const ShapePair& pair = table_.pairs()[at(index)];
     for (const int i : {pair.body_a, pair.body_b}) {
       Body& body = bodies_[at(i)];
-      if (!body.moves() || body.travel == Travel::kHeld) continue;
+      if (!body.travels() || body.travel == Travel::kHeld) continue;
       bring(i, time_s);
       hold(body);
       changed_.push_back(i);
     }
     searchAgain(time_s);
+  }
+
+  void awaitNextPiece(int index) {
+    const Body& body = bodies_[at(index)];
+    if (body.piece_end_s < settings_.step_s)
+      events_.push({.instant = instantOf(body.piece_end_s), .body = index});
+  }
+
+  void beginNextPiece(int index) {
+    Body& body = bodies_[at(index)];
+    if (body.travel == Travel::kHeld) return;
+    const double time_s = body.piece_end_s;
+    countForcesOf(index, time_s, -1.0);
+    bring(index, time_s);
+    planner_.drive(index, body);
+    countForcesOf(index, time_s, 1.0);
+    changed_.assign(1, index);
+    awaitNextPiece(index);
+    searchAgain(time_s);
+  }
+
+  // What can give way to a kinematic body: it moves, or rests and is woken.
+  bool givesWay(int index) const {
+    const Body& body = bodies_[at(index)];
+    return body.yields() && body.travel != Travel::kHeld;
+  }
+
+  // Stops those of the two that are kinematic for the rest of the step.
+  void stopKinematic(const ShapePair& pair, double time_s) {
+    changed_.clear();
+    for (const int i : {pair.body_a, pair.body_b}) {
+      Body& body = bodies_[at(i)];
+      if (body.travel != Travel::kDriven) continue;
+      bring(i, time_s);
+      stop(i);
+      changed_.push_back(i);
+    }
+    searchAgain(time_s);
+  }
+
+  void stop(int index) {
+    Body& body = bodies_[at(index)];
+    countForcesOf(index, body.path.start_s, -1.0);
+    body.travel = Travel::kHeld;
+    body.momentum_velocity = {};
+    body.acceleration.setZero();
+    body.path.velocity.setZero();
+    body.path.acceleration.setZero();
+    body.path.turnAt(Vec3::Zero());
+    ++counters_.stopped_kinematic;
+  }
+
+  // The work of the forces that act between a kinematic body and others from `time_s` on, counted, or taken
+  // back where they end (`sign`).
+  void countForcesOf(int body, double time_s, double sign) {
+    for (const int pair : table_.pairsOf(body))
+      counters_.work_J += sign * workOfForces(table_.pairs()[at(pair)], bodies_, time_s, settings_.step_s);
   }
 
   bool hasSpentSearch() const { return search_work_ > most_search_work_; }
@@ -278,6 +348,14 @@ class EventLoop {
 
   void takeUp(int index) {
     const TimeOfImpact& found = predictions_[at(index)].found;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    if (!givesWay(pair.body_a) && !givesWay(pair.body_b)) {
+      stopKinematic(pair, found.time_s);
+      return;
+    }
+    for (const int i : {pair.body_a, pair.body_b})
+      if (bodies_[at(i)].resting && bodies_[at(i == pair.body_a ? pair.body_b : pair.body_a)].is_kinematic)
+        wakeInStep(i);
     if (isSlow(index)) {
       clearPaths(index, found);
       return;
@@ -382,7 +460,7 @@ class EventLoop {
     int spent = 0;
     for (int i : both) {
       if (bodies_[at(i)].resting) wakeInStep(i);
-      if (!bodies_[at(i)].is_static) spent = std::max(spent, ++bodies_[at(i)].events);
+      if (bodies_[at(i)].yields()) spent = std::max(spent, ++bodies_[at(i)].events);
     }
     // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
     // speed are one; the others do not come back, and press at once on all that stands behind.
@@ -394,6 +472,7 @@ class EventLoop {
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
+    counters_.work_J += cluster_.workOfCollision();
     if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, time_s, *watchers_.view);
     changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
@@ -406,7 +485,7 @@ class EventLoop {
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
-      if (bodies_[at(i)].events > most) hold(bodies_[at(i)]);
+      if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) hold(bodies_[at(i)]);
     searchAgain(time_s);
   }
 
@@ -422,11 +501,13 @@ class EventLoop {
   void bring(int index, double time_s) {
     Body& body = bodies_[at(index)];
     if (body.path.start_s == time_s) return;
+    counters_.work_J += planner_.workOfLoad(index, body, time_s);
     if (watchers_.paths != nullptr) watchers_.paths->add(at(index), body, time_s);
     const Pose X_WB = body.path.at(time_s);
     body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
     body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
     body.path.velocity = body.path.velocityAt(time_s);
+    body.path.spin += (time_s - body.path.start_s) * body.path.spin_change.rate;
     body.path.X_WB = X_WB;
     body.path.start_s = time_s;
   }
@@ -441,7 +522,7 @@ class EventLoop {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
       Body& body = bodies_[at(member.body)];
-      if (body.is_static) continue;
+      if (!body.yields()) continue;
       if (body.resting && isTouched(i)) wakeInStep(member.body);
       body.collided = body.collided || (member.collided && body.moves());
       if (!isTouched(i)) continue;
@@ -512,7 +593,7 @@ class EventLoop {
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const int index = cluster_.member(i).body;
       Body& body = bodies_[at(index)];
-      if (body.is_static || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
+      if (!body.yields() || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
       if (body.resting) wakeInStep(index);
       if (!isTouched(i)) {
         bring(index, time_s);
@@ -528,9 +609,13 @@ class EventLoop {
   // is energy from nowhere.
   void hold(Body& body) {
     if (body.is_static || body.travel == Travel::kHeld) return;
+    if (body.is_kinematic) {
+      stop(static_cast<int>(&body - bodies_.data()));
+      return;
+    }
     body.travel = Travel::kHeld;
     const double rest = settings_.step_s - body.path.start_s;
-    const Vec3 unfallen = body.acceleration - settings_.gravity;
+    const Vec3 unfallen = body.acceleration - body.locks.movingPart(settings_.gravity);
     if ((body.momentum_velocity.linear + rest * unfallen).squaredNorm() <
         (body.momentum_velocity.linear + rest * body.acceleration).squaredNorm())
       body.acceleration = unfallen;

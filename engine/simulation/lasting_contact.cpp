@@ -32,6 +32,7 @@ std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts
       const Body& body = world.bodies[at(active[k])];
       BodyMotion& motion = contacts.room.motions[at(active[k])];
       motion = {};
+      motion.lies_still = !body.isDriven() || body.was_stopped;
       if (!body.moves()) continue;
       motion = {1.0 / body.inertia.inverse_mass,
                 body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
@@ -49,6 +50,7 @@ bool stands(std::span<const ContactRow> rows, std::span<const BodyMotion> motion
   for (const ContactRow& row : rows) {
     for (const int i : {row.a, row.b}) {
       const BodyMotion& body = motions[at(i)];
+      if (body.mass_kg == 0.0 && !body.lies_still) return false;  // it rides on what moves
       if (body.mass_kg == 0.0) continue;
       ++all;
       if (!(body.speed_mps < tolerance::kRestSpeed)) ++moving;
@@ -164,7 +166,7 @@ void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const
   for (const int active : world.active.list()) {
     const std::size_t i = at(active);
     contacts.gained[i] = {};
-    if (!bodies[i].moves()) continue;
+    if (!bodies[i].travels()) continue;
     contacts.gained[i] = planner.gained(bodies[i]);
     contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
     contacts.bodies[i].velocity.angular += contacts.gained[i].angular;

@@ -317,7 +317,7 @@ void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape
       ShapePair& pair = pairAt(active_[i]);
       const Body& a = bodies[at(pair.body_a)];
       const Body& b = bodies[at(pair.body_b)];
-      if (!a.moves() && !b.moves()) continue;
+      if (!a.travels() && !b.travels()) continue;
       pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
                                      b.X_WB, pair.tracked);
       ++queries;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "engine/modes/resting.h"
 #include "engine/simulation/lasting_contact.h"
@@ -22,8 +23,12 @@ void RestingIslands::findQuestions(const RestingWorld& world, std::span<const in
   const std::vector<Body>& bodies = world.bodies;
   pressing_.part(static_cast<int>(bodies.size()));
   for (const ContactRow& row : world.contacts.rows)
-    if (row.impulse.x() > 0.0 && !bodies[at(row.a)].is_static && !bodies[at(row.b)].is_static)
+    if (row.impulse.x() > 0.0 && bodies[at(row.a)].yields() && bodies[at(row.b)].yields())
       pressing_.join(row.a, row.b);
+  // What lies on a kinematic body that moves rides on it, however slowly.
+  for (const ContactRow& row : world.contacts.rows)
+    for (const auto& [on, by] : {std::pair(row.a, row.b), std::pair(row.b, row.a)})
+      if (bodies[at(by)].isDriven()) world.bodies[at(on)].still_s = 0.0;
   members_.clear();
   for (const int body : moving)
     if (bodies[at(body)].moves()) members_.push_back({pressing_.of(body), body});
@@ -75,17 +80,21 @@ void RestingIslands::ask(const RestingWorld& world, Question& question) const {
   std::vector<ImpulseBody> bodies;
   std::vector<double> radii;
   std::vector<Velocity> pushes;
-  for (const Member& m : membersOf(question)) {
+  const std::span<const Member> members = membersOf(question);
+  const bool weight_is_all = std::all_of(members.begin(), members.end(), [&](const Member& m) {
+    return planner.isWeightAll(m.body, world.bodies[at(m.body)]);
+  });
+  for (const Member& m : members) {
     const Body& body = world.bodies[at(m.body)];
     if (planner.restless(body)) return;
     bodies.push_back(contacts.bodies[at(m.body)]);
     radii.push_back(body.radius_m);
-    if (!planner.isVacuum()) pushes.push_back(planner.pushAtRest(m.body, body));
+    if (!weight_is_all) pushes.push_back(planner.pushAtRest(m.body, body));
   }
   const int ground = static_cast<int>(bodies.size());
   bodies.push_back({});
   radii.push_back(0.0);
-  if (!planner.isVacuum()) pushes.push_back({});
+  if (!weight_is_all) pushes.push_back({});
   const int island = seats_[at(membersOf(question).front().body)].question;
   std::vector<ContactRow> rows;
   std::vector<double> slack_m;

@@ -101,7 +101,7 @@ OpeningPairs openingPairs(const StartingBodies& start, const SharedGaps& shared)
   OpeningPairs all;
   for (const int place : start.table.active()) {
     const ShapePair& pair = start.table.pairs()[at(place)];
-    const auto giving = [&](int body) { return start.bodies[at(body)].is_static ? -1 : body; };
+    const auto giving = [&](int body) { return start.bodies[at(body)].yields() ? body : -1; };
     const PartingPlanes planes = partingPlanes(pair, start);
     const double wanted_m = wantedGap(pair, shared);
     all.openings.push_back({giving(pair.body_a), giving(pair.body_b), planes.n_W, wanted_m - planes.gap_m});

@@ -28,12 +28,32 @@ std::size_t at(int i) {
 
 constexpr double kSameLength = 1e-9;  // relative: steps of one length but for rounding
 
+void requireMotion(const BodyDescription& d) {
+  REQUIRE(!d.is_static || !d.is_kinematic);
+  REQUIRE(d.keyframes.empty() || d.is_kinematic);
+  REQUIRE(!d.mass_kg || (*d.mass_kg > 0.0 && std::isfinite(*d.mass_kg)), d.mass_kg.value_or(0.0));
+  const AxisLocks& locks = d.locks;
+  REQUIRE((locks.free_axes.array() == 0.0 || locks.free_axes.array() == 1.0).all());
+  REQUIRE(std::abs(locks.axis_W.norm() - 1.0) < 1e-9, locks.axis_W.norm());
+  REQUIRE(locks.movingPart(d.linear_velocity) == d.linear_velocity);
+  REQUIRE((locks.turningPart(d.angular_velocity) - d.angular_velocity).norm() <=
+          1e-9 * d.angular_velocity.norm());
+  REQUIRE(d.load.force_W.allFinite() && d.load.torque_W.allFinite() && d.load.force_B.allFinite() &&
+          d.load.torque_B.allFinite());
+  const bool free = !d.is_static && !d.is_kinematic;
+  REQUIRE(free || (!locks.any() && d.load.isZero()));
+  for (const Keyframe& keyframe : d.keyframes)
+    REQUIRE(std::isfinite(keyframe.time_s) && keyframe.X_WB.position.allFinite() &&
+            std::abs(keyframe.X_WB.rotation.norm() - 1.0) < 1e-9);
+}
+
 void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.solid >= 0 && at(d.solid) < solids, d.solid);
   REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9,
           d.X_WB.rotation.norm());
   REQUIRE(d.linear_velocity.allFinite() && d.angular_velocity.allFinite());
-  REQUIRE(d.is_static || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
+  REQUIRE(d.is_static || d.is_kinematic || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
+  requireMotion(d);
   REQUIRE(d.material.drag_coefficient.value_or(0.0) >= 0.0);
   REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
   REQUIRE(d.material.static_friction >= 0.0 && d.material.dynamic_friction >= 0.0);
@@ -77,6 +97,8 @@ const char* modeName(Mode mode) {
       return "contact";
     case Mode::kResting:
       return "resting";
+    case Mode::kKinematic:
+      return "kinematic";
   }
   return "?";
 }
@@ -106,6 +128,8 @@ struct World::Impl {
   int step_of_paths = 0;  ///< How many steps had been made when they were kept last; 0: never.
   int steps = 0;
   int dynamic_bodies = 0;
+  std::vector<int> kinematic_bodies;
+  double work_J = 0.0;  ///< Since the start.
   bool started = false;
 
   LastingWorld lastingWorld() { return {bodies, shapes, table, active, substep, crew}; }
@@ -118,6 +142,7 @@ struct World::Impl {
     });
   }
   void makeShapes();
+  void wakeDriven();
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
   int substepsWanted();
   void divideStep(int count);
@@ -127,7 +152,7 @@ struct World::Impl {
   void findPairs(PhaseClock* clock);
   void meetFarther(PhaseClock* clock);
   void solveContacts(PhaseClock* clock);
-  void endPath(Body& body) const;
+  void endPath(std::size_t index);
   void keepLastPieces();
   void finishStep(PhaseClock* clock);
   void updateModes();
@@ -136,7 +161,7 @@ struct World::Impl {
   void restIslands();
   void publish();
   double potentialOf(int body) const {
-    return bodies[at(body)].is_static ? 0.0 : planner.potential(body, bodies[at(body)]);
+    return !bodies[at(body)].yields() ? 0.0 : planner.potential(body, bodies[at(body)]);
   }
 };
 
@@ -165,7 +190,7 @@ void World::Impl::planFlight(PhaseClock* clock) {
     body.events = 0;
     body.cleared = 0;
     body.X_end = body.X_WB;
-    if (body.moves())
+    if (body.travels())
       planner.planStep(static_cast<int>(i), body);
     else
       lieStill(body);
@@ -193,7 +218,12 @@ void World::Impl::solveContacts(PhaseClock* clock) {
 }
 
 // The body where its path ends.
-void World::Impl::endPath(Body& body) const {
+void World::Impl::endPath(std::size_t index) {
+  Body& body = bodies[index];
+  if (body.is_kinematic) {
+    planner.endDrive(static_cast<int>(index), body);
+    return;
+  }
   const Vec3 spin_before = body.velocity.angular;
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
@@ -211,14 +241,15 @@ void World::Impl::endPath(Body& body) const {
 // How the bodies moved from their last events to the substep's end.
 void World::Impl::keepLastPieces() {
   for (const int i : active.list())
-    if (bodies[at(i)].moves()) paths.add(at(i), bodies[at(i)], substep.step_s);
+    if (bodies[at(i)].travels()) paths.add(at(i), bodies[at(i)], substep.step_s);
 }
 
 // The state at the step's end, and the closest features there.
 void World::Impl::finishStep(PhaseClock* clock) {
+  for (const int i : active.list()) counters.work_J += planner.workOfLoad(i, bodies[at(i)], substep.step_s);
   forActive([&](std::size_t i) {
-    if (!bodies[i].moves()) return;
-    endPath(bodies[i]);
+    if (!bodies[i].travels()) return;
+    endPath(i);
     const Body& body = bodies[i];
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
@@ -262,6 +293,8 @@ void World::Impl::updateModes() {
     body.supported = !body.moves() || contacts.touched[i];
     if (body.is_static)
       body.mode = Mode::kStatic;
+    else if (body.is_kinematic)
+      body.mode = Mode::kKinematic;
     else if (body.resting)
       body.mode = Mode::kResting;
     else if (body.collided)
@@ -280,6 +313,23 @@ void World::Impl::updateModes() {
   }
 }
 
+// What rests so near to a kinematic body that moves that it could be in its way, or lie on it, moves with it.
+void World::Impl::wakeDriven() {
+  bool woken = false;
+  for (const int i : kinematic_bodies) {
+    if (!bodies[at(i)].isDriven()) continue;
+    const std::vector<int> places = table.pairsOf(i);
+    for (const int place : places) {
+      const ShapePair& pair = table.pairs()[at(place)];
+      const int other = pair.body_a == i ? pair.body_b : pair.body_a;
+      if (!bodies[at(other)].resting || !isLasting(pair, substep.step_s)) continue;
+      for (const int member : active.wakeIsland(bodies, other)) table.activate(member, bodies, substep);
+      woken = true;
+    }
+  }
+  if (woken) planFlight(nullptr);
+}
+
 // External forces and candidate pairs, with the closest features that ended the last substep.
 void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock) {
   substep.step_s = length_s;
@@ -287,6 +337,7 @@ void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock
   for (const int place : table.active()) table.pairs()[at(place)].landing.reset();
   planFlight(clock);
   findPairs(clock);
+  wakeDriven();
 }
 
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
@@ -388,21 +439,41 @@ int World::addBody(const BodyDescription& description) {
   const Solid& solid = impl_->solids[at(description.solid)];
   Body body;
   body.is_static = description.is_static;
-  body.supported = body.is_static;
+  body.is_kinematic = description.is_kinematic;
+  body.supported = !body.yields();
   body.material = description.material;
   body.radius_m = solid.radius();
-  if (!body.is_static)
-    body.inertia = inertiaOf(description.material.density_kgpm3, solid.volume(), solid.unitInertia());
+  BodyDescription kept = description;
+  if (kept.mass_kg)
+    body.material.density_kgpm3 = kept.material.density_kgpm3 = *kept.mass_kg / solid.volume();
   body.X_WB = description.X_WB;
-  body.mode = body.is_static ? Mode::kStatic : Mode::kFree;
+  body.locks = description.locks;
+  if (body.yields()) {
+    body.inertia = inertiaOf(body.material.density_kgpm3, solid.volume(), solid.unitInertia());
+    if (body.locks.any()) body.inertia = lockedInertia(body.inertia, body.locks, body.X_WB.rotation);
+  }
+  body.mode = body.is_static ? Mode::kStatic : body.is_kinematic ? Mode::kKinematic : Mode::kFree;
   if (!body.is_static) body.velocity = {description.linear_velocity, description.angular_velocity};
+  std::optional<PrescribedPath> path;
+  if (body.is_kinematic) {
+    path =
+        description.keyframes.empty()
+            ? PrescribedPath::steady(description.X_WB, description.linear_velocity,
+                                     description.angular_velocity)
+            : PrescribedPath::through(description.keyframes, description.interpolation, description.repeats);
+    const Trajectory first = path->pieceAt(0.0, 0.0).path;
+    body.X_WB = kept.X_WB = first.X_WB;
+    body.velocity = {first.velocity, first.spin};
+    impl_->kinematic_bodies.push_back(static_cast<int>(impl_->bodies.size()));
+  }
+  impl_->planner.add(description.load, std::move(path));
   impl_->bodies.push_back(body);
-  impl_->descriptions.push_back(description);
+  impl_->descriptions.push_back(kept);
   impl_->states.push_back(stateOf(body));
   const int index = static_cast<int>(impl_->bodies.size()) - 1;
   impl_->potential_J.push_back(impl_->potentialOf(index));
   impl_->active.add(index);
-  impl_->dynamic_bodies += !body.is_static;
+  impl_->dynamic_bodies += body.yields();
   return index;
 }
 
@@ -446,6 +517,7 @@ void World::step(PhaseClock* clock) {
     w.makeSubstep(begin_s, clock);
   }
   w.publish();
+  w.work_J += w.counters.work_J;
   ++w.steps;
   if (w.keeps_paths) w.step_of_paths = w.steps;
   w.planner.beginStep(time(), w.substep.step_s);
@@ -493,7 +565,7 @@ std::span<const BodyDescription> World::bodies() const {
 }
 double World::mass(int body) const {
   const Body& b = impl_->bodies[at(body)];
-  return b.is_static ? std::numeric_limits<double>::infinity() : b.inertia.mass_kg;
+  return b.yields() ? b.inertia.mass_kg : std::numeric_limits<double>::infinity();
 }
 
 Audit World::audit() const {
@@ -503,9 +575,11 @@ Audit World::audit() const {
   audit.last_step = w.counters;
   audit.smallest_gap_m = w.table.smallestGap();
   audit.resting_bodies = w.dynamic_bodies;
+  audit.work_J = w.work_J;
   for (const int i : w.active.list()) {  // the others have neither energy of motion nor momentum
     const Body& body = w.bodies[at(i)];
-    if (body.is_static) continue;
+    if (body.is_kinematic) audit.kinematic_late_s = std::max(audit.kinematic_late_s, body.late_s);
+    if (!body.yields()) continue;
     const Vec3 momentum = body.inertia.mass_kg * body.velocity.linear;
     audit.kinetic_energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
     audit.linear_momentum += momentum;

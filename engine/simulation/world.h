@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "engine/environment/air.h"
+#include "engine/environment/applied_load.h"
 #include "engine/environment/fluid.h"
 #include "engine/foundation/frames.h"
+#include "engine/motion/axis_locks.h"
+#include "engine/motion/prescribed_path.h"
 #include "engine/simulation/phase_clock.h"
 #include "engine/simulation/step_view.h"
 #include "engine/solid/solid.h"
@@ -40,7 +43,8 @@ enum class Mode : std::uint8_t {
   kColliding,  ///< Took a collision impulse in the last step.
   kSliding,    ///< In lasting contact, moving along it.
   kContact,    ///< In lasting contact without sliding: rolling, tipping, settling.
-  kResting     ///< Lies on others with exactly zero velocity.
+  kResting,    ///< Lies on others with exactly zero velocity.
+  kKinematic   ///< On its prescribed path.
 };
 const char* modeName(Mode mode);
 
@@ -51,6 +55,18 @@ struct BodyDescription {
   Vec3 angular_velocity = Vec3::Zero();
   Material material;
   bool is_static = false;
+  /// In place of the material's density, kg: it is scaled so that the body has this mass.
+  std::optional<double> mass_kg = {};
+  /// The body goes along a path that nothing changes: from `X_WB` at the constant velocities, or through
+  /// `keyframes`, the first of which is where it starts (`X_WB` and the velocities are then not asked).
+  /// Rather than come through what cannot give way it stops at the last safe time, and is late on its path
+  /// from then on (Audit::kinematic_late_s).
+  bool is_kinematic = false;
+  std::vector<Keyframe> keyframes = {};
+  Interpolation interpolation = Interpolation::kLinear;
+  bool repeats = false;
+  AxisLocks locks = {};   ///< Of a body that moves freely: no velocity along or about what is locked.
+  AppliedLoad load = {};  ///< Likewise: what acts on it besides its environment.
 };
 
 /// What can be seen of a body at the end of a step.
@@ -96,6 +112,8 @@ struct StepCounters {
   int active_bodies = 0;     ///< Bodies and pairs that the step looked at: those of what moves, ...
   int active_pairs = 0;      ///< ... and of what came to rest in the step before.
   int rest_test_rows = 0;    ///< Rows that were looked at to tell whether islands come to rest.
+  int stopped_kinematic = 0;  ///< Kinematic bodies that were stopped at something that cannot give way.
+  double work_J = 0.0;        ///< Done by kinematic bodies and by loads (BodyDescription).
   int substeps = 1;  ///< The step was made in so many equal parts: sums are over all of them, pairs and
                      ///< points those of the last.
 };
@@ -108,6 +126,9 @@ struct Audit {
   Vec3 linear_momentum = Vec3::Zero();
   Vec3 angular_momentum = Vec3::Zero();  ///< About the world's origin.
   double smallest_gap_m = 0.0;           ///< Over candidate pairs; +infinity when there is none.
+  /// Done by kinematic bodies and by loads since the start: what the energies may have grown by.
+  double work_J = 0.0;
+  double kinematic_late_s = 0.0;  ///< The most that a kinematic body has been stopped for since the start.
   int resting_bodies = 0;
   StepCounters last_step;
 };

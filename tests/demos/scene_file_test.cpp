@@ -147,6 +147,34 @@ const Refusal kRefusals[] = {
     {"OrbitMisspelt", cameraScene("{ \"orbit\": { \"target\": [0, 0, 0], \"radius\": 1, \"hight\": 2 } }"),
      ":2: cameras.main.orbit.hight: unknown key \"hight\"; did you mean \"height\"? accepted: target, "
      "radius, height, degreesPerSecond, startDegrees"},
+    {"StaticAndKinematic", bodyScene(kBox + ", \"static\": true, \"kinematic\": true"),
+     ":3: bodies[0].kinematic: the body is static, too; accepted: one of static and kinematic"},
+    {"MassOfAStaticBody", bodyScene(kBox + ", \"static\": true, \"mass\": 2"),
+     ":3: bodies[0].mass: of a body that is static; accepted: only of one that moves freely"},
+    {"MassAndDensity", bodyScene(kBox + ", \"mass\": 2, \"material\": { \"density\": 100 }"),
+     ":3: bodies[0].mass: given together with the material's \"density\"; accepted: one of them"},
+    {"NoMass", bodyScene(kBox + ", \"mass\": 0"),
+     ":3: bodies[0].mass: 0 is out of range; accepted: above 0 to 1e+21"},
+    {"OneAxisOfTurningLocked", bodyScene(kBox + ", \"locked\": [\"x\", \"turnZ\"]"),
+     ":3: bodies[0].locked: locks one axis of turning; accepted: none, two or all three of turnX, turnY, "
+     "turnZ"},
+    {"NoSuchAxis", bodyScene(kBox + ", \"locked\": [\"w\"]"),
+     ":3: bodies[0].locked[0]: \"w\" is no axis; accepted: x, y, z, turnX, turnY, turnZ"},
+    {"VelocityAlongALockedAxis", bodyScene(kBox + ", \"locked\": [\"x\"], \"linearVelocity\": [1, 0, 0]"),
+     ":3: bodies[0].linearVelocity: has a part along a locked axis; accepted: 0 there"},
+    {"KeyframesBackInTime",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 1 }, { \"time\": 1 } ] }"),
+     ":3: bodies[0].kinematic.keyframes[1].time: 1 is not after the keyframe before; accepted: times that "
+     "rise"},
+    {"KeyframesAndPosition",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 1 } ] }, \"position\": [0, 0, 1]"),
+     ":3: bodies[0].position: given together with keyframes, which say where the body is; accepted: one of "
+     "them"},
+    {"RepeatsWithASeam",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 0 }, { \"time\": 1, "
+                      "\"position\": [1, 0, 0] } ], \"repeats\": true }"),
+     ":3: bodies[0].kinematic.repeats: the last keyframe is not where the first is; accepted: a path that "
+     "ends as it begins"},
     {"NegativeDragCoefficient", bodyScene(kBox + ", \"dragCoefficient\": -1"),
      ":3: bodies[0].dragCoefficient: -1 is out of range; accepted: 0 to 1000"},
     {"MisspeltFluidKey", fluidScene(", \"level\": 0, \"densty\": 1000"),

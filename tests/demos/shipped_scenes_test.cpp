@@ -4,6 +4,8 @@
 #include <map>
 #include <regex>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "demos/asset_path.h"
@@ -49,6 +51,9 @@ class Schema {
     if (keyword == "$ref")
       return accepts(root_.at("$defs").at(rule.asString().substr(std::string("#/$defs/").size())), value);
     if (keyword == "const") return same(rule, value);
+    if (keyword == "enum")
+      return std::any_of(rule.items().begin(), rule.items().end(),
+                         [&](const Json& one) { return same(one, value); });
     if (keyword == "type") return isOfType(rule.asString(), value);
     if (keyword == "not") return !accepts(rule, value);
     if (keyword == "oneOf" || keyword == "anyOf") {

@@ -49,7 +49,8 @@ class EnergyWatch {
     double of_tolerance = 0.0;  ///< The whole gain.
     std::string detail;
   };
-  /// `turned_J`: what the spins of bodies in free flight have gained in the step, which FlightWatch judges.
+  /// `turned_J`: what the spins of bodies in free flight have gained in the step, which FlightWatch judges,
+  /// and the work of kinematic bodies and loads.
   Gain after(const Mechanics& now, Real turned_J) {
     const Real rounding =
         kRounding * (last_.kinetic_J + now.kinetic_J + last_.potential_scale_J + now.potential_scale_J);

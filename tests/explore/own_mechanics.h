@@ -109,7 +109,7 @@ inline std::vector<OwnBody> ownBodies(const World& world) {
   std::vector<OwnBody> bodies;
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const BodyDescription& d = world.bodies()[i];
-    if (!d.is_static)
+    if (!d.is_static && !d.is_kinematic)
       bodies.push_back(ownBody(static_cast<int>(i), world.solids()[static_cast<std::size_t>(d.solid)],
                                d.material.density_kgpm3));
   }

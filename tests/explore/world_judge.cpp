@@ -1,5 +1,7 @@
 #include "tests/explore/world_judge.h"
 
+#include <algorithm>
+
 namespace carom::explore {
 namespace {
 
@@ -31,7 +33,9 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
   const Air& air = world.settings().air;
   const bool dry = world.settings().fluids.empty();
   keeps_energy_ = dry && (!(air.density_kgpm3 > 0.0) || air.wind.isZero(0.0));
-  keeps_momentum_ = dry && !(air.density_kgpm3 > 0.0) && bodies_.size() == world.bodies().size();
+  keeps_momentum_ = dry && !(air.density_kgpm3 > 0.0) && bodies_.size() == world.bodies().size() &&
+                    std::all_of(world.bodies().begin(), world.bodies().end(),
+                                [](const BodyDescription& d) { return d.load.isZero() && !d.locks.any(); });
   checkMasses();
   lookForOverlap(world.states(), "overlap", 0);
 }
@@ -45,7 +49,8 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
   lookForOverlap(states, "overlap", step);
   const Mechanics now = mechanicsOf(bodies_, states, world_.settings().gravity);
   if (keeps_energy_) {
-    const EnergyWatch::Gain gain = energy_.after(now, flight_.after(states, step, findings_));
+    const EnergyWatch::Gain gain =
+        energy_.after(now, flight_.after(states, step, findings_) + counters.work_J);
     totals_.worst_gain = std::max(totals_.worst_gain, gain.of_tolerance);
     if (gain.of_scale > 0.0) findings_.add("energy", gain.of_scale, step, gain.detail);
   }

@@ -1,0 +1,310 @@
+// Kinematic bodies: their paths are what was prescribed, to the rounding, and others meet them as theory
+// says: impacts with restitution, friction on turntables and belts, weight in an elevator, and the work they
+// do.
+
+#include "tests/physics/small_world.h"
+
+namespace carom::physics {
+namespace {
+
+BodyDescription kinematic(int solid, const Pose& X, const Vec3& velocity, const Vec3& spin,
+                          const Material& material) {
+  BodyDescription d{solid, X, velocity, spin, material};
+  d.is_kinematic = true;
+  return d;
+}
+
+class KinematicWorld {
+ public:
+  explicit KinematicWorld(const WorldSettings& settings) : world(settings) {}
+  int add(const Solid& solid, const Pose& X, const Vec3& v, const Vec3& spin, const Material& material) {
+    return world.addBody({world.addSolid(solid), X, v, spin, material});
+  }
+  int addDriven(const Solid& solid, const Pose& X, const Vec3& v, const Vec3& spin,
+                const Material& material) {
+    return world.addBody(kinematic(world.addSolid(solid), X, v, spin, material));
+  }
+  int addAlong(const Solid& solid, std::vector<Keyframe> keyframes, Interpolation how,
+               const Material& material, bool repeats = false) {
+    BodyDescription d;
+    d.solid = world.addSolid(solid);
+    d.material = material;
+    d.is_kinematic = true;
+    d.keyframes = std::move(keyframes);
+    d.interpolation = how;
+    d.repeats = repeats;
+    return world.addBody(d);
+  }
+  void start() { ASSERT_TRUE(world.start().empty()); }
+  void run(double seconds) {
+    const int steps = static_cast<int>(std::round(seconds / world.settings().step_s));
+    for (int i = 0; i < steps; ++i) {
+      world.step();
+      ASSERT_GT(world.audit().smallest_gap_m, 0.0) << world.time();
+    }
+  }
+  const BodyState& state(int body) const { return world.states()[static_cast<std::size_t>(body)]; }
+  double energy() const {
+    const Audit audit = world.audit();
+    return audit.kinetic_energy_J + audit.potential_energy_J;
+  }
+  World world;
+};
+
+const Vec3 kDown(0.0, 0.0, -kGravity);
+const Vec3 kNoGravity(0.0, 0.0, 0.0);
+
+TEST(KinematicPiston, HitsABallWithItsRestitution) {
+  for (const double e : {0.0, 0.4, 1.0})
+    for (const double u : {0.7, 2.0}) {
+      KinematicWorld w({1.0 / 240.0, kNoGravity});
+      const double v = 1.3;
+      w.addDriven(Solid::box(Vec3(1.0, 1.0, 0.4)), {oracle::turned(Vec3::UnitZ(), 0.3), Vec3(0, 0, -0.5)},
+                  Vec3(0, 0, u), Vec3::Zero(), rubbing(0.5, e));
+      const int ball = w.add(Solid::ball(0.2), {Quat::Identity(), Vec3(0.01, 0.02, 0.71)}, Vec3(0, 0, -v),
+                             Vec3::Zero(), rubbing(0.5, e));
+      w.start();
+      const double before = w.energy();
+      w.run(0.5);
+      const double after = e * v + (1.0 + e) * u;
+      EXPECT_NEAR(w.state(ball).linear_velocity.z(), after, e == 0.0 ? 1e-3 : 1e-9) << e << " " << u;
+      // In an elastic impact nothing is lost: what the ball gained is the piston's work.
+      if (e == 1.0) {
+        EXPECT_NEAR(w.energy() - before, w.world.audit().work_J, 1e-9 * w.energy());
+      }
+      EXPECT_EQ(w.world.audit().kinematic_late_s, 0.0);
+    }
+}
+
+TEST(KinematicBody, IsWhereItsPathSays_AfterALongTime) {
+  KinematicWorld w({1.0 / 60.0, kDown});
+  const Quat start = oracle::turned(Vec3(1, 2, 3).normalized(), 0.7);
+  const Vec3 velocity(0.3, -0.2, 0.1), spin(1.0, 2.0, -0.5);
+  const int box =
+      w.addDriven(Solid::box(Vec3(0.3, 0.4, 0.5)), {start, Vec3(1, 2, 3)}, velocity, spin, rubbing(0.5));
+  w.start();
+  w.run(100.0);
+  const double t = w.world.time();
+  EXPECT_LT((w.state(box).X_WB.position - (Vec3(1, 2, 3) + t * velocity)).norm(), 1e-12);
+  EXPECT_LT(w.state(box).X_WB.rotation.angularDistance(rotationBy(t * spin) * start), 1e-11);
+  EXPECT_EQ(w.state(box).linear_velocity, velocity);
+  EXPECT_EQ(w.state(box).mode, Mode::kKinematic);
+}
+
+TEST(KeyframedBody, PassesItsKeyframes_BetweenSteps) {
+  for (const Interpolation how : {Interpolation::kLinear, Interpolation::kSmooth}) {
+    KinematicWorld w({1.0 / 64.0, kDown});
+    const Quat turned = oracle::turned(Vec3::UnitX(), 1.1);
+    // Times that no step of 1/64 s meets, but those at which it is asked.
+    const std::vector<Keyframe> keys{{0.25, {Quat::Identity(), Vec3(0, 0, 1)}},
+                                     {0.7, {turned, Vec3(1, 0, 1)}},
+                                     {1.3, {turned, Vec3(1, 2, 1)}}};
+    const int body = w.addAlong(Solid::box(Vec3(0.3, 0.4, 0.5)), keys, how, rubbing(0.5));
+    w.start();
+    w.run(0.25);
+    EXPECT_LT((w.state(body).X_WB.position - Vec3(0, 0, 1)).norm(), 1e-15);
+    w.run(0.5);  // 0.05 s after the second
+    const double s = how == Interpolation::kLinear ? 0.05 / 0.6 : 2.0 * (0.05 / 0.6) * (0.05 / 0.6);
+    EXPECT_LT((w.state(body).X_WB.position - Vec3(1, 2.0 * s, 1)).norm(), 1e-14);
+    EXPECT_LT(w.state(body).X_WB.rotation.angularDistance(turned), 1e-14);
+    w.run(1.0);
+    EXPECT_LT((w.state(body).X_WB.position - Vec3(1, 2, 1)).norm(), 1e-14);
+    EXPECT_EQ(w.state(body).linear_velocity, Vec3::Zero());
+  }
+}
+
+// A ball that floats before a plate, which sets off between two steps.
+TEST(KeyframedBody, StrikesWhatItComesToWithinTheStepInWhichItSetsOff) {
+  KinematicWorld w({1.0 / 60.0, kNoGravity});
+  const double u = 3.0;
+  w.addAlong(Solid::box(Vec3(1, 1, 0.2)),
+             {{0.0, {}}, {0.105, {}}, {1.105, {Quat::Identity(), Vec3(0, 0, u)}}}, Interpolation::kLinear,
+             rubbing(0.3, 1.0));
+  // It is struck 3 ms later, in the same step.
+  const int ball = w.add(Solid::ball(0.1), {Quat::Identity(), Vec3(0, 0, 0.2 + 0.003 * u)}, Vec3::Zero(),
+                         Vec3::Zero(), rubbing(0.3, 1.0));
+  w.start();
+  w.run(0.1);
+  EXPECT_EQ(w.state(ball).linear_velocity, Vec3::Zero());
+  w.run(1.0 / 60.0);
+  EXPECT_NEAR(w.state(ball).linear_velocity.z(), 2.0 * u, 1e-9);
+  EXPECT_NEAR(w.state(ball).X_WB.position.z(), 0.2 + 0.003 * u + (7.0 / 60.0 - 0.108) * 2.0 * u, 1e-3);
+}
+
+TEST(BlockOnABelt, ComesToItsSpeedAsFrictionLets) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  const double mu = 0.3, v = 1.5;
+  w.addDriven(Solid::box(Vec3(20, 2, 0.2)), {Quat::Identity(), Vec3(0, 0, -0.1)}, Vec3(v, 0, 0), Vec3::Zero(),
+              rubbing(mu));
+  const Vec3 size(0.4, 0.3, 0.2);
+  const int block =
+      w.add(Solid::box(size), lyingBox(size, Quat::Identity(), 0.2), Vec3::Zero(), Vec3::Zero(), rubbing(mu));
+  w.start();
+  const double seconds = v / (mu * kGravity);
+  const double m = w.world.mass(block);
+  while (w.world.time() + w.world.settings().step_s < seconds) w.world.step();
+  const double t = w.world.time();
+  EXPECT_NEAR(w.state(block).linear_velocity.x() / (mu * kGravity * t), 1.0, 1e-4);
+  EXPECT_NEAR(w.state(block).X_WB.position.x() / (0.5 * mu * kGravity * t * t), 1.0, 1e-3);
+  w.run(2.0);
+  EXPECT_NEAR(w.state(block).linear_velocity.x(), v, 1e-9);
+  // Half of the belt's work is the block's, half is heat.
+  EXPECT_NEAR(w.world.audit().work_J / (m * v * v), 1.0, 1e-4);
+}
+
+// A small block that turns with the table from the start.
+bool slipsOnTurntable(double radius_m, double spin, double mu, double heading) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  w.addDriven(Solid::box(Vec3(8, 8, 0.2)), {Quat::Identity(), Vec3(0, 0, -0.1)}, Vec3::Zero(),
+              Vec3(0, 0, spin), rubbing(mu));
+  const Vec3 size(0.1, 0.1, 0.04);
+  const Vec2 at(radius_m * std::cos(heading), radius_m * std::sin(heading));
+  const Pose X = lyingBox(size, Quat::Identity(), 0.4, at);
+  const int block =
+      w.add(Solid::box(size), X, Vec3(0, 0, spin).cross(X.position), Vec3(0, 0, spin), rubbing(mu));
+  w.start();
+  w.run(3.0);
+  return std::abs(w.state(block).X_WB.position.head<2>().norm() - radius_m) > 1e-3;
+}
+
+TEST(BlockOnATurntable, SlipsBeyondTheRadiusOfItsFriction) {
+  const double mu = 0.4, spin = 2.5;
+  const double limit = mu * kGravity / (spin * spin);
+  for (const double heading : {0.3, 2.0}) {
+    EXPECT_FALSE(slipsOnTurntable(0.99 * limit, spin, mu, heading));
+    EXPECT_TRUE(slipsOnTurntable(1.01 * limit, spin, mu, heading));
+  }
+}
+
+TEST(BlockOnATurntable, RidesAndDoesNotComeToRest) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  w.addDriven(Solid::box(Vec3(2, 2, 0.2)), {Quat::Identity(), Vec3(0, 0, -0.1)}, Vec3::Zero(),
+              Vec3(0, 0, 0.01), rubbing(0.5));
+  const Vec3 size(0.2, 0.3, 0.1);
+  const Pose X = lyingBox(size, Quat::Identity(), 0.0);
+  const int block = w.add(Solid::box(size), X, Vec3::Zero(), Vec3::Zero(), rubbing(0.5));
+  w.start();
+  w.run(20.0);
+  EXPECT_NE(w.state(block).mode, Mode::kResting);
+  EXPECT_NEAR(w.state(block).X_WB.rotation.angularDistance(X.rotation), 0.2, 1e-3);
+}
+
+TEST(BoxInAnElevator, WeighsWhatItsAccelerationSays_AndIsLiftedByItsWork) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  const double height = 3.0, seconds = 2.0;
+  w.addAlong(Solid::box(Vec3(2, 2, 1)),
+             {{0.5, {Quat::Identity(), Vec3(0, 0, -0.5)}},
+              {0.5 + seconds, {Quat::Identity(), Vec3(0, 0, height - 0.5)}}},
+             Interpolation::kSmooth, rubbing(0.5));
+  const Vec3 size(0.4, 0.5, 0.3);
+  const int box = w.add(Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(),
+                        rubbing(0.5));
+  w.start();
+  StepView view;
+  w.world.watch(&view);
+  const double start = w.energy();
+  const double m = w.world.mass(box);
+  const double a = 4.0 * height / (seconds * seconds);
+  const auto weight = [&] {
+    double impulse = 0.0;
+    for (const ContactView& contact : view.lasting) impulse += std::abs(contact.impulse_W.z());
+    return impulse / w.world.settings().step_s;
+  };
+  w.run(1.0);
+  EXPECT_NEAR(weight() / (m * (kGravity + a)), 1.0, 1e-6);
+  w.run(1.0);
+  EXPECT_NEAR(weight() / (m * (kGravity - a)), 1.0, 1e-6);
+  const double height_now = w.state(box).X_WB.position.z();
+  EXPECT_NEAR((w.energy() - start) / w.world.audit().work_J, 1.0, 1e-9);
+  EXPECT_NEAR(w.world.audit().work_J, m * kGravity * height, 0.3 * m * kGravity * height);
+  w.run(2.0);
+  EXPECT_NEAR((w.energy() - start) / w.world.audit().work_J, 1.0, 1e-9);
+  EXPECT_GT(w.state(box).X_WB.position.z(), height_now);
+  EXPECT_EQ(w.state(box).mode, Mode::kResting) << "on an elevator that stands still";
+}
+
+TEST(KinematicBody, WakesWhatRestsOnItWhenItSetsOff) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  w.addAlong(Solid::box(Vec3(2, 2, 0.2)),
+             {{3.0, {Quat::Identity(), Vec3(0, 0, -0.1)}}, {4.0, {Quat::Identity(), Vec3(0.5, 0, -0.1)}}},
+             Interpolation::kSmooth, rubbing(0.5));
+  const Vec3 size(0.4, 0.5, 0.3);
+  Pose X = lyingBox(size, Quat::Identity(), 0.3);
+  const int box = w.add(Solid::box(size), X, Vec3::Zero(), Vec3::Zero(), rubbing(0.5));
+  X.position.z() += size.z() + restGap(size.minCoeff());
+  const int upper = w.add(Solid::box(size), X, Vec3::Zero(), Vec3::Zero(), rubbing(0.5));
+  w.start();
+  w.run(2.5);
+  EXPECT_EQ(w.state(box).mode, Mode::kResting);
+  EXPECT_EQ(w.state(upper).mode, Mode::kResting);
+  w.run(2.5);
+  EXPECT_NEAR(w.state(box).X_WB.position.x(), 0.5, 1e-6);
+  EXPECT_NEAR(w.state(upper).X_WB.position.x(), 0.5, 1e-6);
+  EXPECT_EQ(w.state(upper).mode, Mode::kResting);
+}
+
+// It cannot push through a wall: it stops, is late, and goes on when the way is free.
+TEST(KinematicPress, StopsRatherThanOverlap_AndSaysSo) {
+  for (const double u : {0.05, 1.0}) {
+    KinematicWorld w({1.0 / 240.0, kDown});
+    w.addDriven(Solid::box(Vec3(0.4, 0.4, 0.2)), {Quat::Identity(), Vec3(0, 0, 0.6)}, Vec3(0, 0, -u),
+                Vec3::Zero(), rubbing(0.5));
+    w.world.addBody({w.world.addSolid(Solid::box(Vec3(4, 4, 1))),
+                     {Quat::Identity(), Vec3(0, 0, -0.5)},
+                     Vec3::Zero(),
+                     Vec3::Zero(),
+                     rubbing(0.5),
+                     true});
+    const Vec3 size(0.3, 0.3, 0.3);
+    const int box = w.add(Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(),
+                          rubbing(0.5));
+    w.start();
+    const double blocked_s = 0.5;
+    w.run(0.2 / u + blocked_s);
+    EXPECT_NEAR(w.world.audit().kinematic_late_s, blocked_s, 0.05 + 0.01 / u) << u;
+    EXPECT_LT(w.state(box).linear_velocity.norm(), 2.0 * u);
+    EXPECT_LT(w.state(box).X_WB.position.head<2>().norm(), 1e-2);
+    EXPECT_GT(w.world.audit().last_step.stopped_kinematic, 0);
+  }
+}
+
+TEST(KinematicBodies, StopAtStaticOnes) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  const int moved =
+      w.addDriven(Solid::box(Vec3(0.4, 0.4, 0.4)), {oracle::turned(Vec3::UnitX(), 0.3), Vec3(0, 0, 1.0)},
+                  Vec3(0, 0, -1), Vec3::Zero(), rubbing(0.5));
+  w.world.addBody({w.world.addSolid(Solid::box(Vec3(4, 4, 1))),
+                   {Quat::Identity(), Vec3(0, 0, -0.5)},
+                   Vec3::Zero(),
+                   Vec3::Zero(),
+                   rubbing(0.5),
+                   true});
+  w.start();
+  w.run(2.0);
+  EXPECT_NEAR(w.state(moved).X_WB.position.z(), 0.2 * (std::cos(0.3) + std::sin(0.3)), 1e-3);
+  EXPECT_EQ(w.state(moved).linear_velocity, Vec3::Zero());
+  EXPECT_NEAR(w.world.audit().kinematic_late_s, 2.0 - (1.0 - w.state(moved).X_WB.position.z()), 1e-9);
+}
+
+TEST(KinematicWorlds, HaveTheSameBitsOnEveryNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 3}) {
+    WorldSettings settings{1.0 / 120.0, kDown};
+    settings.threads = threads;
+    KinematicWorld w(settings);
+    w.addDriven(Solid::box(Vec3(6, 6, 0.2)), {Quat::Identity(), Vec3(0, 0, -0.1)}, Vec3::Zero(),
+                Vec3(0, 0, 1), rubbing(0.5));
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j < 5; ++j)
+        w.add(Solid::box(Vec3(0.3, 0.4, 0.3)),
+              {oracle::turned(Vec3(1, i, j).normalized(), 0.4), Vec3(i - 2, j - 2, 0.6)}, Vec3::Zero(),
+              Vec3::Zero(), rubbing(0.5, 0.2));
+    w.start();
+    w.run(1.5);
+    hashes.push_back(w.world.stateHash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
+}  // namespace carom::physics
