@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include "demos/build_info.h"
 #include "demos/command.h"
 #include "demos/manual_page.h"
+#include "demos/moving_picture.h"
 #include "demos/nearest_name.h"
 #include "demos/overlay_choice.h"
 #include "demos/shell_completion.h"
@@ -205,7 +207,9 @@ void CommandLine::addRender() {
   addSceneOptions(*render_command, render_options.choice);
   render_command->add_option(
       "-o,--output", render_options.output,
-      "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png), or - and --stream");
+      "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png); one picture (x.png: of the start,\n"
+      "or of --at); a moving picture (x.apng; by the installed ffmpeg x.gif, x.webp, x.mp4 and more);\n"
+      "or - and --stream");
   addLongJobOptions();
   render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")
       ->capture_default_str();
@@ -248,7 +252,8 @@ void CommandLine::addLookOptions() {
   render.add_option("--speed", options.speed, "Of the scene's time: 0.1 is ten times slow motion")
       ->capture_default_str();
   CLI::Option* at = render.add_option("--at", options.at_s, "One picture, at exactly this many seconds");
-  for (const char* other : {"--frames", "--shard", "--from", "--ffmpeg", "--fps", "--speed", "--duration"})
+  for (const char* other :
+       {"--frames", "--shard", "--from", "--ffmpeg", "--sheet", "--fps", "--speed", "--duration"})
     at->excludes(render.get_option(other));
 }
 
@@ -262,7 +267,14 @@ void CommandLine::addLongJobOptions() {
                                         "Keeps frames that are whole and up to date, draws the others");
   CLI::Option* stream = render.add_option("--stream", options.stream,
                                           "With -o -: frames to standard output as ppm, png or rgb24");
-  CLI::Option* ffmpeg = render.add_option("--ffmpeg", options.ffmpeg, "A video by the installed ffmpeg");
+  CLI::Option* ffmpeg =
+      render.add_option("--ffmpeg", options.moving, "A video by the installed ffmpeg, as -o x.mp4 is");
+  CLI::Option* sheet = render.add_option(
+      "--sheet", options.sheet,
+      "COLUMNSxROWS: moments of the run in one picture, with their times; --size is of each");
+  for (CLI::Option* other :
+       {stream, ffmpeg, resume, render.get_option("--frames"), render.get_option("--shard")})
+    sheet->excludes(other);
   CLI::Option* from = render.add_option("--from", options.from, "Draws a recording of simulate -o");
   ffmpeg->excludes(render.get_option("--output"))->excludes(stream);
   resume->excludes(stream)->excludes(ffmpeg);
@@ -492,6 +504,33 @@ void refuseExtras(const CommandLine& line) {
   throw UsageError(name + ": unexpected argument \"" + word + "\"");
 }
 
+bool namesANumber(const std::string& output) {
+  return std::filesystem::path(output).filename().string().find_first_of("%#") != std::string::npos;
+}
+
+/// What `-o` is to become, by its name: a moving picture, or one picture.
+void settleOutput(RenderOptions& options) {
+  const std::filesystem::path path(options.output);
+  if (isMovingPicture(path)) {
+    if (!options.sheet.empty())
+      throw UsageError("--sheet: -o " + options.output + ": accepted: a name that ends in .png");
+    if (options.at_s)
+      throw UsageError("--at is one picture; -o " + options.output +
+                       " moves; accepted: a name that ends in .png");
+    if (options.resume)
+      throw UsageError("--resume keeps frames that have files of their own; accepted: without -o " +
+                       options.output);
+    options.moving = std::exchange(options.output, "");
+    return;
+  }
+  const bool is_one = path.extension() == ".png" && !namesANumber(options.output);
+  if (!options.sheet.empty() && !options.output.empty() && !is_one)
+    throw UsageError("--sheet: -o " + options.output +
+                     ": accepted: a name that ends in .png, without a number");
+  const bool is_part = !options.frames.empty() || !options.shard.empty() || !options.from.empty();
+  if (is_one && options.sheet.empty() && !options.at_s && !is_part) options.at_s = 0.0;
+}
+
 void checkRender(const RenderOptions& options) {
   if (!options.focus.empty() && options.overlays.empty())
     throw UsageError("--focus is of --overlay, which is missing");
@@ -507,8 +546,8 @@ void checkRender(const RenderOptions& options) {
     message << "--at " << *options.at_s << ": accepted: 0 to " << kLongest_s << " seconds";
     throw UsageError(message.str());
   }
-  if (!options.aov.empty() && !options.ffmpeg.empty())
-    throw UsageError("--aov has 16 bits a sample, a video 8; accepted: without --ffmpeg");
+  if (!options.aov.empty() && (!options.moving.empty() || !options.sheet.empty()))
+    throw UsageError("--aov has 16 bits a sample, a moving picture or a sheet 8; accepted: with frames");
   if ((options.output == "-") != !options.stream.empty())
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }
@@ -541,7 +580,11 @@ void checkValues(CommandLine& line) {
     if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
-  if (line.render_command->parsed()) checkRender(line.render_options);
+  if (line.render_command->parsed()) {
+    settleOutput(line.render_options);
+    checkRender(line.render_options);
+  }
+  if (!line.render_options.sheet.empty()) readSize("320x180", line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (line.export_command->parsed()) checkExport(line.export_options);
   if (!line.figures_size.empty()) readSize(line.figures_size, line.figures_options);

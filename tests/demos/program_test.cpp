@@ -67,7 +67,7 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"--duration -1: accepted: above 0", {"simulate", "sliding", "--duration", "-1"}},
       {"holds no frame", {"render", "sliding", "--duration", "0.001"}},
       {"--camera man: no such camera", {"render", "sliding", "--camera", "man"}},
-      {"-o frame.png: accepted:", {"render", "sliding", "-o", "frame.png"}},
+      {"-o frame.jpg: accepted:", {"render", "sliding", "-o", "frame.jpg"}},
       {"--expect-hash 12: accepted:", {"simulate", "sliding", "--expect-hash", "12"}},
       {"--progress", {"render", "sliding", "--progress", "dots"}},
       {"SCENE", {"render"}},
