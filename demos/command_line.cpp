@@ -140,6 +140,9 @@ struct CommandLine {
   DoctorOptions doctor_options;
   bool wants_manual = false;
   bool wants_completion = false;
+  bool wants_zsh = false;
+  bool wants_fish = false;
+  std::string help_of;
   std::string size;
   std::string budget_size;
   std::string figures_size;
@@ -154,6 +157,8 @@ struct CommandLine {
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
   CLI::App* doctor_command = nullptr;
+  CLI::App* help_command = nullptr;
+  CLI::App* version_command = nullptr;
 
   CommandLine();
   void addRender();
@@ -166,10 +171,36 @@ struct CommandLine {
   void addCompare();
   void addBudget();
   void addFigures();
+  void groupOptions();
 };
 
+/// Each option of these names, of whatever command, stands under a heading of the help.
+void CommandLine::groupOptions() {
+  struct Group {
+    const char* heading;
+    std::vector<std::string> options;
+  };
+  const std::vector<Group> groups{
+      {"What is simulated", {"--duration", "--seed", "--mesh", "--hull", "--threads", "--from", "--scene"}},
+      {"What is written",
+       {"--output", "--sheet", "--ffmpeg", "--stream", "--aov", "--states", "--csv", "--npy", "--audit",
+        "--json", "--trace", "--report", "--report-pairs", "--differences", "--amplify", "--junit",
+        "--update"}},
+      {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
+      {"How it looks", {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--portable"}},
+      {"Long jobs", {"--shard", "--resume", "--workers", "--gl"}},
+      {"What is asked",
+       {"--budget", "--percentile", "--replays", "--baseline", "--tolerance", "--tolerance16",
+        "--allow-pixels", "--expect-hash", "--pose-a", "--pose-b", "--batch", "--cold"}},
+      {"What is told", {"--progress", "--quiet", "--verbose"}}};
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const Group& group : groups)
+      for (const std::string& name : group.options)
+        if (CLI::Option* option = command->get_option_no_throw(name)) option->group(group.heading);
+}
+
 CommandLine::CommandLine() {
-  app.set_version_flag("--version", "carom " + programVersion() + " (" + buildName() + ")");
+  app.set_version_flag("-V,--version", "carom " + programVersion() + " (" + buildName() + ")");
   app.footer(
       "Example: carom render sliding -o out/frame_%04d.png\n"
       "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset,\n"
@@ -178,6 +209,8 @@ CommandLine::CommandLine() {
       "            128+n signal n");
   app.add_flag("--manual-page", wants_manual, "Prints carom(1), as it is installed");
   app.add_flag("--bash-completion", wants_completion, "Prints the completion for bash, as it is installed");
+  app.add_flag("--zsh-completion", wants_zsh, "The same for zsh");
+  app.add_flag("--fish-completion", wants_fish, "The same for fish");
   list_command = app.add_subcommand("list", "The shipped scenes, one line each");
   list_command->add_flag("--json", list_options.json, "As a JSON array");
   list_command->footer("Example: carom list --json");
@@ -197,6 +230,12 @@ CommandLine::CommandLine() {
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   addGlOption(*doctor_command, doctor_options.gl);
   doctor_command->footer("Example: carom doctor --gl egl");
+  help_command = app.add_subcommand("help", "What a command does and takes; the same as COMMAND --help");
+  help_command->add_option("COMMAND", help_of, "One of the commands; none: all of them");
+  help_command->footer("Example: carom help render");
+  version_command = app.add_subcommand("version", "The version and the build; the same as --version");
+  version_command->footer("Example: carom version");
+  groupOptions();
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
   app.allow_extras();
   app.require_subcommand(0, 1);
@@ -592,6 +631,17 @@ void checkValues(CommandLine& line) {
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
 
+std::string helpOf(const CommandLine& line, const std::string& name) {
+  // Of an application that has parsed a command, help is that command's.
+  if (name.empty()) return CommandLine().app.help();
+  std::vector<std::string> names;
+  for (const CLI::App* command : line.app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return command->help("carom");
+    names.push_back(command->get_name());
+  }
+  throw UsageError("help: unknown command \"" + name + "\"" + acceptedNames(name, names));
+}
+
 std::string oneLine(std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
@@ -615,12 +665,23 @@ ExitCode runCommandLine(int argc, char** argv) {
     refuseExtras(line);  // a misspelt word is the better reason when there is one
     throw UsageError(oneLine(error.what()));
   }
-  if (line.wants_manual || line.wants_completion) {
+  if (line.wants_manual || line.wants_completion || line.wants_zsh || line.wants_fish) {
     const ProgramDescription program = describedProgram(line.app);
-    std::cout << (line.wants_manual ? manualPage(program) : bashCompletion(program));
+    std::cout << (line.wants_manual       ? manualPage(program)
+                  : line.wants_completion ? bashCompletion(program)
+                  : line.wants_zsh        ? zshCompletion(program)
+                                          : fishCompletion(program));
     return ExitCode::kOk;
   }
   refuseExtras(line);
+  if (line.help_command->parsed()) {
+    std::cout << helpOf(line, line.help_of);
+    return ExitCode::kOk;
+  }
+  if (line.version_command->parsed()) {
+    std::cout << line.app.version() << '\n';
+    return ExitCode::kOk;
+  }
   if (line.render_options.overlays == "help") {
     std::cout << overlayHelp();
     return ExitCode::kOk;
