@@ -57,7 +57,8 @@ struct RenderOptions {
   bool resume = false;
   std::string stream;            ///< ppm, png, rgb24, or empty.
   std::filesystem::path from;    ///< A recording instead of simulating.
-  std::filesystem::path ffmpeg;  ///< A video instead of frames.
+  std::filesystem::path moving;  ///< A moving picture instead of frames.
+  std::string sheet;             ///< "4x3": a contact sheet instead of frames; empty: none.
   double fps = 30.0;
   double speed = 1.0;          ///< Of the scene's time over the frames'.
   std::optional<double> at_s;  ///< One still at this time instead of frames.

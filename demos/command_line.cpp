@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include "demos/build_info.h"
 #include "demos/command.h"
 #include "demos/manual_page.h"
+#include "demos/moving_picture.h"
 #include "demos/nearest_name.h"
 #include "demos/overlay_choice.h"
 #include "demos/shell_completion.h"
@@ -140,6 +142,9 @@ struct CommandLine {
   DoctorOptions doctor_options;
   bool wants_manual = false;
   bool wants_completion = false;
+  bool wants_zsh = false;
+  bool wants_fish = false;
+  std::string help_of;
   std::string size;
   std::string budget_size;
   std::string figures_size;
@@ -156,6 +161,8 @@ struct CommandLine {
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
   CLI::App* doctor_command = nullptr;
+  CLI::App* help_command = nullptr;
+  CLI::App* version_command = nullptr;
 
   CommandLine();
   void addRender();
@@ -169,10 +176,36 @@ struct CommandLine {
   void addRegress();
   void addBudget();
   void addFigures();
+  void groupOptions();
 };
 
+/// Each option of these names, of whatever command, stands under a heading of the help.
+void CommandLine::groupOptions() {
+  struct Group {
+    const char* heading;
+    std::vector<std::string> options;
+  };
+  const std::vector<Group> groups{
+      {"What is simulated", {"--duration", "--seed", "--mesh", "--hull", "--threads", "--from", "--scene"}},
+      {"What is written",
+       {"--output", "--sheet", "--ffmpeg", "--stream", "--aov", "--states", "--csv", "--npy", "--audit",
+        "--json", "--trace", "--report", "--report-pairs", "--differences", "--amplify", "--junit",
+        "--update"}},
+      {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
+      {"How it looks", {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--portable"}},
+      {"Long jobs", {"--shard", "--resume", "--workers", "--gl"}},
+      {"What is asked",
+       {"--budget", "--percentile", "--replays", "--baseline", "--tolerance", "--tolerance16",
+        "--allow-pixels", "--expect-hash", "--pose-a", "--pose-b", "--batch", "--cold"}},
+      {"What is told", {"--progress", "--quiet", "--verbose"}}};
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const Group& group : groups)
+      for (const std::string& name : group.options)
+        if (CLI::Option* option = command->get_option_no_throw(name)) option->group(group.heading);
+}
+
 CommandLine::CommandLine() {
-  app.set_version_flag("--version", "carom " + programVersion() + " (" + buildName() + ")");
+  app.set_version_flag("-V,--version", "carom " + programVersion() + " (" + buildName() + ")");
   app.footer(
       "Example: carom render sliding -o out/frame_%04d.png\n"
       "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad scene or asset,\n"
@@ -181,6 +214,8 @@ CommandLine::CommandLine() {
       "            128+n signal n");
   app.add_flag("--manual-page", wants_manual, "Prints carom(1), as it is installed");
   app.add_flag("--bash-completion", wants_completion, "Prints the completion for bash, as it is installed");
+  app.add_flag("--zsh-completion", wants_zsh, "The same for zsh");
+  app.add_flag("--fish-completion", wants_fish, "The same for fish");
   list_command = app.add_subcommand("list", "The shipped scenes, one line each");
   list_command->add_flag("--json", list_options.json, "As a JSON array");
   list_command->footer("Example: carom list --json");
@@ -201,6 +236,12 @@ CommandLine::CommandLine() {
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   addGlOption(*doctor_command, doctor_options.gl);
   doctor_command->footer("Example: carom doctor --gl egl");
+  help_command = app.add_subcommand("help", "What a command does and takes; the same as COMMAND --help");
+  help_command->add_option("COMMAND", help_of, "One of the commands; none: all of them");
+  help_command->footer("Example: carom help render");
+  version_command = app.add_subcommand("version", "The version and the build; the same as --version");
+  version_command->footer("Example: carom version");
+  groupOptions();
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
   app.allow_extras();
   app.require_subcommand(0, 1);
@@ -211,7 +252,9 @@ void CommandLine::addRender() {
   addSceneOptions(*render_command, render_options.choice);
   render_command->add_option(
       "-o,--output", render_options.output,
-      "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png), or - and --stream");
+      "Frame files, with %04d or #### (frames/SCENE/frame_%04d.png); one picture (x.png: of the start,\n"
+      "or of --at); a moving picture (x.apng; by the installed ffmpeg x.gif, x.webp, x.mp4 and more);\n"
+      "or - and --stream");
   addLongJobOptions();
   render_command->add_option("--fps", render_options.fps, "Frames a second; frame k shows exactly k / fps")
       ->capture_default_str();
@@ -254,7 +297,8 @@ void CommandLine::addLookOptions() {
   render.add_option("--speed", options.speed, "Of the scene's time: 0.1 is ten times slow motion")
       ->capture_default_str();
   CLI::Option* at = render.add_option("--at", options.at_s, "One picture, at exactly this many seconds");
-  for (const char* other : {"--frames", "--shard", "--from", "--ffmpeg", "--fps", "--speed", "--duration"})
+  for (const char* other :
+       {"--frames", "--shard", "--from", "--ffmpeg", "--sheet", "--fps", "--speed", "--duration"})
     at->excludes(render.get_option(other));
 }
 
@@ -268,7 +312,14 @@ void CommandLine::addLongJobOptions() {
                                         "Keeps frames that are whole and up to date, draws the others");
   CLI::Option* stream = render.add_option("--stream", options.stream,
                                           "With -o -: frames to standard output as ppm, png or rgb24");
-  CLI::Option* ffmpeg = render.add_option("--ffmpeg", options.ffmpeg, "A video by the installed ffmpeg");
+  CLI::Option* ffmpeg =
+      render.add_option("--ffmpeg", options.moving, "A video by the installed ffmpeg, as -o x.mp4 is");
+  CLI::Option* sheet = render.add_option(
+      "--sheet", options.sheet,
+      "COLUMNSxROWS: moments of the run in one picture, with their times; --size is of each");
+  for (CLI::Option* other :
+       {stream, ffmpeg, resume, render.get_option("--frames"), render.get_option("--shard")})
+    sheet->excludes(other);
   CLI::Option* from = render.add_option("--from", options.from, "Draws a recording of simulate -o");
   ffmpeg->excludes(render.get_option("--output"))->excludes(stream);
   resume->excludes(stream)->excludes(ffmpeg);
@@ -547,6 +598,33 @@ void refuseExtras(const CommandLine& line) {
   throw UsageError(name + ": unexpected argument \"" + word + "\"");
 }
 
+bool namesANumber(const std::string& output) {
+  return std::filesystem::path(output).filename().string().find_first_of("%#") != std::string::npos;
+}
+
+/// What `-o` is to become, by its name: a moving picture, or one picture.
+void settleOutput(RenderOptions& options) {
+  const std::filesystem::path path(options.output);
+  if (isMovingPicture(path)) {
+    if (!options.sheet.empty())
+      throw UsageError("--sheet: -o " + options.output + ": accepted: a name that ends in .png");
+    if (options.at_s)
+      throw UsageError("--at is one picture; -o " + options.output +
+                       " moves; accepted: a name that ends in .png");
+    if (options.resume)
+      throw UsageError("--resume keeps frames that have files of their own; accepted: without -o " +
+                       options.output);
+    options.moving = std::exchange(options.output, "");
+    return;
+  }
+  const bool is_one = path.extension() == ".png" && !namesANumber(options.output);
+  if (!options.sheet.empty() && !options.output.empty() && !is_one)
+    throw UsageError("--sheet: -o " + options.output +
+                     ": accepted: a name that ends in .png, without a number");
+  const bool is_part = !options.frames.empty() || !options.shard.empty() || !options.from.empty();
+  if (is_one && options.sheet.empty() && !options.at_s && !is_part) options.at_s = 0.0;
+}
+
 void checkRender(const RenderOptions& options) {
   if (!options.focus.empty() && options.overlays.empty())
     throw UsageError("--focus is of --overlay, which is missing");
@@ -562,8 +640,8 @@ void checkRender(const RenderOptions& options) {
     message << "--at " << *options.at_s << ": accepted: 0 to " << kLongest_s << " seconds";
     throw UsageError(message.str());
   }
-  if (!options.aov.empty() && !options.ffmpeg.empty())
-    throw UsageError("--aov has 16 bits a sample, a video 8; accepted: without --ffmpeg");
+  if (!options.aov.empty() && (!options.moving.empty() || !options.sheet.empty()))
+    throw UsageError("--aov has 16 bits a sample, a moving picture or a sheet 8; accepted: with frames");
   if ((options.output == "-") != !options.stream.empty())
     throw UsageError("-o - and --stream ppm|png|rgb24 are accepted together only");
 }
@@ -609,12 +687,27 @@ void checkValues(CommandLine& line) {
     if (choice->duration_s) requireWithin("--duration", *choice->duration_s, kLongest_s);
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
-  if (line.render_command->parsed()) checkRender(line.render_options);
+  if (line.render_command->parsed()) {
+    settleOutput(line.render_options);
+    checkRender(line.render_options);
+  }
+  if (!line.render_options.sheet.empty()) readSize("320x180", line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (line.export_command->parsed()) checkExport(line.export_options);
   if (!line.figures_size.empty()) readSize(line.figures_size, line.figures_options);
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
+}
+
+std::string helpOf(const CommandLine& line, const std::string& name) {
+  // Of an application that has parsed a command, help is that command's.
+  if (name.empty()) return CommandLine().app.help();
+  std::vector<std::string> names;
+  for (const CLI::App* command : line.app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return command->help("carom");
+    names.push_back(command->get_name());
+  }
+  throw UsageError("help: unknown command \"" + name + "\"" + acceptedNames(name, names));
 }
 
 std::string oneLine(std::string text) {
@@ -640,12 +733,23 @@ ExitCode runCommandLine(int argc, char** argv) {
     refuseExtras(line);  // a misspelt word is the better reason when there is one
     throw UsageError(oneLine(error.what()));
   }
-  if (line.wants_manual || line.wants_completion) {
+  if (line.wants_manual || line.wants_completion || line.wants_zsh || line.wants_fish) {
     const ProgramDescription program = describedProgram(line.app);
-    std::cout << (line.wants_manual ? manualPage(program) : bashCompletion(program));
+    std::cout << (line.wants_manual       ? manualPage(program)
+                  : line.wants_completion ? bashCompletion(program)
+                  : line.wants_zsh        ? zshCompletion(program)
+                                          : fishCompletion(program));
     return ExitCode::kOk;
   }
   refuseExtras(line);
+  if (line.help_command->parsed()) {
+    std::cout << helpOf(line, line.help_of);
+    return ExitCode::kOk;
+  }
+  if (line.version_command->parsed()) {
+    std::cout << line.app.version() << '\n';
+    return ExitCode::kOk;
+  }
   if (line.render_options.overlays == "help") {
     std::cout << overlayHelp();
     return ExitCode::kOk;

@@ -15,11 +15,12 @@
 #include <unistd.h>
 
 #include "demos/atomic_file.h"
+#include "demos/build_info.h"
 #include "demos/camera_path.h"
 #include "demos/cause/motion_recorder.h"
+#include "demos/contact_sheet.h"
 #include "demos/content_hash.h"
 #include "demos/drawn_water.h"
-#include "demos/ffmpeg_video.h"
 #include "demos/folder_claim.h"
 #include "demos/frame_clock.h"
 #include "demos/frame_identity.h"
@@ -32,6 +33,7 @@
 #include "demos/frame_writer.h"
 #include "demos/interrupt.h"
 #include "demos/manifest.h"
+#include "demos/moving_picture.h"
 #include "demos/overlays.h"
 #include "demos/pipe_writer.h"
 #include "demos/progress.h"
@@ -87,7 +89,9 @@ Plan planned(const RenderOptions& options, const std::optional<RecordingReader>&
   if (plan.frame_count < 1)
     throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
                      std::to_string(plan.fps) + " fps");
-  plan.frames = shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard));
+  plan.frames = options.sheet.empty()
+                    ? shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard))
+                    : sheetFrames(readSheet(options.sheet), plan.frame_count);
   return plan;
 }
 
@@ -247,22 +251,33 @@ DrawnFrame drawThere(const Run& run, renderer::FrameRenderer& pictures, const Si
   return sink.encode(std::move(next));
 }
 
+std::string countText(std::size_t frames) {
+  return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+}
+
 void tellStart(const Run& run) {
   const Scene& scene = run.plan.scene;
-  std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, " << run.manifest.frames_planned
-            << " frames at " << run.manifest.fps << " fps, " << scene.rate_hz << " steps/s, camera "
-            << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
+  std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, "
+            << countText(run.plan.frames.size()) << " at " << run.manifest.fps << " fps, " << scene.rate_hz
+            << " steps/s, camera " << run.manifest.camera << ", seed " << scene.seed << ", scene hash "
             << hexText(run.manifest.scene_hash) << '\n'
             << "GL: " << run.manifest.gl.renderer << ", " << run.manifest.gl.version << ", by "
             << renderer::nameOf(run.manifest.gl.backend) << " (" << run.manifest.gl.reason << ")\n";
+}
+
+/// What one file that holds the whole run says of itself.
+renderer::PngText runText(const Run& run) {
+  return {{"Software", "carom " + programVersion()},
+          {"Source", run.manifest.command},
+          {"Scene hash", hexText(run.manifest.scene_hash)}};
 }
 
 /// "12 frames  0.41 s  29.3 fps end to end", of a run whose frames went through a pipe.
 std::string pipedReport(const Run& run) {
   char line[96];
   const double count = run.manifest.frames_planned;
-  std::snprintf(line, sizeof line, "%d frames  %.2f s  %.1f fps end to end", run.manifest.frames_planned,
-                run.manifest.wall_s, count / run.manifest.wall_s);
+  std::snprintf(line, sizeof line, "%s  %.2f s  %.1f fps end to end",
+                countText(run.plan.frames.size()).c_str(), run.manifest.wall_s, count / run.manifest.wall_s);
   return line;
 }
 
@@ -273,9 +288,9 @@ std::string filesReport(const Run& run, const RunFacts& facts) {
   const double drawn = std::max<double>(1.0, static_cast<double>(m.frames.size() - run.kept.size()));
   char line[256];
   std::snprintf(line, sizeof line,
-                "%zu frames  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms",
-                m.frames.size(), m.wall_s, count / m.wall_s, total.physics_ms / count, total.draw_ms / drawn,
-                total.encode_ms / drawn);
+                "%s  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms",
+                countText(m.frames.size()).c_str(), m.wall_s, count / m.wall_s, total.physics_ms / count,
+                total.draw_ms / drawn, total.encode_ms / drawn);
   std::ostringstream report;
   report.precision(3);
   report << run.names->pattern() << "  " << line;
@@ -391,7 +406,7 @@ void renderFiles(Run& run, const Artists& artists, const RenderOptions& options,
     throw;
   }
   if (!options.telling.quiet && !options.at_s) noteOlderFrames(*run.names, run.plan.frame_count);
-  std::cout << filesReport(run, facts) << '\n';
+  if (!options.telling.quiet) std::cout << filesReport(run, facts) << '\n';
 }
 
 void renderStream(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
@@ -402,13 +417,31 @@ void renderStream(Run& run, const Artists& artists, const RenderOptions& options
   if (!options.telling.quiet) std::cerr << pipedReport(run) << '\n';
 }
 
-void renderVideo(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
-                 double started_s) {
-  FfmpegVideo video(options.ffmpeg, {options.width, options.height, run.manifest.fps});
-  sink.deliver = [&video](std::span<const std::uint8_t> bytes) { video.write(bytes); };
+void renderMovingPicture(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
+                         double started_s) {
+  const std::unique_ptr<MovingPicture> picture =
+      makeMovingPicture(options.moving, {options.width, options.height, run.manifest.fps},
+                        run.manifest.frames_planned, runText(run));
+  sink.deliver = [&picture](std::span<const std::uint8_t> bytes) { picture->write(bytes); };
   drawPlanned(run, artists, sink, options.telling, {}, started_s);
-  video.commit();
-  std::cout << options.ffmpeg.string() << "  " << pipedReport(run) << '\n';
+  picture->commit();
+  if (!options.telling.quiet) std::cout << options.moving.string() << "  " << pipedReport(run) << '\n';
+}
+
+void renderSheet(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
+                 double started_s) {
+  ContactSheet sheet(readSheet(options.sheet), options.width, options.height);
+  std::size_t next = 0;
+  sink.deliver = [&](std::span<const std::uint8_t> bytes) {
+    sheet.add(bytes, run.plan.clock.time(run.plan.frames[next++]));
+  };
+  const std::string path =
+      options.output.empty() ? "frames/" + run.plan.scene.name + "/sheet.png" : options.output;
+  AtomicFile file(path);
+  drawPlanned(run, artists, sink, options.telling, {}, started_s);
+  file.write(encodePng(sheet.image(), runText(run)));
+  file.commit();
+  if (!options.telling.quiet) std::cout << path << "  " << pipedReport(run) << '\n';
 }
 
 /// What the bytes of the run's frames and their names depend on, but for the number of a frame. A folder has
@@ -428,7 +461,7 @@ FolderClaim::Claim folderClaim(const RenderOptions& options, const Manifest& man
 
 /// How a frame is encoded for where it goes.
 Sink sinkOf(const RenderOptions& options) {
-  if (!options.ffmpeg.empty())
+  if (!options.moving.empty() || !options.sheet.empty())
     return {[](FrameToWrite frame) { return DrawnFrame{frame.record, std::move(frame.image.rgb)}; }, {}};
   if (options.stream.empty())
     return {[encoder = std::make_shared<FrameEncoder>()](FrameToWrite frame) {
@@ -456,7 +489,7 @@ void requireStreamable(const RenderOptions& options, const std::vector<FrameOutp
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
   return options.states && options.shard.empty() && options.from.empty() && options.stream.empty() &&
-         options.ffmpeg.empty() && !options.at_s && !overlays.any();
+         options.moving.empty() && options.sheet.empty() && !options.at_s && !overlays.any();
 }
 
 /// Overlays need the engine itself, and so does a still. A record holds pixels, which are drawn where it is
@@ -467,9 +500,9 @@ int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& ov
   return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
-/// None where the frames go into a stream or a video.
+/// None where the frames go into a stream, a moving picture or a sheet.
 std::optional<FrameNames> frameNames(const RenderOptions& options, const std::string& scene) {
-  if (!options.stream.empty() || !options.ffmpeg.empty()) return std::nullopt;
+  if (!options.stream.empty() || !options.moving.empty() || !options.sheet.empty()) return std::nullopt;
   const std::string& output = options.output;
   if (options.at_s) return FrameNames::still(output.empty() ? "frames/" + scene + "/still.png" : output);
   return FrameNames(output.empty() ? "frames/" + scene + "/frame_%04d.png" : output);
@@ -560,8 +593,10 @@ ExitCode render(const RenderOptions& options) {
     renderFiles(run, artists, options, sink, facts, started_s);
   else if (!options.stream.empty())
     renderStream(run, artists, options, sink, started_s);
+  else if (!options.moving.empty())
+    renderMovingPicture(run, artists, options, sink, started_s);
   else
-    renderVideo(run, artists, options, sink, started_s);
+    renderSheet(run, artists, options, sink, started_s);
   return ExitCode::kOk;
 }
 

@@ -77,6 +77,17 @@ void printFacts(const World& world, const RunFacts& facts) {
   std::cout << '\n';
 }
 
+/// What the counters of `printFacts` mean, for whoever reads along.
+void explainFacts() {
+  std::cerr
+      << "resting: bodies at rest at the end; smallest_gap_m: between any two bodies in any step, never "
+         "below 0\n"
+         "events: times between steps at which impulses acted; stopped_bodies: held for the rest of a step "
+         "when\n"
+         "its events were used up; iteration_limits: closest-feature searches that reached their bound (0 is "
+         "usual)\n";
+}
+
 }  // namespace
 
 ExitCode simulate(const SimulateOptions& options) {
@@ -115,6 +126,7 @@ ExitCode simulate(const SimulateOptions& options) {
   audits.commit();
   if (recording) recording->commit();
   printFacts(made.world, facts);
+  if (style == ProgressStyle::kLines || style == ProgressStyle::kTerminal) explainFacts();
   const std::string hash = hexText(made.world.stateHash());
   if (options.expected_hash.empty() || options.expected_hash == hash) return ExitCode::kOk;
   std::cerr << "carom: state hash " << hash << " differs from the expected " << options.expected_hash << '\n';

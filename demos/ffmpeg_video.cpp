@@ -29,11 +29,24 @@ bool onPath(const std::string& program) {
   return false;
 }
 
+/// How the frames become what the name's ending says. A GIF has a palette of its own frames' colours and
+/// loops, as does WebP; players of video want colour at half the size, and so even sides.
+std::vector<std::string> codingWords(const std::string& ending) {
+  if (ending == ".gif")
+    return {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer",
+            "-loop", "0"};
+  if (ending == ".webp") return {"-lossless", "0", "-quality", "80", "-loop", "0"};
+  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
+}
+
 }  // namespace
 
 FfmpegVideo::FfmpegVideo(const fs::path& path, const VideoShape& shape) : path_(path) {
   if (!onPath(kProgram))
-    fail("--ffmpeg needs the program ffmpeg, which is not installed (apt-get install ffmpeg)");
+    fail(
+        "this needs the program ffmpeg, which is not installed (apt-get install ffmpeg); a name that ends in "
+        ".apng "
+        "needs none");
   if (!path.has_extension()) fail("accepted: a name with the ending of a video, such as out.mp4");
   std::error_code failed;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
@@ -57,10 +70,12 @@ FfmpegVideo::FfmpegVideo(const fs::path& path, const VideoShape& shape) : path_(
 void FfmpegVideo::runFfmpeg(const VideoShape& shape, int input) const {
   const std::string size = std::to_string(shape.width) + "x" + std::to_string(shape.height);
   const std::string rate = Json(shape.fps).text();  // the same bits when read back
-  std::vector<std::string> words{
-      kProgram,   "-nostdin", "-loglevel", "error",    "-y",      "-f",
-      "rawvideo", "-pix_fmt", "rgb24",     "-s",       size,      "-framerate",
-      rate,       "-i",       "pipe:0",    "-pix_fmt", "yuv420p", fs::absolute(temporary_).string()};
+  std::vector<std::string> words{kProgram, "-nostdin",   "-loglevel", "error", "-y",
+                                 "-f",     "rawvideo",   "-pix_fmt",  "rgb24", "-s",
+                                 size,     "-framerate", rate,        "-i",    "pipe:0"};
+  const std::vector<std::string> coding = codingWords(path_.extension().string());
+  words.insert(words.end(), coding.begin(), coding.end());
+  words.push_back(fs::absolute(temporary_).string());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

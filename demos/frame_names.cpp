@@ -18,7 +18,8 @@ FrameNames::FrameNames(const std::string& pattern) : pattern_(pattern) {
   if (!once || path.extension() != ".png")
     throw UsageError(
         "-o " + pattern +
-        ": accepted: a .png name with one frame number as %04d or ####, such as out/frame_%04d.png");
+        ": accepted: a .png name with one frame number as %04d or ####, such as out/frame_%04d.png; one "
+        "picture is out/still.png with --at SECONDS, a moving one ends in .apng, .gif, .webp or .mp4");
   folder_ = path.parent_path();
   before_ = match.prefix().str();
   after_ = rest;

@@ -1,6 +1,6 @@
 #pragma once
-// Completion for bash of commands, options, their fixed values and the shipped scenes' names; `cmake
-// --install` puts it where bash-completion looks. Tested in tests/demos/shell_completion_test.cpp.
+// Completion for bash, zsh and fish of commands, options, their fixed values and the shipped scenes' names;
+// `cmake --install` puts each where its shell looks. Tested in tests/demos/shell_completion_test.cpp.
 
 #include <string>
 
@@ -9,5 +9,7 @@
 namespace carom::demos {
 
 std::string bashCompletion(const ProgramDescription& program);
+std::string zshCompletion(const ProgramDescription& program);
+std::string fishCompletion(const ProgramDescription& program);
 
 }  // namespace carom::demos

@@ -141,6 +141,12 @@ bool writePacked(png_structp png, png_infop info, const Rows& rows, png_textp te
   return true;
 }
 
+bool writeChunk(png_structp png, const png_byte* kind, const std::uint8_t* data, std::size_t size) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_write_chunk(png, kind, data, size);
+  return true;
+}
+
 // Each row after the byte that names its filter (PNG 1.2, section 6): what differs from the pixel to the
 // left, or from the one above; outside the image is 0.
 std::vector<std::uint8_t> filtered(const Rows& rows, Filter filter) {
@@ -454,6 +460,38 @@ int PngSequence::packedBands() const {
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text, PngDeflate deflate) {
   if (deflate == PngDeflate::kBest) return PngSequence().encode(image, text);
   return zlibFile(rowsOf(image), Zlib::kSub, text);
+}
+
+std::vector<std::uint8_t> encodeSmallPng(const Image& image, const PngText& text) {
+  return zlibFile(rowsOf(image), Zlib::kSmall, text);
+}
+
+std::vector<PngChunk> pngChunks(const std::vector<std::uint8_t>& file) {
+  constexpr std::size_t kAround = 12;  // Length, kind and sum.
+  std::vector<PngChunk> chunks;
+  for (std::size_t at = kSignatureSize; at < file.size();) {
+    REQUIRE(at + kAround <= file.size(), at, file.size());
+    const std::uint8_t* head = file.data() + at;
+    const std::size_t length = bigEndian(head);
+    REQUIRE(at + kAround + length <= file.size(), at, length, file.size());
+    chunks.push_back({std::string(head + 4, head + 8), {head + 8, head + 8 + length}});
+    at += kAround + length;
+  }
+  return chunks;
+}
+
+void appendPngSignature(std::vector<std::uint8_t>& bytes) {
+  bytes.insert(bytes.end(), {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
+}
+
+void appendPngChunk(std::vector<std::uint8_t>& bytes, const PngChunk& chunk) {
+  REQUIRE(chunk.kind.size() == 4, chunk.kind);
+  ErrorText error;
+  const Writer writer(error);
+  png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
+  const auto* kind = reinterpret_cast<const png_byte*>(chunk.kind.c_str());
+  if (!writeChunk(writer.png, kind, chunk.data.data(), chunk.data.size()))
+    throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
 }
 
 std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing,

@@ -58,6 +58,19 @@ std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text = 
                                     PngPacking packing = PngPacking::kSmall,
                                     PngDeflate deflate = PngDeflate::kBest);
 
+/// The same image packed for size: every filter is tried.
+std::vector<std::uint8_t> encodeSmallPng(const Image& image, const PngText& text = {});
+
+/// What a PNG file is made of after its signature.
+struct PngChunk {
+  std::string kind;  ///< Four letters.
+  std::vector<std::uint8_t> data;
+};
+/// The chunks of a file that was encoded here.
+std::vector<PngChunk> pngChunks(const std::vector<std::uint8_t>& file);
+void appendPngSignature(std::vector<std::uint8_t>& bytes);
+void appendPngChunk(std::vector<std::uint8_t>& bytes, const PngChunk& chunk);
+
 struct DecodedPng {
   Image image;
   PngText text;

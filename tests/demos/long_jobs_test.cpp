@@ -49,6 +49,17 @@ struct LongJob : testing::Test {
     EXPECT_EQ(end.code, 0) << end.err;
     return end;
   }
+  /// The line that it ends with when it is not quiet.
+  std::string report(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = arguments(out);
+    std::replace(all.begin(), all.end(), std::string("-q"), std::string("--progress=none"));
+    if (std::count(more.begin(), more.end(), "--size") > 0) {
+      const auto size = std::find(all.begin(), all.end(), "--size");
+      all.erase(size, size + 2);
+    }
+    all.insert(all.end(), more.begin(), more.end());
+    return runCarom(all).out;
+  }
   Files files(const std::string& out) const { return framesOf(folder.path() / out); }
   Json manifest(const std::string& out, const std::string& name = "manifest.json") const {
     return Json::parse(readTextFile(folder.path() / out / name), name);
@@ -91,7 +102,7 @@ TEST_F(LongJob, ShardsAtOnceAreTheSingleRunByteForByte) {
   EXPECT_EQ(frames, static_cast<std::size_t>(kFrames));
 
   // The whole, resumed, draws nothing and writes the manifest of all.
-  EXPECT_NE(render("shards", {"--resume"}).out.find("(0 drawn, 12 kept)"), std::string::npos);
+  EXPECT_NE(report("shards", {"--resume"}).find("(0 drawn, 12 kept)"), std::string::npos);
   const Json whole = manifest("shards");
   const Json single = manifest("single");
   for (std::size_t k = 0; k < kFrames; ++k)
@@ -157,7 +168,7 @@ TEST_F(LongJob, ResumeRedrawsWhatIsMissingStaleTruncatedOrDamagedAndNothingElse)
   folder.file("frames/f_0005.png", whole.at("f_0006.png"));
   folder.file("frames/f_0007.png", whole.at("f_0007.png") + "x");
   const auto untouched = fs::last_write_time(frame("frames", "0008"));
-  EXPECT_NE(render("frames", {"--resume"}).out.find("(6 drawn, 6 kept)"), std::string::npos);
+  EXPECT_NE(report("frames", {"--resume"}).find("(6 drawn, 6 kept)"), std::string::npos);
   EXPECT_EQ(files("frames"), whole);
   EXPECT_EQ(fs::last_write_time(frame("frames", "0008")), untouched);
   EXPECT_TRUE(manifest("frames").at("complete").asBoolean());
@@ -169,18 +180,11 @@ TEST_F(LongJob, AfterEditingTheSceneExactlyTheStaleFramesAreRedrawn) {
   render("frames");
   folder.file("ball.json", sceneText("#0072b2"));
   render("frames", {"--frames", "0-4"});
-  EXPECT_NE(render("frames", {"--resume"}).out.find("(7 drawn, 5 kept)"), std::string::npos);
+  EXPECT_NE(report("frames", {"--resume"}).find("(7 drawn, 5 kept)"), std::string::npos);
   render("fresh");
   EXPECT_EQ(files("frames"), files("fresh"));
-  const auto resumed = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all{
-        "render",   scene.string(), "--fps", "24",
-        "--resume", "-q",           "-o",    (folder.path() / "frames/f_%04d.png").string()};
-    all.insert(all.end(), more.begin(), more.end());
-    return runCarom(all);
-  };
-  EXPECT_NE(resumed({"--size", "64x40"}).out.find("(12 drawn, 0 kept)"), std::string::npos);
-  EXPECT_NE(resumed({"--size", "64x40", "--duration", "0.6"}).out.find("(2 drawn, 12 kept)"),
+  EXPECT_NE(report("frames", {"--resume", "--size", "64x40"}).find("(12 drawn, 0 kept)"), std::string::npos);
+  EXPECT_NE(report("frames", {"--resume", "--size", "64x40", "--duration", "0.6"}).find("(2 drawn, 12 kept)"),
             std::string::npos);
 }
 

@@ -52,6 +52,26 @@ TEST(Program, HelpOfEveryCommandShowsAnExample) {
   EXPECT_EQ(runCarom({"--version"}).out.rfind("carom 0.", 0), 0u);
 }
 
+TEST(Program, HelpAndVersionAreAlsoCommands) {
+  EXPECT_EQ(runCarom({"help"}).out, runCarom({"--help"}).out);
+  EXPECT_EQ(runCarom({"help", "render"}).out, runCarom({"render", "--help"}).out);
+  for (const char* word : {"version", "-V"}) EXPECT_EQ(runCarom({word}).out, runCarom({"--version"}).out);
+  EXPECT_EQ(runCarom({"help", "rendr"}).code, 2);
+  const std::string help = runCarom({"render", "--help"}).out;
+  for (const char* heading : {"What is simulated:", "What is written:", "Which moments:", "How it looks:",
+                              "Long jobs:", "What is told:"})
+    EXPECT_NE(help.find(heading), std::string::npos) << heading;
+}
+
+TEST(Program, SimulateSaysWhatItsCountersMeanAndQuietDoesNot) {
+  const std::vector<std::string> words{"simulate", "bouncing-ball", "--duration", "0.1"};
+  const std::string told = runCarom(words).err;
+  for (const char* counter :
+       {"resting:", "smallest_gap_m:", "events:", "stopped_bodies:", "iteration_limits:"})
+    EXPECT_NE(told.find(counter), std::string::npos) << counter;
+  EXPECT_EQ(runCarom({"simulate", "bouncing-ball", "--duration", "0.1", "-q"}).err, "");
+}
+
 TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
   const std::map<std::string, std::vector<std::string>> cases = {
       {"a command is missing", {}},
@@ -67,7 +87,7 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"--duration -1: accepted: above 0", {"simulate", "sliding", "--duration", "-1"}},
       {"holds no frame", {"render", "sliding", "--duration", "0.001"}},
       {"--camera man: no such camera", {"render", "sliding", "--camera", "man"}},
-      {"-o frame.png: accepted:", {"render", "sliding", "-o", "frame.png"}},
+      {"-o frame.jpg: accepted:", {"render", "sliding", "-o", "frame.jpg"}},
       {"--expect-hash 12: accepted:", {"simulate", "sliding", "--expect-hash", "12"}},
       {"--progress", {"render", "sliding", "--progress", "dots"}},
       {"SCENE", {"render"}},

@@ -48,5 +48,30 @@ TEST_F(Completion, LeavesFilesToBash) {
   EXPECT_EQ(offered("nonsense x"), "");
 }
 
+bool hasShell(const char* name) {
+  return std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+TEST(ZshCompletion, IsReadByZshAndKnowsEveryCommandAndOption) {
+  const std::string script = runCarom({"--zsh-completion"}).out;
+  for (const char* part : {"#compdef carom", "'render:", "'(-o --output)'{-o,--output}'[", "    budget)",
+                           ":value:(json none auto)'", "'1:scene:_carom_scenes'"})
+    EXPECT_NE(script.find(part), std::string::npos) << part;
+  if (!hasShell("zsh")) GTEST_SKIP() << "zsh is not installed";
+  const TemporaryFolder folder;
+  EXPECT_EQ(std::system(("zsh -n '" + folder.file("_carom", script).string() + "'").c_str()), 0);
+}
+
+TEST(FishCompletion, IsReadByFishAndKnowsEveryCommandAndOption) {
+  const std::string script = runCarom({"--fish-completion"}).out;
+  for (const char* part :
+       {"-a render -d '", "-s o -l output -r -F -d '", "-l progress -x -a 'json none auto'",
+        "-n '__fish_seen_subcommand_from export' -a '(carom list"})
+    EXPECT_NE(script.find(part), std::string::npos) << part;
+  if (!hasShell("fish")) GTEST_SKIP() << "fish is not installed";
+  const TemporaryFolder folder;
+  EXPECT_EQ(std::system(("fish -n '" + folder.file("carom.fish", script).string() + "'").c_str()), 0);
+}
+
 }  // namespace
 }  // namespace carom::demos
