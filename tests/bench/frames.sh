@@ -47,8 +47,8 @@ for case in boxes-200:1280x720 polyhedra-200:1280x720 boxes-1000:1280x720 boxes-
   orbit-200:1280x720; do
   for workers in $(seq 1 "$most"); do
     for _ in $(seq 1 "$runs"); do
-      "$carom" render "$work/${case%:*}.json" --size "${case#*:}" --fps 60 --workers "$workers" -q \
-        -o "$work/out/f_%04d.png"
+      "$carom" render "$work/${case%:*}.json" --size "${case#*:}" --fps 60 --workers "$workers" \
+        --progress none -o "$work/out/f_%04d.png" 2> "$work/told.txt"
     done | sed 's/.*png  //; s/  smallest gap.*//' |
       awk -v what="$case, $workers worker(s)" '{ fps = $5 + 0; for (i = 1; i < NF; ++i) if ($(i + 1) == "fps") fps = $i
         if (fps > best) { best = fps; line = $0 } } END { printf "%-46s %s\n", what ":", line }'
