@@ -21,8 +21,9 @@ struct SceneChoice {
   std::optional<double> duration_s;
   std::optional<std::uint64_t> seed;
   std::optional<std::filesystem::path> mesh;
-  bool as_hull = false;  ///< Of the mesh its convex hull.
-  int threads = 0;       ///< That step it; 0: one for each processor, at most eight.
+  bool as_hull = false;               ///< Of the mesh its convex hull.
+  std::vector<std::string> settings;  ///< "path=value", put into the scene.
+  int threads = 0;                    ///< That step it; 0: one for each processor, at most eight.
 };
 int threadsOf(const SceneChoice& choice);
 /// Reads the scene and puts the chosen seed and duration in.
@@ -104,6 +105,12 @@ struct CheckOptions {
   SceneChoice choice;  ///< `scene` may be a mesh file.
 };
 ExitCode check(const CheckOptions& options);
+
+struct NewOptions {
+  std::filesystem::path output;
+};
+/// Writes a scene with comments that say what can be changed; never over a file that is there.
+ExitCode newScene(const NewOptions& options);
 
 /// Either two meshes and their poses, or a batch.
 struct DistanceOptions {

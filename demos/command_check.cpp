@@ -22,8 +22,20 @@ SceneWorld checkedWorld(const Scene& scene, const SceneChoice& choice) {
   }
 }
 
+// Lists all mistakes of a file that has some.
+Scene checkedScene(const SceneChoice& choice) {
+  try {
+    return chosenScene(choice);
+  } catch (const SceneMistakes& refused) {
+    if (refused.all.size() > 1)
+      for (const std::string& mistake : refused.all) std::cout << mistake << '\n';
+    throw;
+  }
+}
+
 void checkScene(const SceneChoice& choice) {
-  const Scene scene = chosenScene(choice);
+  const Scene scene = checkedScene(choice);
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
   const SceneWorld made = checkedWorld(scene, choice);
   int moving = 0, kinematic = 0;
   for (const BodyDescription& body : made.world.bodies()) {

@@ -82,12 +82,21 @@ void addMeshOptions(CLI::App& command, SceneChoice& choice) {
                    "Its convex hull, or that of each of its meshes, in place of the mesh");
 }
 
+void addSettings(CLI::App& command, SceneChoice& choice) {
+  command
+      .add_option("--set", choice.settings,
+                  "PATH=VALUE put into the scene, such as bodies.crate.position=[0,0,3] or set.n=5")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void addSceneOptions(CLI::App& command, SceneChoice& choice) {
   command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")
       ->required();
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
   command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
   addMeshOptions(command, choice);
+  addSettings(command, choice);
 }
 
 void addThreadsOption(CLI::App& command, SceneChoice& choice) {
@@ -140,6 +149,7 @@ struct CommandLine {
   BudgetOptions budget_options;
   FiguresOptions figures_options;
   DoctorOptions doctor_options;
+  NewOptions new_options;
   bool wants_manual = false;
   bool wants_completion = false;
   bool wants_zsh = false;
@@ -161,6 +171,7 @@ struct CommandLine {
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
   CLI::App* doctor_command = nullptr;
+  CLI::App* new_command = nullptr;
   CLI::App* help_command = nullptr;
   CLI::App* version_command = nullptr;
 
@@ -186,7 +197,8 @@ void CommandLine::groupOptions() {
     std::vector<std::string> options;
   };
   const std::vector<Group> groups{
-      {"What is simulated", {"--duration", "--seed", "--mesh", "--hull", "--threads", "--from", "--scene"}},
+      {"What is simulated",
+       {"--duration", "--seed", "--set", "--mesh", "--hull", "--threads", "--from", "--scene"}},
       {"What is written",
        {"--output", "--sheet", "--ffmpeg", "--stream", "--aov", "--states", "--csv", "--npy", "--audit",
         "--json", "--trace", "--report", "--report-pairs", "--differences", "--amplify", "--junit",
@@ -227,6 +239,7 @@ CommandLine::CommandLine() {
       ->add_option("SCENE|MESH", check_options.choice.scene, "A scene (name or .json) or a mesh file")
       ->required();
   addMeshOptions(*check_command, check_options.choice);
+  addSettings(*check_command, check_options.choice);
   check_command->footer("Example: carom check assets/meshes/gem.obj");
   addDistance();
   addCompare();
@@ -236,6 +249,10 @@ CommandLine::CommandLine() {
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   addGlOption(*doctor_command, doctor_options.gl);
   doctor_command->footer("Example: carom doctor --gl egl");
+  new_command = app.add_subcommand(
+      "new", "Writes a scene with comments to begin with; never over a file that is there");
+  new_command->add_option("FILE", new_options.output, "A name that ends in .json")->required();
+  new_command->footer("Example: carom new my_scene.json");
   help_command = app.add_subcommand("help", "What a command does and takes; the same as COMMAND --help");
   help_command->add_option("COMMAND", help_of, "One of the commands; none: all of them");
   help_command->footer("Example: carom help render");
@@ -768,6 +785,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.regress_command->parsed()) return regress(line.regress_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
   if (line.figures_command->parsed()) return figures(line.figures_options);
+  if (line.new_command->parsed()) return newScene(line.new_options);
   return doctor(line.doctor_options);
 }
 

@@ -12,9 +12,50 @@
 namespace carom::demos {
 namespace {
 
-/// Hands characters to the parser and counts lines. The parser reads one character past a number, so a line
-/// break counts only once the character after it has been read.
-class LineCounter {
+/// Where the parser is in a text. It reads one character past a number, so a line break counts only once the
+/// character after it has been read, and a value's place is that of its first letter.
+struct TextPlace {
+  explicit TextPlace(int first_line) : line(first_line) {}
+
+  void take(char c) {
+    if (after_break_) ++line, column_ = 0;
+    after_break_ = c == '\n';
+    ++column_;
+    const bool in_comment = comment_ != '\0';
+    if (in_comment) {
+      if (comment_ == '/' ? c == '\n' : (last_ == '*' && c == '/')) comment_ = '\0';
+    } else if (in_string_) {
+      if (c == '"' && !escaped_) in_string_ = false;
+      escaped_ = c == '\\' && !escaped_;
+    } else if (last_ == '/' && (c == '/' || c == '*')) {
+      comment_ = c;
+    } else if (c == '"') {
+      in_string_ = true, escaped_ = in_word_ = false;
+      scalar = column_;
+    } else if (c == '[' || c == '{') {
+      bracket = column_, in_word_ = false;
+    } else {
+      const bool is_word = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           c == '-' || c == '+' || c == '.';
+      if (is_word && !in_word_) scalar = column_;
+      in_word_ = is_word;
+    }
+    last_ = in_comment && comment_ == '\0' ? '\0' : c;
+  }
+
+  int line;
+  int scalar = 0;   ///< Column of the last text, number or word that has begun, ...
+  int bracket = 0;  ///< ... and of the last bracket that has opened.
+
+ private:
+  int column_ = 0;
+  bool after_break_ = false, in_string_ = false, escaped_ = false, in_word_ = false;
+  char comment_ = '\0';  ///< Its second letter; none.
+  char last_ = '\0';
+};
+
+/// Hands characters to the parser and tells where it is.
+class PlacedText {
  public:
   using value_type = char;
   using difference_type = std::ptrdiff_t;
@@ -22,21 +63,19 @@ class LineCounter {
   using reference = const char&;
   using iterator_category = std::input_iterator_tag;
 
-  LineCounter(const char* at, int* line) : at_(at), line_(line) {}
+  PlacedText(const char* at, TextPlace* place) : at_(at), place_(place) {}
   reference operator*() const { return *at_; }
-  LineCounter& operator++() {
-    if (after_break_) ++*line_;
-    after_break_ = *at_ == '\n';
+  PlacedText& operator++() {
+    place_->take(*at_);
     ++at_;
     return *this;
   }
-  bool operator==(const LineCounter& other) const { return at_ == other.at_; }
-  bool operator!=(const LineCounter& other) const { return at_ != other.at_; }
+  bool operator==(const PlacedText& other) const { return at_ == other.at_; }
+  bool operator!=(const PlacedText& other) const { return at_ != other.at_; }
 
  private:
   const char* at_;
-  int* line_;
-  bool after_break_ = false;
+  TextPlace* place_;
 };
 
 const char* kindName(Json::Kind kind) {
@@ -121,8 +160,8 @@ Json abridged(const Json& value, std::size_t& budget) {
 /// Receives the parser's events and builds the tree.
 class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  JsonBuilder(const std::string& origin, const int* line)
-      : origin_(std::make_shared<const std::string>(origin)), line_(line) {}
+  JsonBuilder(const std::string& origin, const TextPlace* at)
+      : origin_(std::make_shared<const std::string>(origin)), at_(at) {}
 
   bool null() override { return add(Json()); }
   bool boolean(bool value) override { return add(Json(value)); }
@@ -157,7 +196,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InputError(*origin_ + ":" + std::to_string(*line_) + ": " + reason);
+    throw InputError(*origin_ + ":" + std::to_string(at_->line) + ": " + reason);
   }
   /// No name of a file, and no message, goes on after a zero.
   void requireText(const std::string& text) const {
@@ -167,7 +206,9 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     // Far beyond any scene of as many bodies as are accepted; each takes some 200 bytes.
     constexpr int kMostValues = 3000000;
     if (++values_ > kMostValues) fail("more than " + std::to_string(kMostValues) + " values");
-    value.line_ = *line_;
+    value.line_ = at_->line;
+    const bool is_container = value.kind() == Json::Kind::kArray || value.kind() == Json::Kind::kObject;
+    value.column_ = is_container ? at_->bracket : at_->scalar;
     value.origin_ = origin_;
     return value;
   }
@@ -201,7 +242,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     std::set<std::string> keys;  // of an object, so far
   };
   std::shared_ptr<const std::string> origin_;
-  const int* line_;
+  const TextPlace* at_;
   int values_ = 0;
   Json root_;
   std::vector<Open> open_;  // containers not closed yet
@@ -222,9 +263,9 @@ Json Json::object(std::initializer_list<Member> members) {
 }
 
 Json Json::parse(std::string_view text, const std::string& origin, int first_line) {
-  int line = first_line;
-  JsonBuilder builder(origin, &line);
-  nlohmann::json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), &line),
+  TextPlace place(first_line);
+  JsonBuilder builder(origin, &place);
+  nlohmann::json::sax_parse(PlacedText(text.data(), &place), PlacedText(text.data() + text.size(), &place),
                             &builder, nlohmann::json::input_format_t::json, true, true);
   return builder.take();
 }
@@ -236,10 +277,41 @@ void Json::place(const std::string& path) {
 }
 
 void Json::fail(const std::string& message) const {
-  std::string where =
-      origin_ == nullptr || origin_->empty() ? "" : *origin_ + ":" + std::to_string(line_) + ": ";
+  std::string where;
+  if (origin_ != nullptr && !origin_->empty()) {
+    where = *origin_ + ":" + std::to_string(line_) + ":";
+    if (column_ > 0) where += std::to_string(column_) + ":";
+    where += " ";
+  }
   if (!path_.empty()) where += path_ + ": ";
-  throw InputError(where + message);
+  throw JsonError(where + message, {path_, line_, column_, origin_ == nullptr ? "" : *origin_});
+}
+
+Json Json::placedAs(const Json& place) const {
+  Json moved = *this;
+  moved.line_ = place.line_;
+  moved.column_ = place.column_;
+  moved.path_ = place.path_;
+  moved.origin_ = place.origin_;
+  return moved;
+}
+
+Json Json::movedTo(const Json& place) const {
+  Json moved = placedAs(place);
+  for (Json& item : moved.items_) item = item.movedTo(place);
+  for (auto& [key, value] : moved.members_) value = value.movedTo(place);
+  return moved;
+}
+
+Json Json::without(const std::string& path) const {
+  Json rest = *this;
+  rest.items_.clear();
+  rest.members_.clear();
+  for (const Json& item : items_)
+    if (item.path_ != path) rest.items_.push_back(item.without(path));
+  for (const auto& [key, value] : members_)
+    if (value.path_ != path) rest.members_.emplace_back(key, value.without(path));
+  return rest;
 }
 
 std::string Json::shown() const {

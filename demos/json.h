@@ -11,7 +11,22 @@
 #include <utility>
 #include <vector>
 
+#include "engine/foundation/contract.h"
+
 namespace carom::demos {
+
+/// What is wrong with a value, and where it is.
+class JsonError : public InputError {
+ public:
+  struct Spot {
+    std::string path;
+    int line = 0;
+    int column = 0;
+    std::string origin;  ///< The file's name.
+  };
+  JsonError(const std::string& message, Spot where) : InputError(message), spot(std::move(where)) {}
+  Spot spot;
+};
 
 class Json {
  public:
@@ -33,6 +48,7 @@ class Json {
 
   Kind kind() const { return kind_; }
   int line() const { return line_; }
+  int column() const { return column_; }
   const std::string& path() const { return path_; }
 
   // Reading: each throws InputError, with this value's place, when the value is of another kind.
@@ -49,16 +65,23 @@ class Json {
   /// Throws InputError for the first member whose key is not one of these, with the nearest that is.
   void onlyKeys(std::initializer_list<const char*> accepted) const;
 
-  /// Throws InputError: "file:line: path: message".
+  /// Throws JsonError: "file:line:column: path: message".
   [[noreturn]] void fail(const std::string& message) const;
   /// The value as a person would write it, shortened, for messages.
   std::string shown() const;
+
+  /// This value at the place of another: what stands for it is complained of there.
+  Json movedTo(const Json& place) const;
+  /// The same without what is in it, which stays where it was written.
+  Json placedAs(const Json& place) const;
 
   // Writing.
   void push(Json item) { items_.push_back(std::move(item)); }
   void set(std::string key, Json value) { members_.emplace_back(std::move(key), std::move(value)); }
   /// `indent` < 0 writes one line. Numbers are written so that reading them gives the same bits.
   std::string text(int indent = -1) const;
+  /// Without the members and items that stood at this path; of an item, those of its list move up.
+  Json without(const std::string& path) const;
 
  private:
   friend class JsonBuilder;
@@ -71,6 +94,7 @@ class Json {
   std::vector<Json> items_;
   std::vector<Member> members_;
   int line_ = 0;
+  int column_ = 0;  ///< Of its first letter, from 1; 0 for a value of no file.
   std::string path_;
   std::shared_ptr<const std::string> origin_;  ///< One for all values of a text.
 };

@@ -54,13 +54,18 @@ struct HullShape {
   bool told_hull = false;       ///< The command line said so, not the scene.
   std::optional<bool> y_up;     ///< Of a file: whether y is up in it; not given: what its format says.
 };
+/// A box of this size over all whose edges and corners are rounded.
+struct RoundedBoxShape {
+  Vec3 size_m = Vec3::Ones();
+  double radius_m = 0.1;
+};
 struct CompoundPart;
 struct CompoundShape {
   std::vector<CompoundPart> parts;
 };
 
 struct Shape {
-  std::variant<BoxShape, SphereShape, CapsuleShape, HullShape, CompoundShape> form;
+  std::variant<BoxShape, SphereShape, CapsuleShape, HullShape, RoundedBoxShape, CompoundShape> form;
   Place place;
 };
 struct CompoundPart {
@@ -75,20 +80,28 @@ struct SurfaceLook {
   std::string material;    ///< Its name in the scene's file, or empty.
 };
 
-/// Copies of a body on a lattice, each moved and turned a little by the scene's random numbers.
+/// Copies of a body on a lattice or where a pattern puts them, each turned more than the one before, and
+/// moved and turned a little by the scene's random numbers.
 struct Repeat {
   int count[3] = {1, 1, 1};
   Vec3 step_m = Vec3::Zero();
+  std::vector<Pose> copies;  ///< Relative to the body, axes of its group; empty: the lattice.
+  Vec3 turn_axis = Vec3::UnitZ();
+  double turn_degrees = 0.0;    ///< Of each copy over the one before.
   double jitter_m = 0.0;        ///< Largest shift along each axis.
   double jitter_degrees = 0.0;  ///< Largest turn, about a random axis.
 
-  int total() const { return count[0] * count[1] * count[2]; }
+  int total() const {
+    return copies.empty() ? count[0] * count[1] * count[2] : static_cast<int>(copies.size());
+  }
 };
 
 struct Body {
   std::string name;
   Shape shape;
-  Pose X_WS;  ///< The frame the shape is described in.
+  Pose X_WS;  ///< The frame the shape is described in; in a group X_GS.
+  bool in_group = false;
+  Pose X_WG;  ///< Of its group.
   Vec3 linear_velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
   Material material;
@@ -132,6 +145,9 @@ struct Scene {
   std::vector<NamedFluid> fluids;
   std::vector<Body> bodies;
   std::map<std::string, SceneCamera> cameras;
+  std::vector<std::filesystem::path> included;  ///< Files whose parts are in it.
+  std::vector<std::string> settings;            ///< "path=value" of the command line.
+  std::vector<std::string> warnings;            ///< What is written and has no effect, with its place.
 };
 
 }  // namespace carom::demos

@@ -29,7 +29,7 @@ void takeHull(Shape& shape) {
 }  // namespace
 
 Scene chosenScene(const SceneChoice& choice) {
-  Scene scene = readSceneFile(findScene(choice.scene));
+  Scene scene = readSceneFile(findScene(choice.scene), choice.settings);
   if (choice.seed) scene.seed = *choice.seed;
   if (choice.duration_s) scene.duration_s = *choice.duration_s;
   for (Body& body : scene.bodies)

@@ -8,135 +8,26 @@
 #include <sstream>
 
 #include "demos/asset_path.h"
+#include "demos/common_shapes.h"
 #include "demos/json.h"
 #include "demos/nearest_name.h"
+#include "demos/scene_expansion.h"
+#include "demos/scene_pattern.h"
+#include "demos/scene_remedies.h"
+#include "demos/scene_values.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
 
 namespace carom::demos {
 namespace {
 
-constexpr double kLargestSpeed = 1e5;  // m/s and rad/s
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kLongestTime_s = 1e6;
 constexpr double kLargestMass_kg = 1e21;
 constexpr double kLargestLoad = 1e12;  // N and N m
-constexpr double kUnitTolerance =
-    1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
-constexpr double kPi = 3.14159265358979323846;
-
-/// The values that are accepted; a limit that is `open` is itself left out.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;
-};
-constexpr Range kLength{kSmallestLength_m, kLargestLength_m};
-constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
-constexpr Range kDensity{kSmallestDensity_kgpm3, kLargestDensity_kgpm3};
-constexpr Range kFactor{0.0, 1000.0};
-constexpr Range kResistance{0.0, 100.0};  // metres
 // Masses come from densities and volumes of any size: what is accepted of them is said where both are known.
 constexpr Range kMass{0.0, kLargestMass_kg, true};
 constexpr Range kLoad{-kLargestLoad, kLargestLoad};
-constexpr Range kSpeed{-kLargestSpeed, kLargestSpeed};
-
-std::string plainNumber(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-std::string shown(const Range& range) {
-  if (std::isinf(range.high)) return (range.low_open ? "above " : "at least ") + plainNumber(range.low);
-  return (range.low_open ? "above " : "") + plainNumber(range.low) + " to " + plainNumber(range.high);
-}
-
-double readNumber(const Json& json, const Range& range) {
-  const double value = json.asNumber();
-  const bool inside = value >= range.low && value <= range.high && !(range.low_open && value == range.low);
-  if (!inside) json.fail(json.shown() + " is out of range; accepted: " + shown(range));
-  return value;
-}
-
-int readWhole(const Json& json, int least, int most) {
-  const double value = json.asNumber();
-  if (!(value >= least && value <= most) || value != std::floor(value))
-    json.fail(json.shown() + " is out of range; accepted: a whole number from " + std::to_string(least) +
-              " to " + std::to_string(most));
-  return static_cast<int>(value);
-}
-
-Vec3 readVec3(const Json& json, const Range& range) {
-  if (json.items().size() != 3)
-    json.fail(json.shown() + " has " + std::to_string(json.items().size()) + " numbers; accepted: three");
-  return {readNumber(json.items()[0], range), readNumber(json.items()[1], range),
-          readNumber(json.items()[2], range)};
-}
-
-Place placeOf(const Json& json, const std::filesystem::path& file) {
-  return file.string() + ":" + std::to_string(json.line()) + ": " + json.path();
-}
-
-// Rotations: {"axis": [x, y, z], "degrees": d} or a quaternion [w, x, y, z].
-
-Quat readAxisRotation(const Json& json) {
-  json.onlyKeys({"axis", "degrees"});
-  const Vec3 axis = readVec3(json.at("axis"), kCoordinate);
-  if (!(axis.norm() > kSmallestLength_m))
-    json.at("axis").fail(json.at("axis").shown() + " has no direction; accepted: an axis of some length");
-  const double radians = readNumber(json.at("degrees"), {-36000.0, 36000.0}) * kPi / 180.0;
-  return rotationBy(axis.normalized() * radians);
-}
-
-Quat readRotation(const Json& json) {
-  if (json.kind() == Json::Kind::kObject) return readAxisRotation(json);
-  if (json.kind() != Json::Kind::kArray || json.items().size() != 4)
-    json.fail(
-        json.shown() +
-        " is no rotation; accepted: {\"axis\": [x, y, z], \"degrees\": d} or a unit quaternion [w, x, y, z]");
-  double q[4];
-  for (std::size_t i = 0; i < 4; ++i) q[i] = json.items()[i].asNumber();
-  const Quat rotation(q[0], q[1], q[2], q[3]);
-  if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance))
-    json.fail(json.shown() + " has length " + plainNumber(rotation.norm()) +
-              "; accepted: a unit quaternion [w, x, y, z]");
-  return rotation.normalized();
-}
-
-Pose readPose(const Json& json) {
-  Pose pose;
-  if (const Json* position = json.find("position")) pose.position = readVec3(*position, kCoordinate);
-  if (const Json* rotation = json.find("rotation")) pose.rotation = readRotation(*rotation);
-  return pose;
-}
-
-// Colours: "#rrggbb".
-
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-renderer::Color readColor(const Json& json) {
-  const std::string& text = json.asString();
-  bool valid = text.size() == 7 && text[0] == '#';
-  for (std::size_t i = 1; valid && i < 7; ++i) valid = hexDigit(text[i]) >= 0;
-  if (!valid) json.fail(json.shown() + " is no colour; accepted: \"#rrggbb\"");
-  float channel[3];
-  for (std::size_t i = 0; i < 3; ++i)
-    channel[i] = static_cast<float>(16 * hexDigit(text[1 + 2 * i]) + hexDigit(text[2 + 2 * i])) / 255.0f;
-  return {channel[0], channel[1], channel[2]};
-}
-
-std::vector<renderer::Color> readColors(const Json& json) {
-  if (json.kind() != Json::Kind::kArray) return {readColor(json)};
-  std::vector<renderer::Color> colors;
-  for (const Json& item : json.items()) colors.push_back(readColor(item));
-  if (colors.empty()) json.fail("the list of colours is empty");
-  return colors;
-}
 
 // Materials.
 
@@ -250,12 +141,18 @@ CompoundShape readCompound(const Json& json, const std::filesystem::path& file) 
 }
 
 Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound) {
-  json.onlyKeys({"box", "sphere", "capsule", "hull", "mesh", "compound"});
+  json.onlyKeys({"box", "sphere", "capsule", "cylinder", "cone", "prism", "wedge", "roundedBox", "hull",
+                 "mesh", "compound"});
   if (json.members().size() != 1)
-    json.fail("accepted: exactly one of box, sphere, capsule, hull, mesh, compound");
+    json.fail(
+        "accepted: exactly one of box, sphere, capsule, cylinder, cone, prism, wedge, roundedBox, hull, "
+        "mesh, "
+        "compound");
   const auto& [kind, value] = json.members().front();
   Shape shape;
+  if (isCommonShape(kind)) shape = readCommonShape(kind, value);
   shape.place = placeOf(value, file);
+  if (isCommonShape(kind)) return shape;
   if (kind == "box") {
     shape.form = BoxShape{readVec3(value, kLength)};
   } else if (kind == "sphere") {
@@ -270,8 +167,7 @@ Shape readShape(const Json& json, const std::filesystem::path& file, bool inside
   } else if (kind == "mesh") {
     shape.form = readHull(value, file, true);
   } else {
-    if (inside_compound)
-      value.fail("a compound cannot hold a compound; accepted: box, sphere, capsule, hull, mesh");
+    if (inside_compound) value.fail("a compound cannot hold a compound; accepted: any other shape");
     shape.form = readCompound(value, file);
   }
   return shape;
@@ -279,38 +175,13 @@ Shape readShape(const Json& json, const std::filesystem::path& file, bool inside
 
 // Bodies.
 
-Repeat readRepeat(const Json& json) {
-  json.onlyKeys({"count", "step", "jitter", "jitterDegrees"});
-  Repeat repeat;
-  const Json& count = json.at("count");
-  if (count.items().size() != 3)
-    count.fail(count.shown() + " has " + std::to_string(count.items().size()) + " numbers; accepted: three");
-  double total = 1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    repeat.count[i] = readWhole(count.items()[i], 1, kMostBodies);
-    total *= repeat.count[i];
-  }
-  if (total > kMostBodies)
-    count.fail(count.shown() + " makes too many bodies; accepted: at most " + std::to_string(kMostBodies));
-  repeat.step_m = readVec3(json.at("step"), kCoordinate);
-  if (const Json* jitter = json.find("jitter"))
-    repeat.jitter_m = readNumber(*jitter, {0.0, kLargestLength_m});
-  if (const Json* jitter = json.find("jitterDegrees"))
-    repeat.jitter_degrees = readNumber(*jitter, {0.0, 180.0});
-  return repeat;
-}
-
-/// The farthest copy must be as near as any other body.
-void requireWithinReach(const Json& json, const Body& body) {
-  const Repeat& repeat = body.repeat;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double last_m = body.X_WS.position[axis] + (repeat.count[axis] - 1) * repeat.step_m[axis];
-    const double farthest_m =
-        std::max(std::abs(last_m), std::abs(body.X_WS.position[axis])) + repeat.jitter_m;
-    if (farthest_m > kLargestLength_m)
-      json.fail("the copies reach to " + plainNumber(farthest_m) + " m along " + "xyz"[axis] +
-                "; accepted: " + shown(kCoordinate));
-  }
+/// What it was given in its group's frame, in the world's.
+void putIntoGroup(const ExpandedBody& written, Body& body) {
+  body.in_group = true;
+  body.X_WG = written.X_WG;
+  body.linear_velocity = written.X_WG.rotation * body.linear_velocity;
+  body.angular_velocity = written.X_WG.rotation * body.angular_velocity;
+  for (Keyframe& keyframe : body.keyframes) keyframe.X_WB = written.X_WG * keyframe.X_WB;
 }
 
 // Bodies that are moved: kinematic ones, locked axes, loads.
@@ -410,7 +281,9 @@ void requireOneMotion(const Json& json, const Body& body) {
     refuse("mass", "given together with the material's \"density\"; accepted: one of them");
 }
 
-Body readBody(const Json& json, const Materials& materials, const std::filesystem::path& file) {
+Body readBody(const ExpandedBody& written, const Materials& materials, std::vector<std::string>& warnings) {
+  const Json& json = written.json;
+  const std::filesystem::path& file = written.file;
   json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
                  "dragCoefficient", "color", "static", "repeat", "mass", "kinematic", "locked", "force",
                  "torque", "bodyForce", "bodyTorque"});
@@ -428,7 +301,6 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
   if (const Json* mass = json.find("mass")) body.mass_kg = readNumber(*mass, kMass);
   if (const Json* locked = json.find("locked")) body.locks = readLocks(*locked);
   readLoad(json, body.load);
-  requireOneMotion(json, body);
   if (const Json* material = json.find("material")) {
     const NamedMaterial chosen = chooseMaterial(*material, materials);
     body.material = chosen.physical;
@@ -442,27 +314,30 @@ Body readBody(const Json& json, const Materials& materials, const std::filesyste
     body.material.drag_coefficient = readNumber(*value, kFactor);
   if (const Json* color = json.find("color")) body.colors = readColors(*color);
   if (const Json* repeat = json.find("repeat")) {
-    body.repeat = readRepeat(*repeat);
+    body.repeat = readRepeat(*repeat, warnings);
     requireWithinReach(*repeat, body);
   }
   if (body.is_static && (!body.linear_velocity.isZero(0.0) || !body.angular_velocity.isZero(0.0)))
     json.fail("a static body has no velocity; accepted: leave out linearVelocity and angularVelocity");
+  if (written.in_group) putIntoGroup(written, body);
+  requireOneMotion(json, body);
   return body;
 }
 
-std::vector<Body> readBodies(const Json& json, const Materials& materials,
-                             const std::filesystem::path& file) {
+std::vector<Body> readBodies(const ExpandedScene& scene, const Materials& materials,
+                             std::vector<std::string>& warnings) {
   std::vector<Body> bodies;
   std::set<std::string> names;
   int total = 0;
-  for (const Json& item : json.items()) {
-    bodies.push_back(readBody(item, materials, file));
+  for (const ExpandedBody& written : scene.expanded) {
+    bodies.push_back(readBody(written, materials, warnings));
+    const Json& item = written.json;
     if (!names.insert(bodies.back().name).second)
       item.at("name").fail(item.at("name").shown() + " names two bodies");
     total += bodies.back().repeat.total();
     if (total > kMostBodies) item.fail("more bodies than " + std::to_string(kMostBodies));
   }
-  if (bodies.empty()) json.fail("a scene needs at least one body");
+  if (bodies.empty()) scene.bodies.fail("a scene needs at least one body");
   return bodies;
 }
 
@@ -628,16 +503,27 @@ void readFormat(const Json& json) {
     json.at("format").fail(json.at("format").shown() + " is unknown; accepted: 1");
 }
 
-}  // namespace
+/// Materials that no body has.
+void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const std::filesystem::path& file,
+                  std::vector<std::string>& warnings) {
+  for (const auto& [name, value] : materials.members()) {
+    bool is_used = false;
+    for (const Body& body : bodies) is_used = is_used || body.look.material == name;
+    if (!is_used) warnings.push_back(placeOf(value, file) + ": no body has this material");
+  }
+}
 
-Scene parseScene(std::string_view text, const std::filesystem::path& path) {
-  const Json json = Json::parse(text, path.string());
-  json.onlyKeys({"format", "description", "gravity", "rate", "seed", "materials", "air", "fluids", "bodies",
-                 "cameras", "duration"});
-  readFormat(json);
+Scene readScene(const Json& written, const std::filesystem::path& path) {
+  written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
+                    "materials", "air", "fluids", "bodies", "cameras", "duration"});
+  readFormat(written);
+  const ExpandedScene expanded = expandScene(written, path);
+  const Json& json = expanded.scene;
   Scene scene;
   scene.name = path.stem().string();
   scene.file = path;
+  scene.included = expanded.included;
+  scene.warnings = expanded.warnings;
   if (const Json* value = json.find("description")) scene.description = value->asString();
   if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
   if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
@@ -648,7 +534,9 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);
-  scene.bodies = readBodies(json.at("bodies"), materials, path);
+  written.at("bodies");
+  scene.bodies = readBodies(expanded, materials, scene.warnings);
+  if (const Json* value = written.find("materials")) warnOfUnused(*value, scene.bodies, path, scene.warnings);
   if (const Json* value = json.find("cameras")) {
     const BodyNames names(scene.bodies);
     for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera, names);
@@ -657,8 +545,172 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path) {
   return scene;
 }
 
-Scene readSceneFile(const std::filesystem::path& path) {
-  return parseScene(readTextFile(path), path);
+// All mistakes at once: what is refused is taken out, and the rest read again.
+
+const Json* valueAt(const Json& json, const std::string& path) {
+  if (json.path() == path) return &json;
+  if (json.kind() == Json::Kind::kArray)
+    for (const Json& item : json.items())
+      if (const Json* found = path.rfind(item.path(), 0) == 0 ? valueAt(item, path) : nullptr) return found;
+  if (json.kind() == Json::Kind::kObject)
+    for (const auto& [key, value] : json.members())
+      if (const Json* found = path.rfind(value.path(), 0) == 0 ? valueAt(value, path) : nullptr) return found;
+  return nullptr;
+}
+
+/// What is taken out for a mistake: a member, or an item that is an object; never one number of a vector, and
+/// whole whatever has keys that are in place of each other.
+std::string taken(const Json& json, std::string path) {
+  if (path.rfind("cameras.", 0) == 0) return path.substr(0, path.find('.', std::string("cameras.").size()));
+  if (path.rfind("fluids[", 0) == 0) return path.substr(0, path.find(']') + 1);
+  for (const std::string part : {".repeat", ".rotation"})
+    if (const std::size_t at = path.find(part); at != std::string::npos)
+      return path.substr(0, at + part.size());
+  for (const Json* value = valueAt(json, path); !path.empty() && path.back() == ']';
+       value = valueAt(json, path)) {
+    if (value != nullptr && value->kind() == Json::Kind::kObject) break;
+    path.resize(path.rfind('['));
+  }
+  return path;
+}
+
+/// Whether the mistake follows from another that was taken out before.
+bool isConsequence(const JsonError& error, const std::set<std::string>& gone) {
+  const std::string message = error.what();
+  const auto has = [&message](const std::string& part) { return message.find(part) != std::string::npos; };
+  for (const std::string& path : gone) {
+    const std::size_t dot = path.rfind('.');
+    const std::string owner = dot == std::string::npos ? "" : path.substr(0, dot);
+    const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
+    if (error.spot.path == owner && (has("key \"" + key + "\" is missing") || !has("is missing")))
+      return true;
+    if (path.rfind("bodies", 0) == 0 && (has("unknown body") || has("at least one body"))) return true;
+    if (path.rfind("materials", 0) == 0 && has("unknown material")) return true;
+    if (path.rfind("set", 0) == 0 && has("unknown name")) return true;
+  }
+  return false;
+}
+
+/// What stands for a shape or a name that was refused, so that the rest of its body is read.
+Json placeholder(const std::string& key, const JsonError::Spot& spot) {
+  if (key == "name") return Json("mistake " + std::to_string(spot.line) + ":" + std::to_string(spot.column));
+  return Json::object({{"box", Json::array({1.0, 1.0, 1.0})}});
+}
+
+Json withMember(const Json& json, const std::string& path, const std::string& key, const Json& value) {
+  Json changed = json;
+  if (json.kind() == Json::Kind::kArray) {
+    changed = Json::array().placedAs(json);
+    for (const Json& item : json.items()) changed.push(withMember(item, path, key, value));
+  } else if (json.kind() == Json::Kind::kObject) {
+    changed = Json::object().placedAs(json);
+    for (const auto& [name, member] : json.members())
+      if (json.path() != path || name != key) changed.set(name, withMember(member, path, key, value));
+    if (json.path() == path) changed.set(key, value);
+  }
+  return changed;
+}
+
+/// The body's key that the mistake is of, where a body cannot do without it; and the body's path.
+std::optional<std::pair<std::string, std::string>> neededKey(const JsonError& error) {
+  const std::string& path = error.spot.path;
+  if (path.rfind("bodies[", 0) != 0) return std::nullopt;
+  for (const std::string key : {"shape", "name"}) {
+    const std::size_t at = path.find("]." + key);
+    if (at != std::string::npos && path.find(".compound") == std::string::npos)
+      return {{path.substr(0, at + 1), key}};
+    if (std::string(error.what()).find("key \"" + key + "\" is missing") != std::string::npos)
+      return {{path, key}};
+  }
+  return std::nullopt;
+}
+
+/// A key that is missing because it was written otherwise: a mistake that is already told names it as what
+/// was meant.
+bool isMeantByAnother(const JsonError& error,
+                      const std::vector<std::pair<JsonError::Spot, std::string>>& found) {
+  const std::string message = error.what();
+  const std::size_t end = message.find("\" is missing"), begin = message.rfind("key \"", end);
+  if (end == std::string::npos || begin == std::string::npos) return false;
+  const std::string key = message.substr(begin + 4, end + 1 - (begin + 4));
+  const std::string owner = error.spot.path.empty() ? "" : error.spot.path + ".";
+  for (const auto& [spot, told] : found)
+    if (spot.path.rfind(owner, 0) == 0 && spot.path.find('.', owner.size()) == std::string::npos &&
+        told.find(key) != std::string::npos)
+      return true;
+  return false;
+}
+
+/// What the remedy is for: of a colour's numbers the whole colour.
+const Json* meantValue(const Json& json, const std::string& path) {
+  const std::size_t color = path.rfind(".color[");
+  return valueAt(json, color == std::string::npos ? path : path.substr(0, color + 6));
+}
+
+/// At most so many: a file is read again for each.
+[[noreturn]] void listMistakes(Json json, const std::filesystem::path& path, JsonError first, int most) {
+  std::vector<std::pair<JsonError::Spot, std::string>> found;
+  std::set<std::string> gone;
+  std::optional<JsonError> next = std::move(first);
+  for (int i = 0; i < most && next; ++i) {
+    const JsonError error = *next;
+    next.reset();
+    const Json* value = error.spot.origin == path.string() ? valueAt(json, error.spot.path) : nullptr;
+    if (!isConsequence(error, gone) && !isMeantByAnother(error, found))
+      found.emplace_back(
+          error.spot,
+          std::string(error.what()) +
+              (value == nullptr ? "" : remedyFor(*meantValue(json, error.spot.path), error.what())));
+    if (value == nullptr || error.spot.path.empty()) break;
+    const std::optional<std::pair<std::string, std::string>> needed = neededKey(error);
+    const std::string out = needed ? needed->first + "." + needed->second : taken(json, error.spot.path);
+    if (i + 1 == most || out.empty() || !gone.insert(out).second) break;
+    json = needed ? withMember(json, needed->first, needed->second, placeholder(needed->second, error.spot))
+                  : json.without(out);
+    try {
+      readScene(json, path);
+    } catch (const JsonError& another) {
+      next = another;
+    } catch (const InputError&) {
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.line, a.first.column) < std::pair(b.first.line, b.first.column);
+  });
+  std::vector<std::string> all;
+  for (const auto& [spot, message] : found) all.push_back(message);
+  std::string told = all.front();
+  if (all.size() > 1)
+    told += " (the first of " + std::to_string(all.size()) + " mistakes; carom check lists them all)";
+  throw SceneMistakes(told, all);
+}
+
+Json parsedScene(std::string_view text, const std::filesystem::path& path) {
+  try {
+    return Json::parse(text, path.string());
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + syntaxRemedy(error.what()));
+  }
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& path,
+                 const std::vector<std::string>& settings) {
+  Json json = parsedScene(text, path);
+  for (const std::string& setting : settings) json = withSetting(json, setting);
+  try {
+    Scene scene = readScene(json, path);
+    scene.settings = settings;
+    return scene;
+  } catch (const JsonError& error) {
+    constexpr std::size_t kWrittenByAProgram = 1 << 18;  // Bytes; a person writes less.
+    listMistakes(std::move(json), path, error, text.size() < kWrittenByAProgram ? 100 : 1);
+  }
+}
+
+Scene readSceneFile(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  return parseScene(readTextFile(path), path, settings);
 }
 
 }  // namespace carom::demos

@@ -7,6 +7,7 @@
 #include "demos/asset_path.h"
 #include "demos/body_palette.h"
 #include "demos/content_hash.h"
+#include "demos/random_stream.h"
 #include "demos/shape_solid.h"
 #include "engine/broad_phase/candidate_pairs.h"
 #include "engine/foundation/contract.h"
@@ -18,55 +19,43 @@ namespace {
 using Mesh = std::optional<std::filesystem::path>;
 constexpr double kPi = 3.14159265358979323846;
 
-/// SplitMix64 (Steele, Lea, Flood 2014), one stream for each copy of a body.
-class JitterStream {
- public:
-  JitterStream(std::uint64_t seed, std::size_t body, int copy)
-      : state_(seed * 0x9e3779b97f4a7c15ull + body * 0xbf58476d1ce4e5b9ull +
-               static_cast<std::uint64_t>(copy)) {
-    next();
-  }
-  /// Uniform in [-1, 1), a multiple of 2^-52: no rounding, the same on every machine.
-  double signedUnit() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1.0; }
-  /// A direction, uniform on the sphere: the first of a bounded number of points of the cube that lies in the
-  /// ball.
-  Vec3 direction() {
-    for (int i = 0; i < 64; ++i) {
-      const Vec3 p = vector();
-      if (p.squaredNorm() < 1.0 && p.squaredNorm() > 1e-4) return p.normalized();
-    }
-    return Vec3::UnitZ();
-  }
-  Vec3 vector() {
-    const double x = signedUnit();
-    const double y = signedUnit();
-    return {x, y, signedUnit()};
-  }
+/// One stream for each copy of a body.
+RandomStream jitterStream(std::uint64_t seed, std::size_t body, int copy) {
+  return RandomStream(seed * 0x9e3779b97f4a7c15ull + body * 0xbf58476d1ce4e5b9ull +
+                      static_cast<std::uint64_t>(copy));
+}
 
- private:
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15ull;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
-};
+Vec3 placeOfCopy(const Repeat& repeat, int copy) {
+  if (!repeat.copies.empty()) return repeat.copies[static_cast<std::size_t>(copy)].position;
+  const Vec3 cell(copy % repeat.count[0], copy / repeat.count[0] % repeat.count[1],
+                  copy / (repeat.count[0] * repeat.count[1]));
+  return cell.cwiseProduct(repeat.step_m);
+}
 
 Pose poseOfCopy(const Body& body, std::uint64_t seed, std::size_t index, int copy) {
   const Repeat& repeat = body.repeat;
-  const Vec3 cell(copy % repeat.count[0], copy / repeat.count[0] % repeat.count[1],
-                  copy / (repeat.count[0] * repeat.count[1]));
-  JitterStream random(seed, index, copy);
+  RandomStream random = jitterStream(seed, index, copy);
   Pose X_WS = body.X_WS;
-  X_WS.position += cell.cwiseProduct(repeat.step_m) + repeat.jitter_m * random.vector();
+  X_WS.position += placeOfCopy(repeat, copy) + repeat.jitter_m * random.vector();
+  if (!repeat.copies.empty())
+    X_WS.rotation = (repeat.copies[static_cast<std::size_t>(copy)].rotation * X_WS.rotation).normalized();
+  if (repeat.turn_degrees != 0.0) {
+    const double radians = repeat.turn_degrees * kPi / 180.0 * copy;
+    X_WS.rotation = (rotationBy(repeat.turn_axis * radians) * X_WS.rotation).normalized();
+  }
   if (repeat.jitter_degrees > 0.0) {
     const Vec3 axis = random.direction();
     const double radians = repeat.jitter_degrees * kPi / 180.0 * random.signedUnit();
     X_WS.rotation = (rotationBy(axis * radians) * X_WS.rotation).normalized();
   }
-  return X_WS;
+  return body.in_group ? body.X_WG * X_WS : X_WS;
+}
+
+/// What a group has carried away is as near as any other body.
+void requireNear(const Body& body, const Vec3& p_W) {
+  if (p_W.cwiseAbs().maxCoeff() > kLargestLength_m)
+    throw InputError(body.place + ": its group takes it farther than accepted: " +
+                     std::to_string(kLargestLength_m) + " m along each axis");
 }
 
 bool isReplaceable(const Shape& shape) {
@@ -97,8 +86,10 @@ void setMotion(const Body& body, const Solid& solid, const Pose& X_SB, BodyDescr
     }
   }
   description.is_kinematic = body.is_kinematic;
-  for (const Keyframe& keyframe : body.keyframes)
+  for (const Keyframe& keyframe : body.keyframes) {
+    if (body.in_group) requireNear(body, keyframe.X_WB.position);
     description.keyframes.push_back({keyframe.time_s, keyframe.X_WB * X_SB});
+  }
   description.interpolation = body.interpolation;
   description.repeats = body.path_repeats;
   description.locks = body.locks;
@@ -114,7 +105,9 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
   for (int copy = 0; copy < body.repeat.total(); ++copy) {
     BodyDescription description;
     description.solid = solid;
-    description.X_WB = poseOfCopy(body, scene.seed, index, copy) * X_SB;
+    const Pose X_WS = poseOfCopy(body, scene.seed, index, copy);
+    if (body.in_group) requireNear(body, X_WS.position);
+    description.X_WB = X_WS * X_SB;
     description.linear_velocity = body.linear_velocity;
     description.angular_velocity = body.angular_velocity;
     description.material = body.material;
@@ -217,6 +210,8 @@ std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::spa
 std::uint64_t sceneHash(const Scene& scene, const Mesh& mesh) {
   ContentHash hash;
   hash.add(readTextFile(scene.file));
+  for (const std::filesystem::path& file : scene.included) hash.add(readTextFile(file));
+  for (const std::string& setting : scene.settings) hash.add(setting);
   for (const Body& body : scene.bodies) addMeshFiles(hash, body.shape, mesh);
   hash.add(std::to_string(scene.seed));
   return hash.value();

@@ -77,6 +77,10 @@ class PartMaker {
     return {{{ConvexPolyhedron::segment(-half, half), capsule.radius_m}}, {}};
   }
 
+  ShapeParts operator()(const RoundedBoxShape& box) const {
+    return {{{boxPolyhedron(box.size_m - 2.0 * box.radius_m * Vec3::Ones()), box.radius_m}}, {}};
+  }
+
   ShapeParts operator()(const HullShape& hull) const {
     ShapeParts made;
     if (!hull.file.empty()) {

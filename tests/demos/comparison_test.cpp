@@ -95,7 +95,8 @@ TEST_F(Judged, PhysicsIsToldFromRendererByTheStateInTheFrames) {
   EXPECT_EQ(cause({{"Scene", "ball 01"}, {"State", "bb"}}, then), "physics moved: state aa became bb");
   EXPECT_EQ(cause({{"Scene", "ball 02"}, {"State", "bb"}}, then), "the scene was edited");
   EXPECT_EQ(cause({}, then), "");
-  EXPECT_EQ(compared(pair(golden, golden, {{"State", "bb"}}, then), {}).cause.headline, "");  // nothing to explain
+  EXPECT_EQ(compared(pair(golden, golden, {{"State", "bb"}}, then), {}).cause.headline,
+            "");  // nothing to explain
 }
 
 // Frames of another moment or camera have other states or pixels without anything having moved or changed.

@@ -219,17 +219,17 @@ TEST(DistanceQuery, RefusesPosesThatAreNone) {
 
 TEST(DistanceQuery, RefusesLinesThatAreNoneAndSaysWhere) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"[]", "q:7: [] is an array; accepted: an object"},
-      {"{}", "q:7: key \"a\" is missing"},
-      {"{\"a\": 1, \"b\": \"b\"}", "q:7: a: 1 is a number; accepted: a string"},
+      {"[]", "q:7:1: [] is an array; accepted: an object"},
+      {"{}", "q:7:1: key \"a\" is missing"},
+      {"{\"a\": 1, \"b\": \"b\"}", "q:7:7: a: 1 is a number; accepted: a string"},
       {"{\"a\": \"a\", \"b\": \"b\", \"psoeB\": {}}", "did you mean \"poseB\"?"},
       {"{\"a\": \"a\", \"b\": \"b\", \"poseB\": {\"positon\": [0, 0, 0]}}", "did you mean \"position\"?"},
       {"{\"a\": \"a\", \"b\": \"b\", \"poseB\": {\"position\": [0, 0]}}",
-       "q:7: poseB.position: [0,0] has 2 numbers"},
+       "q:7:44: poseB.position: [0,0] has 2 numbers"},
       {"{\"a\": \"a\", \"b\": \"b\", \"poseB\": {\"position\": [0, 0, 1e13]}}", "is out of range"},
       {"{\"a\": \"a\", \"b\": \"b\", \"poseB\": {\"position\": [0, 0, 1e999]}}", "overflow"},
       {"{\"a\": \"a\", \"b\": \"b\", \"poseA\": {\"rotation\": [0, 0, 0, 0]}}",
-       "q:7: poseA.rotation: [0,0,0,0] is not of length 1; accepted: a unit quaternion"},
+       "q:7:44: poseA.rotation: [0,0,0,0] is not of length 1; accepted: a unit quaternion"},
       {"{\"a\": \"a\"", "q:7: syntax error"},
   };
   for (const auto& refused : cases) {
@@ -265,13 +265,13 @@ TEST(DistanceCommand, BatchAnswersEachLineInItsPlaceAndEndsWith3ForAnError) {
   EXPECT_NEAR(lines[0].at("distance").asNumber(), 1.0, 1e-14);
   EXPECT_NEAR(lines[6].at("distance").asNumber(), 3.0, 1e-14);
   const std::string place = batch.string() + ":";
-  const char* parts[] = {"2: the line is empty", "3: poseB.turn: unknown key", "4: the line is too long", "",
-                         "6: syntax error"};
+  const char* parts[] = {"2: the line is empty", "3:", "4: the line is too long", "", "6: syntax error"};
   for (std::size_t i = 0; i < 5; ++i) {
     const std::string error = lines[i + 1].at("error").asString();
     const std::string want = *parts[i] == '\0' ? "none.obj: no such mesh file" : place + parts[i];
     EXPECT_EQ(error.rfind(want, 0), 0u) << error;
   }
+  EXPECT_NE(lines[2].at("error").asString().find(": poseB.turn: unknown key"), std::string::npos);
 }
 
 TEST(DistanceCommand, WarmAndColdBatchesAgreeAndEndWith0) {

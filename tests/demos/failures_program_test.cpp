@@ -40,7 +40,7 @@ struct Failures : testing::Test {
   std::map<std::string, Words> commands() const {
     return {{"list", {"list", "--json"}},
             {"check", {"check", "sliding"}},
-            {"render", {"render", "sliding", "-q", "--size", "32x32", "--duration", "0.1"}},
+            {"render", {"render", "sliding", "--progress=none", "--size", "32x32", "--duration", "0.1"}},
             {"simulate", {"simulate", "sliding", "-q", "--duration", "0.1"}},
             {"export", {"export", "sliding", "-q", "--duration", "0.1", "--csv", "motion.csv"}},
             {"distance", {"distance", mesh, mesh}},

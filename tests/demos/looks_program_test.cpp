@@ -26,7 +26,7 @@ struct Looks : testing::Test {
   ProgramEnd render(const std::string& out, std::vector<std::string> more,
                     const std::string& scene = "sliding") {
     std::vector<std::string> all{
-        "render", scene, "--size", "160x90", "-q", "-o", (folder.path() / out).string()};
+        "render", scene, "--size", "160x90", "--progress=none", "-o", (folder.path() / out).string()};
     all.insert(all.end(), more.begin(), more.end());
     const ProgramEnd end = runCarom(all);
     EXPECT_EQ(end.code, 0) << end.err;
@@ -255,7 +255,7 @@ TEST(LooksRefuse, InOneLineWithWhatIsAccepted) {
       {"--speed excludes --at", {"--at", "1", "--speed", "0.5"}},
       {"accepted with --stream: one of depth", {"--aov", "id,depth", "-o", "-", "--stream", "ppm"}},
       {"accepted with --aov: png or ppm", {"--aov", "id", "-o", "-", "--stream", "rgb24"}},
-      {"accepted: without --ffmpeg", {"--aov", "id", "--ffmpeg", "a.mp4"}},
+      {"accepted: with frames", {"--aov", "id", "--ffmpeg", "a.mp4"}},
       {"no such body in", {"--camera", "follow:nobody"}},
       {"did you mean \"orbit\"?", {"--camera", "orbti"}},
   };

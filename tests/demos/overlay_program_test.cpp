@@ -40,8 +40,8 @@ TEST(OverlayProgram, ResumeDrawsAgainWhenTheOverlaysChangeAndKeepsThemWhenNot) {
   ASSERT_EQ(first.wait().code, 0);
   const std::string output = (first.folder() / "f_%02d.png").string();
   const auto again = [&](const std::string& overlays) {
-    return Program({"render", "contact-vertex-face", "--size", "320x180", "-q", "-o", output, "--resume",
-                    "--frames", "2-4", "--overlay", overlays})
+    return Program({"render", "contact-vertex-face", "--size", "320x180", "--progress=none", "-o", output,
+                    "--resume", "--frames", "2-4", "--overlay", overlays})
         .wait()
         .out;
   };
@@ -107,8 +107,8 @@ TEST(OverlayProgram, TimedFramesThatAreKeptDoNotDisturbThoseThatAreDrawn) {
   const Program first(rendered({"--overlay", "timings", "--frames", "1-2"}));
   ASSERT_EQ(first.wait().code, 0);
   const std::string output = (first.folder() / "f_%02d.png").string();
-  const ProgramEnd end = Program({"render", "contact-vertex-face", "--size", "320x180", "-q", "-o", output,
-                                  "--resume", "--frames", "1-4", "--overlay", "timings"})
+  const ProgramEnd end = Program({"render", "contact-vertex-face", "--size", "320x180", "--progress=none",
+                                  "-o", output, "--resume", "--frames", "1-4", "--overlay", "timings"})
                              .wait();
   EXPECT_EQ(end.code, 0) << end.err;
   EXPECT_NE(end.out.find("(2 drawn, 2 kept)"), std::string::npos) << end.out;

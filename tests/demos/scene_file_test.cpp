@@ -1,5 +1,8 @@
 #include "demos/scene_file.h"
 
+#include <algorithm>
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "demos/scene_world.h"
@@ -37,16 +40,17 @@ std::string cameraScene(const std::string& camera) {
   return "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
          " } ],\n \"cameras\": { \"main\": " + camera + " } }";
 }
-const char kOneOfShapes[] = "accepted: exactly one of box, sphere, capsule, hull, mesh, compound";
+const char kOneOfShapes[] =
+    "accepted: exactly one of box, sphere, capsule, cylinder, cone, prism, wedge, roundedBox, hull, mesh, "
+    "compound";
 
 const Refusal kRefusals[] = {
     {"MisspeltTopKey", "{ \"format\": 1, \"boddies\": [] }",
-     ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: format, description, gravity, "
-     "rate, seed, "
-     "materials, air, fluids, bodies, cameras, duration"},
+     ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: $schema, format, "
+     "description, set, include, gravity, rate, seed, materials, air, fluids, bodies, cameras, duration"},
     {"MisspeltShape", bodyScene("\"shape\": { \"bx\": [1, 1, 1] }"),
      ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, "
-     "hull, mesh, compound"},
+     "cylinder, cone, prism, wedge, roundedBox, hull, mesh, compound"},
     {"MisspeltMaterial",
      "{ \"format\": 1, \"materials\": { \"wood\": {} },\n \"bodies\": [ { \"name\": \"a\", \"material\": "
      "\"wod\", " +
@@ -54,8 +58,8 @@ const Refusal kRefusals[] = {
      ":2: bodies[0].material: unknown material \"wod\"; did you mean \"wood\"? accepted: wood"},
     {"KeyOfALaterFormat",
      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"sound\": [] }",
-     ":2: sound: unknown key \"sound\"; accepted: format, description, gravity, rate, seed, materials, "
-     "air, fluids, bodies, cameras, duration"},
+     ":2: sound: unknown key \"sound\"; accepted: $schema, format, description, set, include, gravity, "
+     "rate, seed, materials, air, fluids, bodies, cameras, duration"},
     {"UnknownFormat", "{ \"format\": 2, \"bodies\": [] }", ":1: format: 2 is unknown; accepted: 1"},
     {"MissingFormat", "{ \"bodies\": [] }", ":1: key \"format\" is missing"},
     {"NoBodies", "{ \"format\": 1, \"bodies\": [] }", ":1: bodies: a scene needs at least one body"},
@@ -86,8 +90,8 @@ const Refusal kRefusals[] = {
      bodyScene("\"shape\": { \"hull\": { \"file\": \"meshes/gem.obj\", \"scale\": 2, \"fit\": 1 } }"),
      ":3: bodies[0].shape.hull.fit: given together with \"scale\"; accepted: one of them"},
     {"NestedCompound", bodyScene("\"shape\": { \"compound\": [ { \"shape\": { \"compound\": [] } } ] }"),
-     ":3: bodies[0].shape.compound[0].shape.compound: a compound cannot hold a compound; accepted: box, "
-     "sphere, capsule, hull, mesh"},
+     ":3: bodies[0].shape.compound[0].shape.compound: a compound cannot hold a compound; accepted: any "
+     "other shape"},
     {"ZeroMass", bodyScene(kBox + ", \"material\": { \"density\": 0 }"),
      ":3: bodies[0].material: density 0 for a body that moves; accepted: 1e-06 to 1e+06"},
     {"NegativeDensity", bodyScene(kBox + ", \"material\": { \"density\": -1 }"),
@@ -205,13 +209,18 @@ const Refusal kRefusals[] = {
 class SceneFileRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(SceneFileRefuses, InOneLineThatNamesPlaceValueAndWhatIsAccepted) {
+  // The column and the remedy are scene_mistakes_test.cpp's matter.
   const std::string message =
-      thrownMessage<InputError>([] { parseScene(GetParam().text, "scenes/try.json"); });
+      std::regex_replace(thrownMessage<InputError>([] { parseScene(GetParam().text, "scenes/try.json"); }),
+                         std::regex("(:[0-9]+):[0-9]+: "), "$1: ");
   const std::string expected = "scenes/try.json" + GetParam().message;
   EXPECT_EQ(message.substr(0, expected.size()), expected);
   EXPECT_EQ(message.find('\n'), std::string::npos);
   const bool in_the_parsers_words = message.find("syntax error") != std::string::npos;
-  EXPECT_TRUE(message == expected || in_the_parsers_words) << message;
+  const std::string rest = message.substr(std::min(expected.size(), message.size()));
+  EXPECT_TRUE(rest.empty() || rest.rfind("; write ", 0) == 0 || rest.rfind(" (the first of ", 0) == 0 ||
+              in_the_parsers_words)
+      << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SceneFileRefuses, testing::ValuesIn(kRefusals),

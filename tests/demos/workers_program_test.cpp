@@ -54,8 +54,8 @@ struct Workers : testing::Test {
 
   fs::path out(const std::string& name) const { return folder.path() / name; }
   std::vector<std::string> arguments(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> all{"render", "fifty-bodies", "--duration", "0.3", "--fps",
-                                 "30",     "--size",       "96x54",      "-q"};
+    std::vector<std::string> all{"render", "fifty-bodies", "--duration",     "0.3", "--fps", "30",
+                                 "--size", "96x54",        "--progress=none"};
     if (!name.empty()) all.insert(all.end(), {"-o", (out(name) / "f_%04d.png").string()});
     all.insert(all.end(), more.begin(), more.end());
     return all;

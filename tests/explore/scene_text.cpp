@@ -37,6 +37,10 @@ Json formJson(const demos::HullShape& hull) {
   for (const Vec3& p : hull.points) points.push(numbers(hull.scale * p));
   return Json::object({{"hull", Json::object({{"points", std::move(points)}})}});
 }
+Json formJson(const demos::RoundedBoxShape& box) {
+  return Json::object(
+      {{"roundedBox", Json::object({{"size", numbers(box.size_m)}, {"radius", box.radius_m}})}});
+}
 Json formJson(const demos::CompoundShape& compound) {
   Json parts = Json::array();
   for (const demos::CompoundPart& part : compound.parts) {
