@@ -22,6 +22,7 @@ namespace carom::demos {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kSameTurn = 1e-3;  // rad: written numbers mean one orientation, but for rounding
 constexpr double kLongestTime_s = 1e6;
 constexpr double kLargestMass_kg = 1e21;
 constexpr double kLargestLoad = 1e12;  // N and N m
@@ -203,7 +204,7 @@ void readKeyframes(const Json& json, Body& body) {
 }
 
 bool isSamePose(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.rotation.angularDistance(b.rotation) < kUnitTolerance;
+  return a.position == b.position && a.rotation.angularDistance(b.rotation) < kSameTurn;
 }
 
 void readKinematic(const Json& json, Body& body) {
