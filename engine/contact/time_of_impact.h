@@ -57,7 +57,7 @@ struct TimeOfImpact {
   long states = 0;          ///< ... and feature pairs visited by them.
   int newton_steps = 0;
   int looks = 0;  ///< At the pair, the first without a query.
-  long work = 0;  ///< Poses evaluated, about 0.2 us each; one of a body that tumbles counts by its parts.
+  long work = 0;  ///< Poses evaluated, about 0.2 us each.
   double floor =
       0.0;  ///< The gap that the search keeps, m: the window's, or less where the pair began below.
   double passes_until_s =

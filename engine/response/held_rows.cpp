@@ -55,10 +55,6 @@ std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, i
   return {order.indices().data(), order.indices().data() + bodies};
 }
 
-}  // namespace
-
-namespace {
-
 // Of a body that is so heavy along its locked axes that what an iteration lets it move there is below the
 // rounding of the rest.
 Mat6 lockedInertia(const ImpulseBody& body) {

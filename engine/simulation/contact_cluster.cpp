@@ -83,8 +83,7 @@ const ClosestFeatures& ContactCluster::look(int index) {
   closest = closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
                             *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_),
                             pair.tracked);
-  ++counters_.distance_queries;
-  counters_.states_walked += closest.states;
+  counters_.addQuery(closest.states);
   return closest;
 }
 

@@ -70,8 +70,7 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
   const Pose end_a = path_a.at(dt);
   const Pose end_b = path_b.at(dt);
   const ClosestFeatures closest = closestFeatures(*a.part, end_a, *b.part, end_b, tracked);
-  ++counters.distance_queries;
-  counters.states_walked += closest.states;
+  counters.addQuery(closest.states);
   const double gap = closest.distance_m;
   const Vec3 arm_a = travel.X_WA.rotation * (end_a.inverse() * closest.p_A_W);
   const Vec3 arm_b = travel.X_WB.rotation * (end_b.inverse() * closest.p_B_W);

@@ -188,7 +188,7 @@ class EventLoop {
       Body& body = bodies_[at(i)];
       if (!body.travels() || body.travel == Travel::kHeld) continue;
       bring(i, time_s);
-      hold(body);
+      hold(i);
       changed_.push_back(i);
     }
     searchAgain(time_s);
@@ -235,12 +235,9 @@ class EventLoop {
   void stop(int index) {
     Body& body = bodies_[at(index)];
     countForcesOf(index, body.path.start_s, -1.0);
-    body.travel = Travel::kHeld;
+    endPath(body);
     body.momentum_velocity = {};
     body.acceleration.setZero();
-    body.path.velocity.setZero();
-    body.path.acceleration.setZero();
-    body.path.turnAt(Vec3::Zero());
     ++counters_.stopped_kinematic;
   }
 
@@ -377,8 +374,7 @@ class EventLoop {
     const ClosestFeatures closest = closestFeatures(
         *shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s),
         *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s), pair.tracked);
-    ++counters_.distance_queries;
-    counters_.states_walked += closest.states;
+    counters_.addQuery(closest.states);
     return closest;
   }
 
@@ -424,7 +420,7 @@ class EventLoop {
       paths[k].inverse_tensor.setZero();
     }
     if (spent > kMostClearings + kMostHalvings) {
-      for (const int i : changed_) hold(bodies_[at(i)]);
+      for (const int i : changed_) hold(i);
     } else if (spent > kMostClearings) {
       for (std::size_t k = 0; k < 2; ++k)
         lead(both[k], {0.5 * paths[k].velocity.linear, 0.5 * paths[k].velocity.angular}, rest);
@@ -485,7 +481,7 @@ class EventLoop {
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
-      if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) hold(bodies_[at(i)]);
+      if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) hold(i);
     searchAgain(time_s);
   }
 
@@ -607,22 +603,28 @@ class EventLoop {
   // Its momentum goes on, and so do the forces of its contacts, which others have the opposites of: they have
   // just been solved together, and the next step solves them again. What weight would give it without a fall
   // is energy from nowhere.
-  void hold(Body& body) {
+  void hold(int index) {
+    Body& body = bodies_[at(index)];
     if (body.is_static || body.travel == Travel::kHeld) return;
     if (body.is_kinematic) {
-      stop(static_cast<int>(&body - bodies_.data()));
+      stop(index);
       return;
     }
-    body.travel = Travel::kHeld;
+    endPath(body);
     const double rest = settings_.step_s - body.path.start_s;
     const Vec3 unfallen = body.acceleration - body.locks.movingPart(settings_.gravity);
     if ((body.momentum_velocity.linear + rest * unfallen).squaredNorm() <
         (body.momentum_velocity.linear + rest * body.acceleration).squaredNorm())
       body.acceleration = unfallen;
+    ++counters_.stopped_bodies;
+  }
+
+  // The body stays where its path has come to.
+  static void endPath(Body& body) {
+    body.travel = Travel::kHeld;
     body.path.velocity.setZero();
     body.path.acceleration.setZero();
     body.path.turnAt(Vec3::Zero());
-    ++counters_.stopped_bodies;
   }
 
   void searchAgain(double time_s) {

@@ -11,6 +11,7 @@ namespace {
 // Where drag takes most of a velocity within a step the mean force would carry a body there and back again;
 // its path is then as straight as keeps it from turning round. Times gravity: what counts as such drag.
 constexpr double kBraking = 4.0;
+constexpr double kSameTime = 1e-9;  // of a step: a piece of a path that ends so soon is over
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -109,7 +110,6 @@ void FlightPlanner::planPath(int index, Body& body) const {
 }
 
 void FlightPlanner::drive(int index, Body& body) const {
-  constexpr double kSameTime = 1e-9;  // of a step: a piece that ends so soon is over
   const double start_s = body.path.start_s;
   const PrescribedPath::Piece piece =
       prescribed_[at(index)]->pieceAt(time_s_ - body.late_s + start_s, kSameTime * step_s_);
@@ -123,7 +123,6 @@ void FlightPlanner::drive(int index, Body& body) const {
 }
 
 void FlightPlanner::endDrive(int index, Body& body) const {
-  constexpr double kSameTime = 1e-9;
   body.was_stopped = body.travel == Travel::kHeld;
   if (body.was_stopped) body.late_s += step_s_ - body.path.start_s;
   const double end_s = time_s_ + step_s_ - body.late_s;

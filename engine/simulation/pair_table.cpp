@@ -209,8 +209,7 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
-    ++counters.distance_queries;
-    counters.states_walked += pair.closest.states;
+    counters.addQuery(pair.closest.states);
     counters.iteration_limits += pair.closest.reached_limit;
     collected_.push_back(add(std::move(pair), bodies));
   }
@@ -244,8 +243,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
       pair.closest =
           closestFeatures(*shapes[at(both.a)].part, bodies[at(pair.body_a)].path.at(time_s),
                           *shapes[at(both.b)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
-      ++counters.distance_queries;
-      counters.states_walked += pair.closest.states;
+      counters.addQuery(pair.closest.states);
       const int place = add(std::move(pair), bodies);
       active_.push_back(place);
       extended_.push_back(place);

@@ -116,6 +116,11 @@ struct StepCounters {
   double work_J = 0.0;        ///< Done by kinematic bodies and by loads (BodyDescription).
   int substeps = 1;  ///< The step was made in so many equal parts: sums are over all of them, pairs and
                      ///< points those of the last.
+
+  void addQuery(long states) {
+    ++distance_queries;
+    states_walked += states;
+  }
 };
 
 /// Sums over the bodies that can move.
