@@ -204,8 +204,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   Json placed(Json value) {
     // Far beyond any scene of as many bodies as are accepted; each takes some 200 bytes.
-    constexpr int kMostValues = 3000000;
-    if (++values_ > kMostValues) fail("more than " + std::to_string(kMostValues) + " values");
+    if (++values_ > kMostJsonValues) fail("more than " + std::to_string(kMostJsonValues) + " values");
     value.line_ = at_->line;
     const bool is_container = value.kind() == Json::Kind::kArray || value.kind() == Json::Kind::kObject;
     value.column_ = is_container ? at_->bracket : at_->scalar;

@@ -15,6 +15,9 @@
 
 namespace carom::demos {
 
+/// A file of more values is refused.
+inline constexpr int kMostJsonValues = 3000000;
+
 /// What is wrong with a value, and where it is.
 class JsonError : public InputError {
  public:

@@ -18,6 +18,37 @@ namespace carom::demos {
 namespace {
 
 constexpr int kDeepestInclude = 8;
+constexpr std::size_t kTextOfAValue = 32;     // characters: so much longer, a text counts as one value more
+constexpr std::size_t kValuesOfAFile = 1000;  // what it takes to open a file, beside the values in it
+
+/// How many values there are in one, itself included.
+std::size_t valuesIn(const Json& json) {
+  std::size_t count = 1;
+  if (json.kind() == Json::Kind::kString) count += json.asString().size() / kTextOfAValue;
+  if (json.kind() == Json::Kind::kArray)
+    for (const Json& item : json.items()) count += valuesIn(item);
+  if (json.kind() == Json::Kind::kObject)
+    for (const auto& [key, value] : json.members()) count += valuesIn(value);
+  return count;
+}
+
+/// What a scene may grow to: as many values as a file may hold. A few lines of variables that name each
+/// other, of loops or of files would else fill any memory.
+class Allowance {
+ public:
+  explicit Allowance(std::size_t& grown) : grown_(grown) {}
+  void spend(std::size_t values, const Json& place) {
+    spent_ += values;
+    grown_ += values;
+    if (spent_ > static_cast<std::size_t>(kMostJsonValues))
+      place.fail("here the scene grows to more than " + std::to_string(kMostJsonValues) +
+                 " values; accepted: fewer turns, copies and files");
+  }
+
+ private:
+  std::size_t& grown_;
+  std::size_t spent_ = 0;
+};
 
 /// The variables that can be named at a place, the innermost last.
 class Scope {
@@ -26,6 +57,8 @@ class Scope {
     std::string name;
     Json value;
   };
+  explicit Scope(Allowance& allowance) : allowance_(&allowance) {}
+  Allowance& allowance() { return *allowance_; }
   void push(Variable variable) { variables_.push_back(std::move(variable)); }
   void pop(std::size_t size) { variables_.resize(size); }
   std::size_t size() const { return variables_.size(); }
@@ -45,6 +78,7 @@ class Scope {
   bool isUsed(const std::string& name) const { return used_.count(name) > 0; }
 
  private:
+  Allowance* allowance_;
   std::vector<Variable> variables_;
   std::set<std::string> used_;
 };
@@ -85,6 +119,7 @@ std::string filledIn(const std::string& text, const Json& place, Scope& scope) {
     const std::string inner = text.substr(open + 1, close - open - 1);
     const Json* variable = isArithmeticName(inner) ? scope.find(inner) : nullptr;
     filled += asPartOfName(variable != nullptr ? *variable : Json(reckoned(inner, place, scope)));
+    scope.allowance().spend(1 + filled.size() / kTextOfAValue, place);
     at = close + 1;
   }
   return filled;
@@ -98,7 +133,10 @@ Json resolvedText(const Json& json, Scope& scope) {
     const std::size_t end = inner.find_last_not_of(' ');
     const std::string name = begin == std::string::npos ? "" : inner.substr(begin, end - begin + 1);
     if (isArithmeticName(name))
-      if (const Json* value = scope.find(name)) return value->movedTo(json);
+      if (const Json* value = scope.find(name)) {
+        scope.allowance().spend(valuesIn(*value), json);
+        return value->movedTo(json);
+      }
     return Json(reckoned(inner, json, scope)).movedTo(json);
   }
   if (scope.size() > 0 && text.find('{') != std::string::npos)
@@ -108,6 +146,7 @@ Json resolvedText(const Json& json, Scope& scope) {
 
 /// The value with all arithmetic in it done.
 Json resolved(const Json& json, Scope& scope) {
+  scope.allowance().spend(1, json);
   switch (json.kind()) {
     case Json::Kind::kString:
       return resolvedText(json, scope);
@@ -134,10 +173,10 @@ void requireName(const Json& place, const std::string& name) {
 
 class Expander {
  public:
-  explicit Expander(ExpandedScene& out) : out_(out) {}
+  Expander(ExpandedScene& out, std::size_t& grown) : out_(out), allowance_(grown) {}
 
   void scene(const Json& json, const std::filesystem::path& file) {
-    Scope scope;
+    Scope scope(allowance_);
     out_.scene = Json::object().placedAs(json);
     std::vector<Json::Member> materials;
     if (const Json* include = json.find("include")) takeCommon(*include, file, scope, materials);
@@ -201,7 +240,10 @@ class Expander {
       name.fail("files that include each other deeper than " + std::to_string(kDeepestInclude) + " levels");
     found_at = *found;
     out_.included.push_back(*found);
-    return Json::parse(readTextFile(*found), found->string());
+    allowance_.spend(kValuesOfAFile, name);
+    Json other = Json::parse(readTextFile(*found), found->string());
+    allowance_.spend(valuesIn(other), name);
+    return other;
   }
 
   /// "include" of a scene: variables and materials of other files, which its own take the place of.
@@ -248,6 +290,7 @@ class Expander {
     const int count = is_count ? readWhole(values, 0, kMostBodies) : static_cast<int>(values.items().size());
     for (int k = 0; k < count; ++k) {
       const std::size_t before = scope.size();
+      allowance_.spend(1, written);
       scope.push({name, is_count ? Json(static_cast<double>(k)).movedTo(values)
                                  : values.items()[static_cast<std::size_t>(k)]});
       turn(item, variables, next + 1, scope, around);
@@ -277,7 +320,7 @@ class Expander {
     item.onlyKeys({"include", "name", "position", "rotation", "set"});
     Surroundings inner = within(item, scope, around);
     const Json other = readIncluded(item.at("include"), around.file, inner.file);
-    Scope own;
+    Scope own(allowance_);
     std::set<std::string> given;
     if (const Json* set = item.find("set"))
       for (const auto& [name, value] : set->members()) {
@@ -316,6 +359,7 @@ class Expander {
   }
 
   ExpandedScene& out_;
+  Allowance allowance_;
   std::size_t depth_ = 0;
 };
 
@@ -409,9 +453,9 @@ Json valueOf(const std::string& text) {
 
 }  // namespace
 
-ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file) {
+ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file, std::size_t& grown) {
   ExpandedScene out;
-  Expander(out).scene(scene, file);
+  Expander(out, grown).scene(scene, file);
   return out;
 }
 

@@ -3,6 +3,7 @@
 // with a pose and parts of other files ("include") become a plain scene without them. Every value keeps the
 // place where it was written, for messages. Tested in tests/demos/scene_expansion_test.cpp.
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,8 +29,8 @@ struct ExpandedScene {
   std::vector<std::string> warnings;  ///< "file:line:column: path: what is written and has no effect".
 };
 
-/// Throws InputError.
-ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file);
+/// Adds to `grown` how many values it made, also where it throws InputError.
+ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file, std::size_t& grown);
 
 /// "set.r=0.1", "bodies.crate.position=[0,0,3]", "rate=480": puts the value into the scene; a body, camera or
 /// material goes by its name, an item of any list by its number. Throws UsageError where there is no such

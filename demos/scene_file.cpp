@@ -1,34 +1,25 @@
 #include "demos/scene_file.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <limits>
+#include <numbers>
 #include <set>
-#include <sstream>
 
 #include "demos/asset_path.h"
 #include "demos/common_shapes.h"
 #include "demos/json.h"
 #include "demos/nearest_name.h"
 #include "demos/scene_expansion.h"
+#include "demos/scene_mistakes.h"
+#include "demos/scene_motion.h"
 #include "demos/scene_pattern.h"
 #include "demos/scene_remedies.h"
 #include "demos/scene_values.h"
 #include "engine/foundation/contract.h"
-#include "engine/foundation/elementary.h"
 
 namespace carom::demos {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kSameTurn = 1e-3;  // rad: written numbers mean one orientation, but for rounding
-constexpr double kLongestTime_s = 1e6;
-constexpr double kLargestMass_kg = 1e21;
-constexpr double kLargestLoad = 1e12;  // N and N m
-// Masses come from densities and volumes of any size: what is accepted of them is said where both are known.
-constexpr Range kMass{0.0, kLargestMass_kg, true};
-constexpr Range kLoad{-kLargestLoad, kLargestLoad};
+using std::numbers::pi;
 
 // Materials.
 
@@ -185,103 +176,6 @@ void putIntoGroup(const ExpandedBody& written, Body& body) {
   for (Keyframe& keyframe : body.keyframes) keyframe.X_WB = written.X_WG * keyframe.X_WB;
 }
 
-// Bodies that are moved: kinematic ones, locked axes, loads.
-
-Keyframe readKeyframe(const Json& json) {
-  json.onlyKeys({"time", "position", "rotation"});
-  return {readNumber(json.at("time"), {0.0, kLongestTime_s}), readPose(json)};
-}
-
-void readKeyframes(const Json& json, Body& body) {
-  if (json.items().empty()) json.fail("accepted: at least one keyframe");
-  for (const Json& item : json.items()) {
-    const Keyframe keyframe = readKeyframe(item);
-    if (!body.keyframes.empty() && !(keyframe.time_s > body.keyframes.back().time_s))
-      item.at("time").fail(item.at("time").shown() +
-                           " is not after the keyframe before; accepted: times that rise");
-    body.keyframes.push_back(keyframe);
-  }
-}
-
-bool isSamePose(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.rotation.angularDistance(b.rotation) < kSameTurn;
-}
-
-void readKinematic(const Json& json, Body& body) {
-  if (json.kind() != Json::Kind::kObject) {
-    body.is_kinematic = json.asBoolean();
-    return;
-  }
-  json.onlyKeys({"keyframes", "interpolation", "repeats"});
-  body.is_kinematic = true;
-  readKeyframes(json.at("keyframes"), body);
-  if (const Json* how = json.find("interpolation")) {
-    const std::string& name = how->asString();
-    if (name != "linear" && name != "smooth")
-      how->fail(how->shown() + " is unknown; accepted: linear, smooth");
-    if (name == "smooth") body.interpolation = Interpolation::kSmooth;
-  }
-  if (const Json* repeats = json.find("repeats")) {
-    body.path_repeats = repeats->asBoolean();
-    if (body.path_repeats && !isSamePose(body.keyframes.front().X_WB, body.keyframes.back().X_WB))
-      repeats->fail("the last keyframe is not where the first is; accepted: a path that ends as it begins");
-  }
-}
-
-// "x", "y", "z": along the world's axes; "turnX", "turnY", "turnZ": about them.
-AxisLocks readLocks(const Json& json) {
-  AxisLocks locks;
-  Vec3 turning = Vec3::Ones();
-  for (const Json& item : json.items()) {
-    const std::string& name = item.asString();
-    const std::size_t axis = name.empty() ? 3 : std::string("xyzXYZ").find(name.back());
-    if (name == "x" || name == "y" || name == "z")
-      locks.free_axes[static_cast<Eigen::Index>(axis)] = 0.0;
-    else if (name == "turnX" || name == "turnY" || name == "turnZ")
-      turning[static_cast<Eigen::Index>(axis - 3)] = 0.0;
-    else
-      item.fail(item.shown() + " is no axis; accepted: x, y, z, turnX, turnY, turnZ");
-  }
-  if (turning.sum() == 2.0)
-    json.fail("locks one axis of turning; accepted: none, two or all three of turnX, turnY, turnZ");
-  if (turning.sum() == 0.0) locks.turning = AxisLocks::Turning::kLocked;
-  if (turning.sum() == 1.0) {
-    locks.turning = AxisLocks::Turning::kOneAxis;
-    locks.axis_W = turning;
-  }
-  return locks;
-}
-
-void readLoad(const Json& json, AppliedLoad& load) {
-  if (const Json* value = json.find("force")) load.force_W = readVec3(*value, kLoad);
-  if (const Json* value = json.find("torque")) load.torque_W = readVec3(*value, kLoad);
-  if (const Json* value = json.find("bodyForce")) load.force_B = readVec3(*value, kLoad);
-  if (const Json* value = json.find("bodyTorque")) load.torque_B = readVec3(*value, kLoad);
-}
-
-// What cannot be said together.
-void requireOneMotion(const Json& json, const Body& body) {
-  const auto refuse = [&](const char* key, const std::string& why) {
-    if (const Json* found = json.find(key)) found->fail(why);
-  };
-  if (body.is_static && body.is_kinematic)
-    refuse("kinematic", "the body is static, too; accepted: one of static and kinematic");
-  if (!body.keyframes.empty())
-    for (const char* key : {"position", "rotation", "linearVelocity", "angularVelocity", "repeat"})
-      refuse(key, "given together with keyframes, which say where the body is; accepted: one of them");
-  if (body.is_static || body.is_kinematic)
-    for (const char* key : {"mass", "locked", "force", "torque", "bodyForce", "bodyTorque"})
-      refuse(key, std::string("of a body that is ") + (body.is_static ? "static" : "kinematic") +
-                      "; accepted: only of one that moves freely");
-  if (body.locks.movingPart(body.linear_velocity) != body.linear_velocity)
-    refuse("linearVelocity", "has a part along a locked axis; accepted: 0 there");
-  if (body.locks.turningPart(body.angular_velocity) != body.angular_velocity)
-    refuse("angularVelocity", "has a part about a locked axis; accepted: 0 there");
-  const Json* material = json.find("material");
-  if (material != nullptr && material->kind() == Json::Kind::kObject && material->find("density") != nullptr)
-    refuse("mass", "given together with the material's \"density\"; accepted: one of them");
-}
-
 Body readBody(const ExpandedBody& written, const Materials& materials, std::vector<std::string>& warnings) {
   const Json& json = written.json;
   const std::filesystem::path& file = written.file;
@@ -298,10 +192,7 @@ Body readBody(const ExpandedBody& written, const Materials& materials, std::vect
   if (const Json* velocity = json.find("angularVelocity"))
     body.angular_velocity = readVec3(*velocity, kSpeed);
   if (const Json* is_static = json.find("static")) body.is_static = is_static->asBoolean();
-  if (const Json* kinematic = json.find("kinematic")) readKinematic(*kinematic, body);
-  if (const Json* mass = json.find("mass")) body.mass_kg = readNumber(*mass, kMass);
-  if (const Json* locked = json.find("locked")) body.locks = readLocks(*locked);
-  readLoad(json, body.load);
+  readMotion(json, body);
   if (const Json* material = json.find("material")) {
     const NamedMaterial chosen = chooseMaterial(*material, materials);
     body.material = chosen.physical;
@@ -372,7 +263,7 @@ Wave readWave(const Json& json) {
   if (const Json* value = json.find("direction")) wave.direction = readDirection(*value);
   if (const Json* value = json.find("period")) wave.period_s = readNumber(*value, {0.01, 1e5});
   if (const Json* value = json.find("phaseDegrees"))
-    wave.phase = readNumber(*value, {-36000.0, 36000.0}) * kPi / 180.0;
+    wave.phase = readNumber(*value, {-36000.0, 36000.0}) * pi / 180.0;
   return wave;
 }
 
@@ -514,11 +405,12 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
   }
 }
 
-Scene readScene(const Json& written, const std::filesystem::path& path) {
+/// Adds to `grown` how many values the scene was made into, also where it is refused.
+Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
   written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
                     "materials", "air", "fluids", "bodies", "cameras", "duration"});
   readFormat(written);
-  const ExpandedScene expanded = expandScene(written, path);
+  const ExpandedScene expanded = expandScene(written, path, grown);
   const Json& json = expanded.scene;
   Scene scene;
   scene.name = path.stem().string();
@@ -546,146 +438,6 @@ Scene readScene(const Json& written, const std::filesystem::path& path) {
   return scene;
 }
 
-// All mistakes at once: what is refused is taken out, and the rest read again.
-
-const Json* valueAt(const Json& json, const std::string& path) {
-  if (json.path() == path) return &json;
-  if (json.kind() == Json::Kind::kArray)
-    for (const Json& item : json.items())
-      if (const Json* found = path.rfind(item.path(), 0) == 0 ? valueAt(item, path) : nullptr) return found;
-  if (json.kind() == Json::Kind::kObject)
-    for (const auto& [key, value] : json.members())
-      if (const Json* found = path.rfind(value.path(), 0) == 0 ? valueAt(value, path) : nullptr) return found;
-  return nullptr;
-}
-
-/// What is taken out for a mistake: a member, or an item that is an object; never one number of a vector, and
-/// whole whatever has keys that are in place of each other.
-std::string taken(const Json& json, std::string path) {
-  if (path.rfind("cameras.", 0) == 0) return path.substr(0, path.find('.', std::string("cameras.").size()));
-  if (path.rfind("fluids[", 0) == 0) return path.substr(0, path.find(']') + 1);
-  for (const std::string part : {".repeat", ".rotation"})
-    if (const std::size_t at = path.find(part); at != std::string::npos)
-      return path.substr(0, at + part.size());
-  for (const Json* value = valueAt(json, path); !path.empty() && path.back() == ']';
-       value = valueAt(json, path)) {
-    if (value != nullptr && value->kind() == Json::Kind::kObject) break;
-    path.resize(path.rfind('['));
-  }
-  return path;
-}
-
-/// Whether the mistake follows from another that was taken out before.
-bool isConsequence(const JsonError& error, const std::set<std::string>& gone) {
-  const std::string message = error.what();
-  const auto has = [&message](const std::string& part) { return message.find(part) != std::string::npos; };
-  for (const std::string& path : gone) {
-    const std::size_t dot = path.rfind('.');
-    const std::string owner = dot == std::string::npos ? "" : path.substr(0, dot);
-    const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
-    if (error.spot.path == owner && (has("key \"" + key + "\" is missing") || !has("is missing")))
-      return true;
-    if (path.rfind("bodies", 0) == 0 && (has("unknown body") || has("at least one body"))) return true;
-    if (path.rfind("materials", 0) == 0 && has("unknown material")) return true;
-    if (path.rfind("set", 0) == 0 && has("unknown name")) return true;
-  }
-  return false;
-}
-
-/// What stands for a shape or a name that was refused, so that the rest of its body is read.
-Json placeholder(const std::string& key, const JsonError::Spot& spot) {
-  if (key == "name") return Json("mistake " + std::to_string(spot.line) + ":" + std::to_string(spot.column));
-  return Json::object({{"box", Json::array({1.0, 1.0, 1.0})}});
-}
-
-Json withMember(const Json& json, const std::string& path, const std::string& key, const Json& value) {
-  Json changed = json;
-  if (json.kind() == Json::Kind::kArray) {
-    changed = Json::array().placedAs(json);
-    for (const Json& item : json.items()) changed.push(withMember(item, path, key, value));
-  } else if (json.kind() == Json::Kind::kObject) {
-    changed = Json::object().placedAs(json);
-    for (const auto& [name, member] : json.members())
-      if (json.path() != path || name != key) changed.set(name, withMember(member, path, key, value));
-    if (json.path() == path) changed.set(key, value);
-  }
-  return changed;
-}
-
-/// The body's key that the mistake is of, where a body cannot do without it; and the body's path.
-std::optional<std::pair<std::string, std::string>> neededKey(const JsonError& error) {
-  const std::string& path = error.spot.path;
-  if (path.rfind("bodies[", 0) != 0) return std::nullopt;
-  for (const std::string key : {"shape", "name"}) {
-    const std::size_t at = path.find("]." + key);
-    if (at != std::string::npos && path.find(".compound") == std::string::npos)
-      return {{path.substr(0, at + 1), key}};
-    if (std::string(error.what()).find("key \"" + key + "\" is missing") != std::string::npos)
-      return {{path, key}};
-  }
-  return std::nullopt;
-}
-
-/// A key that is missing because it was written otherwise: a mistake that is already told names it as what
-/// was meant.
-bool isMeantByAnother(const JsonError& error,
-                      const std::vector<std::pair<JsonError::Spot, std::string>>& found) {
-  const std::string message = error.what();
-  const std::size_t end = message.find("\" is missing"), begin = message.rfind("key \"", end);
-  if (end == std::string::npos || begin == std::string::npos) return false;
-  const std::string key = message.substr(begin + 4, end + 1 - (begin + 4));
-  const std::string owner = error.spot.path.empty() ? "" : error.spot.path + ".";
-  for (const auto& [spot, told] : found)
-    if (spot.path.rfind(owner, 0) == 0 && spot.path.find('.', owner.size()) == std::string::npos &&
-        told.find(key) != std::string::npos)
-      return true;
-  return false;
-}
-
-/// What the remedy is for: of a colour's numbers the whole colour.
-const Json* meantValue(const Json& json, const std::string& path) {
-  const std::size_t color = path.rfind(".color[");
-  return valueAt(json, color == std::string::npos ? path : path.substr(0, color + 6));
-}
-
-/// At most so many: a file is read again for each.
-[[noreturn]] void listMistakes(Json json, const std::filesystem::path& path, JsonError first, int most) {
-  std::vector<std::pair<JsonError::Spot, std::string>> found;
-  std::set<std::string> gone;
-  std::optional<JsonError> next = std::move(first);
-  for (int i = 0; i < most && next; ++i) {
-    const JsonError error = *next;
-    next.reset();
-    const Json* value = error.spot.origin == path.string() ? valueAt(json, error.spot.path) : nullptr;
-    if (!isConsequence(error, gone) && !isMeantByAnother(error, found))
-      found.emplace_back(
-          error.spot,
-          std::string(error.what()) +
-              (value == nullptr ? "" : remedyFor(*meantValue(json, error.spot.path), error.what())));
-    if (value == nullptr || error.spot.path.empty()) break;
-    const std::optional<std::pair<std::string, std::string>> needed = neededKey(error);
-    const std::string out = needed ? needed->first + "." + needed->second : taken(json, error.spot.path);
-    if (i + 1 == most || out.empty() || !gone.insert(out).second) break;
-    json = needed ? withMember(json, needed->first, needed->second, placeholder(needed->second, error.spot))
-                  : json.without(out);
-    try {
-      readScene(json, path);
-    } catch (const JsonError& another) {
-      next = another;
-    } catch (const InputError&) {
-    }
-  }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.line, a.first.column) < std::pair(b.first.line, b.first.column);
-  });
-  std::vector<std::string> all;
-  for (const auto& [spot, message] : found) all.push_back(message);
-  std::string told = all.front();
-  if (all.size() > 1)
-    told += " (the first of " + std::to_string(all.size()) + " mistakes; carom check lists them all)";
-  throw SceneMistakes(told, all);
-}
-
 Json parsedScene(std::string_view text, const std::filesystem::path& path) {
   try {
     return Json::parse(text, path.string());
@@ -700,13 +452,23 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path,
                  const std::vector<std::string>& settings) {
   Json json = parsedScene(text, path);
   for (const std::string& setting : settings) json = withSetting(json, setting);
+  std::size_t grown = 0;
   try {
-    Scene scene = readScene(json, path);
+    Scene scene = readScene(json, path, grown);
     scene.settings = settings;
     return scene;
   } catch (const JsonError& error) {
     constexpr std::size_t kWrittenByAProgram = 1 << 18;  // Bytes; a person writes less.
-    listMistakes(std::move(json), path, error, text.size() < kWrittenByAProgram ? 100 : 1);
+    const std::vector<std::string> all = mistakesOf(
+        std::move(json), path, error, text.size() < kWrittenByAProgram ? 100 : 1, [&](const Json& rest) {
+          if (grown > static_cast<std::size_t>(kMostJsonValues)) throw InputError("read often enough");
+          readScene(rest, path, grown);
+        });
+    const std::string count = std::to_string(all.size());
+    throw SceneMistakes(
+        all.size() == 1 ? all.front()
+                        : all.front() + " (the first of " + count + " mistakes; carom check lists them all)",
+        all);
   }
 }
 

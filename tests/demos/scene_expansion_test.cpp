@@ -1,5 +1,7 @@
 #include "demos/scene_expansion.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "demos/arithmetic.h"
@@ -107,6 +109,41 @@ TEST(SceneExpansion, AnIncludedFileBringsBodiesMaterialsAndVariablesThatCanBeSet
                InputError);
   folder.file("loop.json", "{\"format\": 1, \"bodies\": [{\"include\": \"loop.json\"}]}");
   EXPECT_THROW(sceneOf("{\"include\": \"loop.json\"}", "", folder.path() / "s.json"), InputError);
+}
+
+// A few lines that would fill any memory, or never end: each ends in one line.
+TEST(SceneExpansion, WhatGrowsWithoutBoundIsRefused) {
+  std::string doubled = R"({"format": 1, "set": {"v0": ["a", "b"], "w0": "0123456789")";
+  for (int i = 1; i < 60; ++i) {
+    const std::string before = std::to_string(i - 1), now = std::to_string(i);
+    doubled += ", \"v" + now + "\": [\"=v" + before + "\", \"=v" + before + "\"]";
+  }
+  std::string texts = R"({"format": 1, "set": {"w0": "0123456789")";
+  for (int i = 1; i < 60; ++i) {
+    const std::string before = std::to_string(i - 1), now = std::to_string(i);
+    texts += ", \"w" + now + "\": \"{w" + before + "}{w" + before + "}\"";
+  }
+  const std::string turns =
+      R"({"format": 1, "bodies": [{"for": {"i": 20000, "j": 20000, "k": 20000}, "bodies": []}]})";
+  for (const std::string& scene : {doubled + "}, \"bodies\": []}", texts + "}, \"bodies\": []}", turns}) {
+    const std::string told = thrownMessage<InputError>([&] { parseScene(scene, "grows.json"); });
+    EXPECT_NE(told.find("grows to more than 3000000 values"), std::string::npos) << told;
+    EXPECT_EQ(told.find('\n'), std::string::npos);
+  }
+}
+
+TEST(SceneExpansion, FilesThatBringEachOtherManyTimesAreRefused) {
+  TemporaryFolder folder;
+  for (int i = 0; i < 7; ++i) {
+    std::string bodies;
+    for (int k = 0; k < 12; ++k)
+      bodies += std::string(k > 0 ? ", " : "") + R"({"include": "f)" + std::to_string(i + 1) + R"(.json"})";
+    std::ofstream(folder.path() / ("f" + std::to_string(i) + ".json"))
+        << R"({"format": 1, "bodies": [)" << bodies << "]}";
+  }
+  std::ofstream(folder.path() / "f7.json") << R"({"format": 1, "bodies": []})";
+  const std::string told = thrownMessage<InputError>([&] { readSceneFile(folder.path() / "f0.json"); });
+  EXPECT_NE(told.find("grows to more than 3000000 values"), std::string::npos) << told;
 }
 
 TEST(SceneExpansion, WhatHasNoEffectIsWarnedOfWithItsPlace) {
