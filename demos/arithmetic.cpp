@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "demos/nearest_name.h"
 #include "engine/foundation/contract.h"
@@ -12,7 +13,7 @@
 namespace carom::demos {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t kLongest = 1000;
 constexpr int kDeepest = 50;
 constexpr double kLargestPower = 1000.0;
@@ -41,7 +42,7 @@ struct Function {
   double (*value)(const std::vector<double>&);
 };
 double radians(double degrees) {
-  return degrees * kPi / 180.0;
+  return degrees * pi / 180.0;
 }
 const std::array<Function, 11> kFunctions{{
     {"sqrt", 1, [](const std::vector<double>& x) { return std::sqrt(x[0]); }},
@@ -179,7 +180,7 @@ class Reader {
     while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]))) ++at_;
     const std::string name(text_.substr(begin, at_ - begin));
     if (const Function* function = functionOf(name)) return call(*function);
-    if (name == "pi") return kPi;
+    if (name == "pi") return pi;
     if (const std::optional<double> value = numberOf_(name)) return *value;
     at_ = begin;
     throw InputError("unknown name \"" + name + "\"" + acceptedNames(name, names_));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
+#include "demos/formatted.h"
 #include "demos/frame_statistics.h"
+#include "demos/markup_text.h"
 #include "demos/replays.h"
 #include "engine/foundation/contract.h"
 
@@ -19,28 +19,6 @@ constexpr std::size_t kSlowest = 5;
 constexpr std::array<const char*, kFramePhases> kColors = {"#1b4f72", "#2e86c1", "#85c1e9", "#b9770e",
                                                            "#f0b27a", "#7d6608", "#1e8449", "#7dcea0",
                                                            "#884ea0", "#aab7b8"};
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char buffer[512];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(buffer, sizeof buffer, pattern, values);
-  va_end(values);
-  return buffer;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else
-      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe;
-}
 
 /// A round number of about a fifth of the height.
 double tickOf(double most) {
@@ -66,17 +44,17 @@ std::string stackText(const BudgetPlot& plot, const Scale& scale) {
     std::string forth, back;
     double mean = 0.0;
     for (std::size_t i = 0; i < plot.frames.size(); ++i) {
-      back = format("%.2f,%.2f ", scale.x(i), scale.y(below[i])) + back;
+      back = formatted("%.2f,%.2f ", scale.x(i), scale.y(below[i])) + back;
       below[i] += plot.frames[i].phase_ms[p];
       mean += plot.frames[i].phase_ms[p] / static_cast<double>(plot.frames.size());
-      forth += format("%.2f,%.2f ", scale.x(i), scale.y(below[i]));
+      forth += formatted("%.2f,%.2f ", scale.x(i), scale.y(below[i]));
     }
-    text += format("<polygon fill=\"%s\" points=\"", kColors[p]) + forth + back + "\"/>\n";
+    text += formatted("<polygon fill=\"%s\" points=\"", kColors[p]) + forth + back + "\"/>\n";
     const double y = kTop + 18.0 * static_cast<double>(kFramePhases - 1 - p);
-    text += format(
+    text += formatted(
         "<rect x=\"%.0f\" y=\"%.0f\" width=\"11\" height=\"11\" fill=\"%s\"/><text x=\"%.0f\" y=\"%.0f\">%s",
         kRight + 62.0, y, kColors[p], kRight + 79.0, y + 10.0, kFramePhaseNames[p]);
-    text += format(" %.3g ms</text>\n", mean);
+    text += formatted(" %.3g ms</text>\n", mean);
   }
   return text;
 }
@@ -85,12 +63,12 @@ std::string axesText(const BudgetPlot& plot, const Scale& scale) {
   std::string text;
   const double tick = tickOf(scale.most_ms);
   for (double ms = 0.0; ms <= scale.most_ms; ms += tick)
-    text += format(
+    text += formatted(
         "<line class=\"grid\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.2f\" y2=\"%.2f\"/>"
         "<text class=\"end\" x=\"%.0f\" y=\"%.2f\">%g</text>\n",
         kLeft, kRight, scale.y(ms), scale.y(ms), kLeft - 6.0, scale.y(ms) + 4.0, ms);
-  text += format("<text class=\"end\" x=\"%.0f\" y=\"%.0f\">ms</text>", kLeft - 6.0, kTop - 10.0);
-  text += format(
+  text += formatted("<text class=\"end\" x=\"%.0f\" y=\"%.0f\">ms</text>", kLeft - 6.0, kTop - 10.0);
+  text += formatted(
       "<text x=\"%.0f\" y=\"%.0f\">0 s</text><text class=\"end\" x=\"%.0f\" y=\"%.0f\">%.3g s</text>\n",
       kLeft, kBottom + 18.0, kRight, kBottom + 18.0, plot.frames.back().time_s);
   return text;
@@ -102,7 +80,7 @@ std::string linesText(const BudgetPlot& plot, const Scale& scale) {
   for (const double percent : {50.0, 95.0, 99.0}) {
     if (static_cast<int>(totals.size()) < framesNeeded(percent)) continue;
     const double y = scale.y(percentile(totals, percent));
-    text += format(
+    text += formatted(
         "<line class=\"tick\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.2f\" y2=\"%.2f\"/><text x=\"%.0f\" "
         "y=\"%.2f\">p%g</text>\n",
         kRight, kRight + 8.0, y, y, kRight + 11.0, y + 4.0, percent);
@@ -110,20 +88,21 @@ std::string linesText(const BudgetPlot& plot, const Scale& scale) {
   if (!plot.other_ms.empty()) {
     text += "<polyline class=\"other\" points=\"";
     for (std::size_t i = 0; i < std::min(plot.other_ms.size(), plot.frames.size()); ++i)
-      text += format("%.2f,%.2f ", scale.x(i), scale.y(plot.other_ms[i]));
+      text += formatted("%.2f,%.2f ", scale.x(i), scale.y(plot.other_ms[i]));
     text += "\"/>\n";
-    text += format("<text x=\"%.0f\" y=\"%.0f\">line: ", kRight + 62.0, kTop + 18.0 * kFramePhases + 14.0) +
-            escaped(plot.other) + "</text>\n";
+    text +=
+        formatted("<text x=\"%.0f\" y=\"%.0f\">line: ", kRight + 62.0, kTop + 18.0 * kFramePhases + 14.0) +
+        markupText(plot.other) + "</text>\n";
   }
   if (plot.budget_ms > 0.0 && plot.budget_ms <= scale.most_ms)
-    text += format(
+    text += formatted(
         "<line class=\"deadline\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.2f\" y2=\"%.2f\"/>"
         "<text class=\"end deadline-name\" x=\"%.0f\" y=\"%.2f\">deadline %g ms</text>\n",
         kLeft, kRight, scale.y(plot.budget_ms), scale.y(plot.budget_ms), kRight - 4.0,
         scale.y(plot.budget_ms) - 5.0, plot.budget_ms);
   for (const FrameCost& f : slowestFrames(plot.frames, kSlowest)) {
     const double x = scale.x(static_cast<std::size_t>(f.frame)), y = scale.y(f.total_ms);
-    text += format(
+    text += formatted(
         "<path class=\"mark\" d=\"M%.2f %.2fl-4 -8h8z\"><title>frame %d, %.3g s, %.4g ms</title></path>\n", x,
         y - 2.0, f.frame, f.time_s, f.total_ms);
   }
@@ -153,20 +132,21 @@ std::string plotSvg(const BudgetPlot& plot) {
   // A deadline far above the frames would press them flat: it is drawn where it can be seen beside them.
   if (plot.budget_ms <= 3.0 * scale.most_ms) scale.most_ms = std::max(scale.most_ms, 1.08 * plot.budget_ms);
   const double height = kBottom + 36.0 + 18.0 * static_cast<double>(plot.notes.size());
-  std::string text = format(
+  std::string text = formatted(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" role=\"img\">\n", kWidth, height);
-  text += "<title>" + escaped(plot.title) + "</title>\n" + kStyle;
-  text += format("<text class=\"title\" x=\"%.0f\" y=\"22\">", kLeft) + escaped(plot.title) + "</text>\n";
+  text += "<title>" + markupText(plot.title) + "</title>\n" + kStyle;
+  text +=
+      formatted("<text class=\"title\" x=\"%.0f\" y=\"22\">", kLeft) + markupText(plot.title) + "</text>\n";
   text += axesText(plot, scale) + stackText(plot, scale) + linesText(plot, scale);
   for (std::size_t i = 0; i < plot.notes.size(); ++i)
-    text += format("<text x=\"%.0f\" y=\"%.0f\">", kLeft, kBottom + 40.0 + 18.0 * static_cast<double>(i)) +
-            escaped(plot.notes[i]) + "</text>\n";
+    text += formatted("<text x=\"%.0f\" y=\"%.0f\">", kLeft, kBottom + 40.0 + 18.0 * static_cast<double>(i)) +
+            markupText(plot.notes[i]) + "</text>\n";
   return text + "</svg>\n";
 }
 
 std::string plotPage(const BudgetPlot& plot) {
   return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
-         escaped(plot.title) +
+         markupText(plot.title) +
          "</title>\n<style>:root { color-scheme: light dark; } body { margin: 0; padding: 24px; }\n"
          "@media (prefers-color-scheme: dark) { body { background: #1a1a18; } }</style>\n</head>\n<body>\n" +
          plotSvg(plot) + "</body>\n</html>\n";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "demos/nearest_name.h"
 #include "engine/foundation/contract.h"
@@ -12,12 +13,12 @@
 namespace carom::demos {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double kMargin = 1.0 / 12.0;  // Of half the picture, on each side.
 constexpr double kRadiiAway = 6.0;      // Of a followed body.
 
 double radians(double degrees) {
-  return degrees * kPi / 180.0;
+  return degrees * pi / 180.0;
 }
 
 std::vector<Vec3> cornersOf(const Solid& solid, const Pose& X_WB) {

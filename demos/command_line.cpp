@@ -200,15 +200,16 @@ void CommandLine::groupOptions() {
       {"What is simulated",
        {"--duration", "--seed", "--set", "--mesh", "--hull", "--threads", "--from", "--scene"}},
       {"What is written",
-       {"--output", "--sheet", "--ffmpeg", "--stream", "--aov", "--states", "--csv", "--npy", "--audit",
-        "--json", "--trace", "--report", "--report-pairs", "--differences", "--amplify", "--junit",
-        "--update"}},
+       {"--output",      "--sheet",   "--ffmpeg", "--stream", "--aov",    "--states", "--csv",
+        "--npy",         "--audit",   "--json",   "--trace",  "--plot",   "--report", "--report-pairs",
+        "--differences", "--amplify", "--junit",  "--update", "--accept", "--undo"}},
       {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
       {"How it looks", {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--portable"}},
-      {"Long jobs", {"--shard", "--resume", "--workers", "--gl"}},
+      {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--gl"}},
       {"What is asked",
-       {"--budget", "--percentile", "--replays", "--baseline", "--tolerance", "--tolerance16",
-        "--allow-pixels", "--expect-hash", "--pose-a", "--pose-b", "--batch", "--cold"}},
+       {"--budget", "--percentile", "--replays", "--baseline", "--against", "--paced", "--clock",
+        "--tolerance", "--work-tolerance", "--tolerance16", "--allow-pixels", "--mask", "--expect-hash",
+        "--pose-a", "--pose-b", "--batch", "--cold"}},
       {"What is told", {"--progress", "--quiet", "--verbose"}}};
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     for (const Group& group : groups)

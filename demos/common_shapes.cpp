@@ -1,18 +1,20 @@
 #include "demos/common_shapes.h"
 
+#include <numbers>
+
 #include "demos/scene_values.h"
 #include "engine/foundation/elementary.h"
 
 namespace carom::demos {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int kUsualSides = 32, kMostSides = 128;
 
 /// The corners of a regular polygon in the plane at this height.
 void addRing(std::vector<Vec3>& points, int sides, double radius_m, double z_m) {
   for (int k = 0; k < sides; ++k) {
-    const SineCosine both = sineCosine(2.0 * kPi * k / sides);
+    const SineCosine both = sineCosine(2.0 * pi * k / sides);
     points.emplace_back(radius_m * both.cosine, radius_m * both.sine, z_m);
   }
 }

@@ -1,69 +1,25 @@
 #include "demos/junit.h"
 
 #include "demos/cause/cause_json.h"
+#include "demos/markup_text.h"
 
 namespace carom::demos {
 namespace {
 
-bool continues(unsigned char byte) {
-  return (byte & 0xc0) == 0x80;
-}
-
-/// How many bytes the UTF-8 sequence at `at` has; 0 when it is none that XML takes.
-std::size_t sequenceLength(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned first = byte(at), second = byte(at + 1);
-  std::size_t length = 0;
-  if (first < 0x80) length = 1;
-  if (first >= 0xc2 && first <= 0xdf) length = 2;
-  if (first >= 0xe0 && first <= 0xef) length = 3;
-  if (first >= 0xf0 && first <= 0xf4) length = 4;
-  for (std::size_t i = 1; i < length; ++i)
-    if (!continues(static_cast<unsigned char>(byte(at + i)))) return 0;
-  const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-  const bool beyond = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
-  return overlong || beyond ? 0 : length;
-}
-
-/// Text for an XML attribute. Control characters, which XML 1.0 cannot hold, become spaces, bytes that are no
-/// UTF-8 question marks.
-std::string attribute(const std::string& text) {
-  std::string safe;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequenceLength(text, at);
-    const char c = text[at];
-    if (length == 0) {
-      safe += '?';
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '"') {
-      safe += "&quot;";
-    } else if (length == 1 && static_cast<unsigned char>(c) < 0x20) {
-      safe += ' ';
-    } else {
-      safe += text.substr(at, length);
-    }
-    at += length == 0 ? 1 : length;
-  }
-  return safe;
-}
-
 /// The end of the element, with the cause's lines in it where there are some.
 std::string details(const Comparison& c, const std::string& kind) {
   std::string text;
-  for (const std::string& line : causeLines(c.cause)) text += attribute(line) + "\n";
+  for (const std::string& line : causeLines(c.cause)) text += markupText(line) + "\n";
   return text.empty() ? "/>" : ">" + text + "</" + kind + ">";
 }
 
 std::string caseText(const std::string& suite, const Comparison& c, const Gate& gate) {
   const std::string opened =
-      "    <testcase classname=\"" + attribute(suite) + "\" name=\"" + attribute(c.pair.name) + "\"";
+      "    <testcase classname=\"" + markupText(suite) + "\" name=\"" + markupText(c.pair.name) + "\"";
   if (c.passes()) return opened + "/>\n";
   const std::string kind = c.verdict == Verdict::kUnreadable ? "error" : "failure";
   return opened + ">\n      <" + kind + " type=\"" + verdictName(c.verdict) + "\" message=\"" +
-         attribute(comparisonLine(c, gate)) + "\"" + details(c, kind) + "\n    </testcase>\n";
+         markupText(comparisonLine(c, gate)) + "\"" + details(c, kind) + "\n    </testcase>\n";
 }
 
 }  // namespace
@@ -75,7 +31,7 @@ std::string junitText(const std::string& suite, const std::vector<Comparison>& c
                              std::to_string(tally.total - tally.passed - tally.unreadable) + "\" errors=\"" +
                              std::to_string(tally.unreadable) + "\"";
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + counts +
-                     ">\n  <testsuite name=\"" + attribute(suite) + "\"" + counts + " skipped=\"0\">\n";
+                     ">\n  <testsuite name=\"" + markupText(suite) + "\"" + counts + " skipped=\"0\">\n";
   for (const Comparison& c : comparisons) text += caseText(suite, c, gate);
   return text + "  </testsuite>\n</testsuites>\n";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "demos/random_stream.h"
@@ -11,11 +12,11 @@
 namespace carom::demos {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr Range kDegrees{-36000.0, 36000.0};
 
 double radians(double degrees) {
-  return degrees * kPi / 180.0;
+  return degrees * pi / 180.0;
 }
 
 int readCount(const Json& json) {
@@ -158,7 +159,7 @@ std::vector<Pose> readRandom(const Json& json) {
     Pose copy{Quat::Identity(), *place};
     if (turns) {
       const Vec3 axis = random.direction();
-      copy.rotation = rotationBy(axis * (kPi * random.signedUnit()));
+      copy.rotation = rotationBy(axis * (pi * random.signedUnit()));
     }
     copies.push_back(copy);
   }

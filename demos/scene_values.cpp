@@ -1,6 +1,7 @@
 #include "demos/scene_values.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "engine/foundation/elementary.h"
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kUnitTolerance =
     1e-3;  // a quaternion farther from length one than this is a mistake, not rounding
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -24,7 +25,7 @@ Quat readAxisRotation(const Json& json) {
   const Vec3 axis = readVec3(json.at("axis"), kCoordinate);
   if (!(axis.norm() > kSmallestLength_m))
     json.at("axis").fail(json.at("axis").shown() + " has no direction; accepted: an axis of some length");
-  const double radians = readNumber(json.at("degrees"), {-36000.0, 36000.0}) * kPi / 180.0;
+  const double radians = readNumber(json.at("degrees"), {-36000.0, 36000.0}) * pi / 180.0;
   return rotationBy(axis.normalized() * radians);
 }
 

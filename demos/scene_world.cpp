@@ -1,6 +1,7 @@
 #include "demos/scene_world.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace carom::demos {
 namespace {
 
 using Mesh = std::optional<std::filesystem::path>;
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// One stream for each copy of a body.
 RandomStream jitterStream(std::uint64_t seed, std::size_t body, int copy) {
@@ -40,12 +41,12 @@ Pose poseOfCopy(const Body& body, std::uint64_t seed, std::size_t index, int cop
   if (!repeat.copies.empty())
     X_WS.rotation = (repeat.copies[static_cast<std::size_t>(copy)].rotation * X_WS.rotation).normalized();
   if (repeat.turn_degrees != 0.0) {
-    const double radians = repeat.turn_degrees * kPi / 180.0 * copy;
+    const double radians = repeat.turn_degrees * pi / 180.0 * copy;
     X_WS.rotation = (rotationBy(repeat.turn_axis * radians) * X_WS.rotation).normalized();
   }
   if (repeat.jitter_degrees > 0.0) {
     const Vec3 axis = random.direction();
-    const double radians = repeat.jitter_degrees * kPi / 180.0 * random.signedUnit();
+    const double radians = repeat.jitter_degrees * pi / 180.0 * random.signedUnit();
     X_WS.rotation = (rotationBy(axis * radians) * X_WS.rotation).normalized();
   }
   return body.in_group ? body.X_WG * X_WS : X_WS;

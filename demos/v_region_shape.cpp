@@ -1,5 +1,7 @@
 #include "demos/v_region_shape.h"
 
+#include <numbers>
+
 #include "engine/foundation/elementary.h"
 
 namespace carom::demos {
@@ -7,7 +9,7 @@ namespace {
 
 constexpr int kArcSteps = 12;  // Of a quarter turn or less.
 constexpr int kDiscCorners = 48;
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // From p + reach u to p + reach v along the arc about p.
 std::vector<Vec3> arc(const Vec3& p, const Vec3& u, const Vec3& v, double reach_m) {
@@ -32,7 +34,7 @@ void addDisc(RegionShape& shape, const Vec3& p, const Vec3& axis, double reach_m
   const TangentBasis plane = tangentBasis(axis);
   std::vector<Vec3> rim;
   for (int i = 0; i <= kDiscCorners; ++i) {
-    const SineCosine turn = sineCosine(2.0 * kPi * i / kDiscCorners);
+    const SineCosine turn = sineCosine(2.0 * pi * i / kDiscCorners);
     rim.push_back(p + reach_m * (turn.cosine * plane.t1 + turn.sine * plane.t2));
   }
   shape.sides.emplace_back(rim.begin(), rim.end() - 1);

@@ -2,25 +2,10 @@
 
 #include <algorithm>
 
+#include "demos/markup_text.h"
+
 namespace carom::demos {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      safe += ' ';
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 constexpr char kTop[] = R"html(<!doctype html>
 <html lang="en">
@@ -93,21 +78,22 @@ std::string indexPage(const std::vector<SceneOutcome>& outcomes, const std::stri
                    [](const SceneOutcome* a, const SceneOutcome* b) { return passes(*a) < passes(*b); });
   std::string page = kTop;
   const bool all = std::all_of(outcomes.begin(), outcomes.end(), passes);
-  page += std::string("<h1 class=\"") + (all ? "good" : "bad") + "\">" + escaped(suiteSummary(outcomes)) +
-          "</h1>\n<p>" + escaped(suite) +
+  page += std::string("<h1 class=\"") + (all ? "good" : "bad") + "\">" + markupText(suiteSummary(outcomes)) +
+          "</h1>\n<p>" + markupText(suite) +
           "</p>\n<label><input type=\"checkbox\" id=\"failing\"> only those that do not pass</label>\n"
           "<table><thead><tr><th>scene</th><th>verdict</th><th>frames that "
           "pass</th><th>cause</th></tr></thead><tbody>\n";
   for (const SceneOutcome* o : order) {
-    const std::string name = escaped(o->name);
-    page += std::string("<tr data-passes=\"") + (passes(*o) ? "true" : "false") + "\"><td>" +
-            (o->report.empty() ? name
-                               : "<a href=\"" + escaped(o->report.generic_string()) + "\">" + name + "</a>") +
-            "</td><td class=\"" +
-            (passes(*o)     ? "good\">passes"
-             : o->code == 1 ? "bad\">differs"
-                            : "bad\">not judged") +
-            "</td><td>" + countsOf(*o) + "</td><td>" + escaped(sceneLine(*o)) + "</td></tr>\n";
+    const std::string name = markupText(o->name);
+    page +=
+        std::string("<tr data-passes=\"") + (passes(*o) ? "true" : "false") + "\"><td>" +
+        (o->report.empty() ? name
+                           : "<a href=\"" + markupText(o->report.generic_string()) + "\">" + name + "</a>") +
+        "</td><td class=\"" +
+        (passes(*o)     ? "good\">passes"
+         : o->code == 1 ? "bad\">differs"
+                        : "bad\">not judged") +
+        "</td><td>" + countsOf(*o) + "</td><td>" + markupText(sceneLine(*o)) + "</td></tr>\n";
   }
   return page + "</tbody></table>\n" + kBottom;
 }
@@ -134,10 +120,10 @@ std::string suiteJunit(const std::vector<SceneOutcome>& outcomes) {
       text += o.junit;
       continue;
     }
-    text += "  <testsuite name=\"" + escaped(o.name) + "\" tests=\"1\" failures=\"0\" errors=\"" +
-            (passes(o) ? "0" : "1") + "\" skipped=\"0\">\n    <testcase classname=\"" + escaped(o.name) +
+    text += "  <testsuite name=\"" + markupText(o.name) + "\" tests=\"1\" failures=\"0\" errors=\"" +
+            (passes(o) ? "0" : "1") + "\" skipped=\"0\">\n    <testcase classname=\"" + markupText(o.name) +
             "\" name=\"frames\">" +
-            (passes(o) ? "" : "<error type=\"not judged\" message=\"" + escaped(o.problem) + "\"/>") +
+            (passes(o) ? "" : "<error type=\"not judged\" message=\"" + markupText(o.problem) + "\"/>") +
             "</testcase>\n  </testsuite>\n";
   }
   return text + "</testsuites>\n";

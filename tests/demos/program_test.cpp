@@ -63,6 +63,17 @@ TEST(Program, HelpAndVersionAreAlsoCommands) {
     EXPECT_NE(help.find(heading), std::string::npos) << heading;
 }
 
+TEST(Program, EveryOptionStandsUnderAHeading) {
+  for (const char* command : {"list", "render", "simulate", "export", "check", "distance", "compare",
+                              "regress", "budget", "figures", "doctor", "new"}) {
+    const std::string help = runCarom({command, "--help"}).out;
+    const std::size_t begin = help.find("Options:"), end = help.find("\n\n", begin);
+    ASSERT_NE(begin, std::string::npos) << command;
+    const std::string rest = help.substr(begin, end - begin);
+    EXPECT_EQ(rest.find("--"), rest.rfind("--")) << command << ": " << rest;  // that of --help alone
+  }
+}
+
 TEST(Program, SimulateSaysWhatItsCountersMeanAndQuietDoesNot) {
   const std::vector<std::string> words{"simulate", "bouncing-ball", "--duration", "0.1"};
   const std::string told = runCarom(words).err;
