@@ -1,6 +1,7 @@
 #!/bin/bash
 # bash tests/gate/build_mutants.sh OUT [CMAKE OPTIONS]: carom programs with one constant changed each, for
-# seeded_faults.py: light, shader, tone-map and solver. The tree itself is not touched.
+# seeded_faults.py (light, shader, tone-map, solver) and work_seen.py (sweep, texture, band). The tree itself is not
+# touched.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 out=$(mkdir -p "$1" && cd "$1" && pwd)
@@ -22,7 +23,12 @@ mutate() {
   cp "$build/demos/carom" "$out/$1"
   cp "$out/saved" "$copy/$2"
 }
-mutate light renderer/frame_renderer.h "to_light = Vec3(0.50, -0.50, 0.85)" "to_light = Vec3(0.55, -0.50, 0.85)"
-mutate shader renderer/shaders.h "kSkyLight = vec3(0.32," "kSkyLight = vec3(0.34,"
-mutate tone-map renderer/shaders.h "inversesqrt(1.0 + light * light)" "inversesqrt(1.1 + light * light)"
-mutate solver engine/response/contact_solver.cpp "kStirShare = 0.1" "kStirShare = 0.5"
+mutate light renderer/frame/frame_renderer.h "to_light = Vec3(0.50, -0.50, 0.85)" "to_light = Vec3(0.55, -0.50, 0.85)"
+mutate shader renderer/draw/shaders.h "kSkyLight = vec3(0.32," "kSkyLight = vec3(0.34,"
+mutate tone-map renderer/draw/shaders.h "inversesqrt(1.0 + light * light)" "inversesqrt(1.1 + light * light)"
+mutate solver engine/response/sweeps/contact_solver.cpp "kStirShare = 0.1" "kStirShare = 0.5"
+# For work_seen.py: one sweep more a solve, one texel more a side of the shadow map, one band of a PNG more.
+mutate sweep engine/response/sweeps/contact_solver.cpp "if (hasConverged(report, settings, enough, rows.size())) break;" \
+  "if (!hasConverged(report, settings, enough, rows.size())) continue; sweeps.sweep({settings.friction, !forward, kVisitAll, enough}, report); break;"
+mutate texture renderer/view/preset.h "shadow_texels = 1024" "shadow_texels = 1025"
+mutate band renderer/image/png.cpp "if (is_first || std::memcmp(" "if (is_first || i == 0 || std::memcmp("

@@ -5,7 +5,7 @@
     python3 tests/gate/timing_verdicts.py CAROM slowed --slow SLOW_ENCODING [--pairs 100] [--share 0.02] [--clock cpu]
 
   equal   CAROM against itself while --load processes keep the machine busy. Fails where one is called slower.
-  slowed  CAROM against itself, beneath both the library that the build makes of tests/demos/slow_encoding.cpp (for
+  slowed  CAROM against itself, beneath both the library that the build makes of tests/demos/preload/slow_encoding.cpp (for
           Ninja: build/release/tests/libslow_encoding.so), which lengthens packing in one of the two, so
           that its phase takes --share more CPU time. Fails where fewer than 95 of 100 are told with their phase, or another phase is blamed.
 
