@@ -5,7 +5,7 @@ bytes on every run.
 Usage: python3 assets/make_mechanisms.py        (needs nothing but Python 3)
 
 Each function below is one scene with its meshes; what theory says of it opens the file, and is tested in
-tests/demos/mechanism_scenes_test.cpp.
+tests/demos/scene/mechanism_scenes_test.cpp.
 """
 
 import math

@@ -4,7 +4,7 @@
 Usage: python3 assets/make_meshes.py        (needs nothing but Python 3)
 
 Each solid is a list of parts (points, faces); faces are counter-clockwise seen from outside. The volumes that the
-tests compare with are in tests/demos/mesh_import_test.cpp.
+tests compare with are in tests/demos/asset/mesh_import_test.cpp.
 """
 
 import base64

@@ -8,9 +8,9 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "demos/command_line.h"
-#include "demos/exit_code.h"
-#include "demos/limited_memory.h"
+#include "demos/cli/command_line.h"
+#include "demos/system/exit_code.h"
+#include "demos/system/limited_memory.h"
 
 namespace {
 

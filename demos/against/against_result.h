@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "demos/against/sign_test.h"
-#include "demos/frame_cost.h"
-#include "demos/json.h"
+#include "demos/format/json.h"
+#include "demos/motion/frame_cost.h"
 
 namespace carom::demos {
 

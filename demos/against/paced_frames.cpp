@@ -4,7 +4,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "demos/content_hash.h"
+#include "demos/format/content_hash.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {

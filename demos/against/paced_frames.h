@@ -1,13 +1,13 @@
 #pragma once
 // `carom budget --paced`: a replay that draws a frame for each line on standard input and answers with a line
 // of its times and work, so that another program can take turns with it (--against). Tested through the
-// program in tests/demos/against/against_program_test.cpp.
+// program in tests/demos/program/against_program_test.cpp.
 //   first line    carom-paced 1 FRAMES
 //   each answer   state hash, frame time, phases' times (ms), with spaces between; work as "queries=12,..."
 
 #include <string>
 
-#include "demos/budget_run.h"
+#include "demos/budget/budget_run.h"
 
 namespace carom::demos {
 

@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "demos/against/paced_frames.h"
-#include "demos/exit_code.h"
-#include "demos/interrupt.h"
+#include "demos/system/exit_code.h"
+#include "demos/system/interrupt.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {

@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-#include "demos/frame_cost.h"
+#include "demos/motion/frame_cost.h"
 
 namespace carom::demos {
 

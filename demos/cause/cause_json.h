@@ -1,11 +1,11 @@
 #pragma once
-// A cause for programs, for the report, and as lines of text. Tested in tests/demos/cause/cause_test.cpp.
+// A cause for programs, for the report, and as lines of text. Tested in tests/demos/compare/cause_test.cpp.
 
 #include <string>
 #include <vector>
 
 #include "demos/cause/cause_facts.h"
-#include "demos/json.h"
+#include "demos/format/json.h"
 
 namespace carom::demos {
 

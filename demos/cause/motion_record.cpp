@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "demos/cause/packed_text.h"
-#include "demos/content_hash.h"
-#include "demos/json.h"
+#include "demos/format/content_hash.h"
+#include "demos/format/json.h"
 
 namespace carom::demos {
 namespace {

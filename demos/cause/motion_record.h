@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "engine/simulation/world.h"
-#include "renderer/color.h"
-#include "renderer/projection.h"
+#include "renderer/image/color.h"
+#include "renderer/view/projection.h"
 
 namespace carom::demos {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "engine/foundation/contract.h"
-#include "renderer/png.h"
+#include "renderer/image/png.h"
 
 namespace carom::demos {
 namespace {

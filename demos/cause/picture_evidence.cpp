@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "renderer/image_difference.h"
+#include "renderer/image/image_difference.h"
 
 namespace carom::demos {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 // Where in the picture a difference lies: on which bodies, from what the two records say is behind each
-// pixel. Tested in tests/demos/cause/cause_test.cpp.
+// pixel. Tested in tests/demos/compare/cause_test.cpp.
 
 #include "demos/cause/cause_facts.h"
 #include "demos/cause/motion_record.h"
-#include "renderer/raster.h"
+#include "renderer/image/raster.h"
 
 namespace carom::demos {
 

@@ -6,7 +6,7 @@
 
 namespace carom::demos {
 
-/// "renderer/surface_pass.cpp" and eight hexadecimal digits, by name.
+/// "renderer/passes/surface_pass.cpp" and eight hexadecimal digits, by name.
 const Facts& sourcePrints();
 
 }  // namespace carom::demos

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "demos/markup_text.h"
+#include "demos/format/markup_text.h"
 
 namespace carom::demos {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // The outcome of a suite: one page over all scenes, worst first, that opens from disk and leads to each
-// report; JSON and JUnit. Tested in tests/demos/regress/regress_program_test.cpp.
+// report; JSON and JUnit. Tested in tests/demos/program/regress_program_test.cpp.
 
 #include <string>
 #include <vector>

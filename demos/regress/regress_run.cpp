@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "demos/asset_path.h"
-#include "demos/exit_code.h"
-#include "demos/interrupt.h"
+#include "demos/asset/asset_path.h"
+#include "demos/system/exit_code.h"
+#include "demos/system/interrupt.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {

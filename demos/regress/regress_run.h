@@ -1,12 +1,12 @@
 #pragma once
 // Draws and compares the scenes of a suite by processes of this program, several at a time. Tested in
-// tests/demos/regress/regress_program_test.cpp.
+// tests/demos/program/regress_program_test.cpp.
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "demos/json.h"
+#include "demos/format/json.h"
 #include "demos/regress/regress_suite.h"
 
 namespace carom::demos {

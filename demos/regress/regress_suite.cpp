@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "demos/asset_path.h"
-#include "demos/json.h"
+#include "demos/asset/asset_path.h"
+#include "demos/format/json.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {

@@ -4,7 +4,7 @@
 //     "compare": ["--tolerance", "2"],                         and compared with
 //     "scenes": [ "sliding",                                    a shipped scene, golden frames in sliding/
 //                 { "name": "slow", "scene": "my.json", "render": ["--speed", "0.1"], "golden": "slow" } ] }
-// Files and folders are relative to the suite's. Tested in tests/demos/regress/regress_program_test.cpp.
+// Files and folders are relative to the suite's. Tested in tests/demos/program/regress_program_test.cpp.
 
 #include <filesystem>
 #include <string>

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
+#include "engine/foundation/index.h"
+
 namespace carom {
 namespace {
 
 constexpr double kRoom = 0.1;                      // of the smallest width, on every side of what moves
 constexpr std::size_t kMostNear = 4 * kMostPairs;  // with room: eight bytes each
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Proxy withRoom(Proxy proxy) {
   if (!proxy.moves) return proxy;

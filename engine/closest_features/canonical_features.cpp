@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/closest_features/level_axes.h"
+#include "engine/closest_features/separated/level_axes.h"
 
 namespace carom {
 namespace {

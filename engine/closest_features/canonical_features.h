@@ -8,7 +8,7 @@
 // that a swap maps onto itself have two equal answers; that of body A then counts.) Tested in
 // tests/engine/closest_features/canonical_features_test.cpp.
 
-#include "engine/closest_features/core_answer.h"
+#include "engine/closest_features/pair/core_answer.h"
 
 namespace carom {
 

@@ -8,12 +8,12 @@
 
 #include "engine/closest_features/canonical_features.h"
 #include "engine/closest_features/certificate.h"
-#include "engine/closest_features/exhaustive_search.h"
-#include "engine/closest_features/feature_walk.h"
-#include "engine/closest_features/level_axes.h"
-#include "engine/closest_features/penetration.h"
-#include "engine/closest_features/warm_facet.h"
-#include "engine/closest_features/warm_pair.h"
+#include "engine/closest_features/penetrating/penetration.h"
+#include "engine/closest_features/penetrating/warm_facet.h"
+#include "engine/closest_features/separated/exhaustive_search.h"
+#include "engine/closest_features/separated/feature_walk.h"
+#include "engine/closest_features/separated/level_axes.h"
+#include "engine/closest_features/separated/warm_pair.h"
 #include "engine/foundation/contract.h"
 
 namespace carom {

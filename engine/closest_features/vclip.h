@@ -7,8 +7,8 @@
 // (certificate.h) prove answers; debug builds check every one. A walk that finds no way on is counted and
 // answered by exhaustive search. Tested in tests/engine/closest_features/vclip_test.cpp.
 
-#include "engine/closest_features/feature.h"
-#include "engine/closest_features/inner_polytope.h"
+#include "engine/closest_features/pair/feature.h"
+#include "engine/closest_features/penetrating/inner_polytope.h"
 #include "engine/solid/solid.h"
 
 namespace carom {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "engine/closest_features/feature.h"
+#include "engine/closest_features/pair/feature.h"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "engine/closest_features/feature.h"
+#include "engine/closest_features/pair/feature.h"
 #include "engine/solid/convex_polyhedron.h"
 
 namespace carom {

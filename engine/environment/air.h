@@ -1,6 +1,6 @@
 #pragma once
 // Still or moving air. It presses on the windward side of bodies (drag.h); it carries none of their weight.
-// Tested in tests/physics/terminal_velocity_test.cpp and tests/physics/stream_test.cpp.
+// Tested in tests/physics/water/terminal_velocity_test.cpp and tests/physics/water/stream_test.cpp.
 
 #include "engine/foundation/frames.h"
 

@@ -5,8 +5,8 @@
 //   (M + k S(U0) + k w B) U1 = (M - k (1 - w) B) U0 + k F,
 // U relative to the stream. S and B are not negative, so a kick of any length and speed is stable; where
 // drag balances the load it stands still, so the terminal velocity is exact; and on a line it follows tanh to
-// third order. Tested in tests/physics/terminal_velocity_test.cpp and
-// tests/physics/floating_test.cpp.
+// third order. Tested in tests/physics/water/terminal_velocity_test.cpp and
+// tests/physics/water/floating_test.cpp.
 
 #include "engine/environment/body_forces.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Uniform gravity, the external force of the paper (§2.4: applied once per step to bodies in lasting
 // contact). DEVIATES: bodies in flight follow the exact parabola instead (see motion/trajectory.h). Tested in
-// tests/physics/free_fall_test.cpp.
+// tests/physics/flight/free_fall_test.cpp.
 
 #include "engine/motion/rigid_body.h"
 

@@ -10,8 +10,8 @@
 namespace carom {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kLongestPiece = kPi / 3.0;  // rad: of an arc that one application of Gauss's rule takes
+constexpr double kLongestPiece =
+    std::numbers::pi / 3.0;  // rad: of an arc that one application of Gauss's rule takes
 
 // Nodes in (0, 1) and weights of Gauss's rule with eight points.
 constexpr std::array<std::array<double, 2>, 8> kGauss{{{0.019855071751231884, 0.05061426814518813},
@@ -32,8 +32,12 @@ struct CylinderPiece {
 };
 
 CylinderPiece cylinderOf(const ConvexPolyhedron& core, const Edge& edge, const Vec3& apex) {
-  CylinderPiece piece{
-      core.vertex(edge.tail) - apex, edge.direction, Vec3::Zero(), Vec3::Zero(), edge.length_m, kPi};
+  CylinderPiece piece{core.vertex(edge.tail) - apex,
+                      edge.direction,
+                      Vec3::Zero(),
+                      Vec3::Zero(),
+                      edge.length_m,
+                      std::numbers::pi};
   if (edge.left < 0) {
     const TangentBasis basis = tangentBasis(edge.direction);
     piece.m = basis.t1;
@@ -66,7 +70,7 @@ Angles cuttingAngles(const CylinderPiece& piece, double r, const Vec3& n) {
     const double cosine = -height / reach;
     const double off = angleOf(std::sqrt((1.0 - cosine) * (1.0 + cosine)), cosine);
     for (double t : {middle - off, middle + off}) {
-      t -= 2.0 * kPi * std::nearbyint(t / (2.0 * kPi));
+      t -= 2.0 * std::numbers::pi * std::nearbyint(t / (2.0 * std::numbers::pi));
       if (std::abs(t) < piece.half) angles[count++] = t;
     }
   }
@@ -150,9 +154,9 @@ VolumeMoments cutBall(const Vec3& center, double radius_m, const Plane& plane) {
   const double r = radius_m;
   const double depth = std::clamp(r - plane.signedDistance(center), 0.0, 2.0 * r);
   VolumeMoments cap;
-  cap.volume_m3 = kPi * depth * depth * (r - depth / 3.0);
+  cap.volume_m3 = std::numbers::pi * depth * depth * (r - depth / 3.0);
   // Below the centre by the integral of pi t (r^2 - t^2) dt from r - depth to r.
-  const double below = 0.25 * kPi * depth * depth * (2.0 * r - depth) * (2.0 * r - depth);
+  const double below = 0.25 * std::numbers::pi * depth * depth * (2.0 * r - depth) * (2.0 * r - depth);
   cap.first_m4 = cap.volume_m3 * center - below * plane.normal;
   return cap;
 }

@@ -9,8 +9,6 @@
 namespace carom {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Signed area of the spherical triangle a, b, c (Van Oosterom and Strackee 1983).
 double triangleArea(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2.0 * angleOf(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
@@ -62,7 +60,7 @@ void appendRoots(double a, double b, double c, double low, double high, std::vec
   const double off = angleOf(std::sqrt((1.0 - cosine) * (1.0 + cosine)), cosine);
   const double middle = angleOf(b, a);
   for (double t : {middle - off, middle + off})
-    for (double turn : {-2.0 * kPi, 0.0, 2.0 * kPi})
+    for (double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi})
       if (t + turn > low && t + turn < high) roots.push_back(t + turn);
 }
 
@@ -76,10 +74,10 @@ void SpherePiece::addArc(const Vec3& d, const Vec3& corner, const Vec3& other) {
 
 void SpherePiece::addHemisphere(const Vec3& d) {
   const TangentBasis basis = tangentBasis(d);
-  const SineCosine third = sineCosine(2.0 * kPi / 3.0);
+  const SineCosine third = sineCosine(2.0 * std::numbers::pi / 3.0);
   for (double side : {0.0, 1.0, -1.0}) {
     const Vec3 from = side == 0.0 ? basis.t1 : Vec3(third.cosine * basis.t1 + side * third.sine * basis.t2);
-    arcs_.push_back({d, from, 2.0 * kPi / 3.0});
+    arcs_.push_back({d, from, 2.0 * std::numbers::pi / 3.0});
   }
 }
 
@@ -108,14 +106,15 @@ SphereIntegrals SpherePiece::below(const Vec3& n, double c) {
     }
   }
   if (whole) {
-    if (arcs_.empty()) border.sum.area = 4.0 * kPi;
+    if (arcs_.empty()) border.sum.area = 4.0 * std::numbers::pi;
     return border.finish();
   }
   const TangentBasis e = tangentBasis(n);
   const double s = std::sqrt((1.0 - c) * (1.0 + c));
-  angles_.assign({-kPi, kPi});
+  angles_.assign({-std::numbers::pi, std::numbers::pi});
   for (const Arc& arc : arcs_)
-    appendRoots(s * arc.d.dot(e.t1), s * arc.d.dot(e.t2), -c * arc.d.dot(n), -kPi, kPi, angles_);
+    appendRoots(s * arc.d.dot(e.t1), s * arc.d.dot(e.t2), -c * arc.d.dot(n), -std::numbers::pi,
+                std::numbers::pi, angles_);
   std::sort(angles_.begin(), angles_.end());
   for (std::size_t i = 0; i + 1 < angles_.size(); ++i) {
     const SineCosine middle = sineCosine(0.5 * (angles_[i] + angles_[i + 1]));

@@ -6,11 +6,11 @@
 // low kinetic energy, which would freeze a box on a steep incline. (2) is asked of the contact solver itself:
 // from zero velocity, one step's gravity (in air and water: all that they do) must leave zero velocity, or
 // turning that such places could stop. Tested in tests/engine/modes/resting_test.cpp and
-// tests/physics/stick_slip_test.cpp and toppling_test.cpp.
+// tests/physics/friction/stick_slip_test.cpp and toppling_test.cpp.
 
 #include <span>
 
-#include "engine/response/turning_resistance.h"
+#include "engine/response/sweeps/turning_resistance.h"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 

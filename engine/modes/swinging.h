@@ -4,7 +4,7 @@
 // In solids that give, small swings die within seconds. Here they are damped as by dry friction, the more the
 // smaller they are, so that they end where the forces balance. What goes on without turning round, however
 // slowly, is not damped. DEVIATES: the paper has no such mode. Tested in tests/engine/modes/swinging_test.cpp
-// and tests/physics/swing_test.cpp.
+// and tests/physics/friction/swing_test.cpp.
 
 #include "engine/motion/rigid_body.h"
 

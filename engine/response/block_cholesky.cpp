@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/foundation/index.h"
+
 namespace carom {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // b := b - a c', entry by entry in one order.
 void subtractProduct(const Mat6& a, const Mat6& c, Mat6& b) {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/response/shared_sweeps.h"
+#include "engine/response/sweeps/shared_sweeps.h"
 
 namespace carom {
 

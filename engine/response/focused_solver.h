@@ -6,7 +6,7 @@
 // 60 sweeps over all rows reach; where all lie still it takes as many either way. Tested in
 // tests/engine/response/focused_solver_test.cpp.
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 

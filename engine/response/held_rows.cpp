@@ -4,14 +4,12 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 
+#include "engine/foundation/index.h"
+
 namespace carom {
 namespace {
 
 constexpr double kInsideCone = 1.0 - 1e-9;  // of the limit of friction: more slides
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The row's velocity of a point at arm r per velocity of its body.
 Eigen::Matrix<double, 3, 6> jacobian(const ContactRow& row, const Vec3& r) {

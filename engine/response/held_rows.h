@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/response/block_cholesky.h"
-#include "engine/response/contact_solver.h"
+#include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 

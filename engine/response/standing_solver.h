@@ -5,7 +5,7 @@
 // and, warm started, needs one now and then. In heaps of thousands of bodies the factor fills up: the
 // products that a step may take can be bounded. Tested in tests/engine/response/standing_solver_test.cpp.
 
-#include "engine/response/contact_solver.h"
+#include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 

@@ -6,6 +6,7 @@
 // miss most. Every operation treats all rows alike, so that a mirror image has the mirror image's
 // displacements to rounding.
 
+#include "engine/foundation/index.h"
 #include "engine/simulation/least_displacements.h"
 
 #include <algorithm>
@@ -26,10 +27,6 @@ constexpr double kPart = 1e-9;       // ... and so much of what is missing is ne
 // Bounds: a line of N touching bodies takes some 1.5 N products. What is not done then is missing.
 constexpr int kProducts = 5000;
 constexpr int kRowVisits = 30000000;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 using Forces = std::vector<double>;
 

@@ -5,17 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "engine/foundation/index.h"
 #include "engine/modes/resting.h"
-#include "engine/simulation/lasting_contact.h"
+#include "engine/simulation/contacts/lasting_contact.h"
 
 namespace carom {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 // Bodies that press on each other are one island; those of islands in which all have lain still are asked
 // about.

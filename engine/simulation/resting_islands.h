@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/modes/islands.h"
-#include "engine/simulation/contact_assembly.h"
-#include "engine/simulation/flight_plan.h"
+#include "engine/simulation/bodies/flight_plan.h"
+#include "engine/simulation/contacts/contact_assembly.h"
 
 namespace carom {
 

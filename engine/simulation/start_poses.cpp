@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/foundation/index.h"
 #include "engine/modes/islands.h"
 #include "engine/simulation/least_displacements.h"
 
@@ -19,10 +20,6 @@ constexpr double kPlaceRounding = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double kApart = 1e-2;  // of the rest gap, and far above rounding
 // Each round finds pairs that the last one's displacements could meet, or less room than it had assumed.
 constexpr int kRounds = 8;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double roundingOf(const ShapePair& pair, const std::vector<Body>& bodies) {
   const double scale = pair.window.rest / tolerance::kRestGap;

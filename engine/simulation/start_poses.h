@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/simulation/pair_table.h"
+#include "engine/simulation/contacts/pair_table.h"
 
 namespace carom {
 

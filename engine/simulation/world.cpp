@@ -6,25 +6,22 @@
 #include <limits>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/index.h"
 #include "engine/foundation/tolerances.h"
 #include "engine/modes/resting.h"
 #include "engine/modes/sliding.h"
-#include "engine/simulation/event_loop.h"
-#include "engine/simulation/flight_plan.h"
-#include "engine/simulation/lasting_contact.h"
-#include "engine/simulation/pair_table.h"
+#include "engine/simulation/bodies/flight_plan.h"
+#include "engine/simulation/bodies/state_hash.h"
+#include "engine/simulation/bodies/step_paths.h"
+#include "engine/simulation/contacts/lasting_contact.h"
+#include "engine/simulation/contacts/pair_table.h"
+#include "engine/simulation/events/event_loop.h"
+#include "engine/simulation/events/step_record.h"
 #include "engine/simulation/resting_islands.h"
 #include "engine/simulation/start_poses.h"
-#include "engine/simulation/state_hash.h"
-#include "engine/simulation/step_paths.h"
-#include "engine/simulation/step_record.h"
 
 namespace carom {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr double kSameLength = 1e-9;  // relative: steps of one length but for rounding
 
@@ -82,26 +79,6 @@ BodyState stateOf(const Body& body) {
 }
 
 }  // namespace
-
-const char* modeName(Mode mode) {
-  switch (mode) {
-    case Mode::kStatic:
-      return "static";
-    case Mode::kFree:
-      return "free";
-    case Mode::kColliding:
-      return "colliding";
-    case Mode::kSliding:
-      return "sliding";
-    case Mode::kContact:
-      return "contact";
-    case Mode::kResting:
-      return "resting";
-    case Mode::kKinematic:
-      return "kinematic";
-  }
-  return "?";
-}
 
 struct World::Impl {
   WorldSettings settings;

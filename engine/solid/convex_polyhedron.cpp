@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/index.h"
 
 namespace carom {
 namespace {
@@ -19,10 +20,6 @@ constexpr double kPlanarity = 1e-9;
 constexpr double kLevelSlope = 1e-15;
 // Faces whose normals are this close may all be level.
 constexpr double kFlat = 1.0 - 1e-12;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // Newell's normal: robust for any planar polygon, whatever its first corner looks like.
 Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {

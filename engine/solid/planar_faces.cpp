@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/foundation/index.h"
+
 namespace carom {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr int kRounds = 6;
 constexpr std::size_t kMostVisits = 50'000'000;
 constexpr double kSolved = 1e-8;     // of the right-hand side; the next round repairs the rest
 constexpr double kRounding = 4e-16;  // of the polyhedron's reach: a bend below is none
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The corners of a face relative to their mean, in a basis in which heights can be compared with planes.
 struct BentFace {

@@ -8,13 +8,10 @@
 #include <tuple>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/index.h"
 
 namespace carom {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::string shown(const Vec3& p) {
   std::ostringstream text;

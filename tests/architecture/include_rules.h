@@ -1,5 +1,5 @@
 #pragma once
-// Which file may include what: the floors of the engine low to high, the renderer beside them, the demos on
+// Which file may include what: the folders of the engine low to high, those of the renderer, of the demos on
 // top, and one file for each third-party library. A file is judged from its path and its text alone.
 
 #include <algorithm>
@@ -16,11 +16,57 @@ struct Source {
   std::string text;
 };
 
-/// The engine's floors with their height; equal heights must not see each other.
-inline const std::map<std::string, int>& floorHeights() {
-  static const std::map<std::string, int> heights{
-      {"foundation", 0},  {"solid", 1},   {"closest_features", 2}, {"motion", 2}, {"broad_phase", 2},
-      {"environment", 3}, {"contact", 3}, {"response", 4},         {"modes", 5},  {"simulation", 6}};
+/// The folders with their heights. A file includes its own folder and lower ones; equal heights must not see
+/// each other.
+inline const std::map<std::string, int>& folderHeights() {
+  static const std::map<std::string, int> heights{{"engine/foundation", 0},
+                                                  {"engine/solid", 1},
+                                                  {"engine/closest_features/pair", 2},
+                                                  {"engine/solid/decomposition", 2},
+                                                  {"engine/closest_features/penetrating", 3},
+                                                  {"engine/closest_features/separated", 4},
+                                                  {"engine/broad_phase", 5},
+                                                  {"engine/closest_features", 5},
+                                                  {"engine/motion", 5},
+                                                  {"engine/contact", 6},
+                                                  {"engine/environment", 6},
+                                                  {"engine/response/one_point", 7},
+                                                  {"engine/response/sweeps", 8},
+                                                  {"engine/response", 9},
+                                                  {"engine/modes", 10},
+                                                  {"engine/simulation/bodies", 11},
+                                                  {"engine/simulation/contacts", 12},
+                                                  {"engine/simulation/events", 13},
+                                                  {"engine/simulation", 14},
+                                                  {"renderer/image", 20},
+                                                  {"renderer/view", 21},
+                                                  {"renderer/mesh", 22},
+                                                  {"renderer/drawing", 23},
+                                                  {"renderer/gl", 24},
+                                                  {"renderer/draw", 25},
+                                                  {"renderer/passes", 26},
+                                                  {"renderer/frame", 27},
+                                                  {"demos/format", 40},
+                                                  {"demos/system", 41},
+                                                  {"demos/asset", 42},
+                                                  {"demos/scene", 43},
+                                                  {"demos/language", 44},
+                                                  {"demos/cause", 45},
+                                                  {"demos/compare", 46},
+                                                  {"demos/record", 47},
+                                                  {"demos/motion", 48},
+                                                  {"demos/frames", 49},
+                                                  {"demos/video", 50},
+                                                  {"demos/overlay", 51},
+                                                  {"demos/budget", 52},
+                                                  {"demos/against", 53},
+                                                  {"demos/report", 54},
+                                                  {"demos/regress", 55},
+                                                  {"demos/render", 56},
+                                                  {"demos/figure", 57},
+                                                  {"demos/command", 58},
+                                                  {"demos/cli", 59},
+                                                  {"demos", 60}};
   return heights;
 }
 
@@ -32,13 +78,13 @@ struct Library {
 };
 
 inline const std::vector<Library>& guardedLibraries() {
-  static const std::vector<Library> libraries{{"GL", "GL/", {"renderer/gl_functions.h"}},
-                                              {"EGL", "EGL/", {"renderer/egl_context.cpp"}},
-                                              {"ISA-L", "isa-l", {"renderer/quick_deflate.cpp"}},
-                                              {"libpng", "png", {"renderer/png.cpp"}},
-                                              {"Cairo", "cairo", {"renderer/canvas.cpp"}},
-                                              {"assimp", "assimp/", {"demos/mesh_import.cpp"}},
-                                              {"tinygltf", "tiny_gltf.h", {"demos/motion_gltf.cpp"}},
+  static const std::vector<Library> libraries{{"GL", "GL/", {"renderer/gl/gl_functions.h"}},
+                                              {"EGL", "EGL/", {"renderer/gl/egl_context.cpp"}},
+                                              {"ISA-L", "isa-l", {"renderer/image/quick_deflate.cpp"}},
+                                              {"libpng", "png", {"renderer/image/png.cpp"}},
+                                              {"Cairo", "cairo", {"renderer/drawing/canvas.cpp"}},
+                                              {"assimp", "assimp/", {"demos/asset/mesh_import.cpp"}},
+                                              {"tinygltf", "tiny_gltf.h", {"demos/record/motion_gltf.cpp"}},
                                               {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
   return libraries;
 }
@@ -69,23 +115,32 @@ inline std::vector<Include> includesOf(const std::string& text) {
   return includes;
 }
 
+/// The folder of a file, without a slash behind it.
+inline std::string folderOf(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
 /// Why `path` must not include our own header `header`; empty when it may.
 inline std::string arrowProblem(const std::string& path, const std::string& header) {
   const std::vector<std::string> from = partsOf(path), to = partsOf(header);
   if (to.size() < 2 || (to[0] != "engine" && to[0] != "renderer" && to[0] != "demos"))
     return "is not named by its path from the root of the tree";
-  if (from[0] == "demos") return "";
-  if (to[0] == "demos") return "only demos may see demos";
-  if (from[0] == "renderer") {
-    const bool low = to[0] == "renderer" || to[1] == "foundation" || to[1] == "solid";
-    return low ? "" : "the renderer sees foundation and solid only";
+  if (from[0] != "demos" && to[0] == "demos") return "only demos may see demos";
+  if (from[0] == "renderer" && to[0] == "engine" && to[1] != "foundation" && to[1] != "solid")
+    return "the renderer sees foundation and solid only";
+  if (from[0] == "engine" && to[0] == "renderer") return "the engine must not see the renderer";
+  const auto& heights = folderHeights();
+  std::string own = folderOf(path), other = folderOf(header);
+  if (!heights.contains(own)) return "stands on no known floor";
+  if (!heights.contains(other)) return "leads to no known floor";
+  // From one floor of the engine to another it is their own heights that count, not those of their rooms.
+  if (from[0] == "engine" && to[0] == "engine" && from[1] != to[1]) {
+    own = "engine/" + from[1];
+    other = "engine/" + to[1];
   }
-  if (to[0] == "renderer") return "the engine must not see the renderer";
-  const auto& heights = floorHeights();
-  if (from.size() < 3 || !heights.contains(from[1])) return "stands on no known floor";
-  if (to.size() < 3 || !heights.contains(to[1])) return "leads to no known floor";
-  if (from[1] == to[1] || heights.at(to[1]) < heights.at(from[1])) return "";
-  return heights.at(to[1]) == heights.at(from[1]) ? "points sideways" : "points up";
+  if (own == other || heights.at(other) < heights.at(own)) return "";
+  return heights.at(other) == heights.at(own) ? "points sideways" : "points up";
 }
 
 /// Why `path` must not include the library header `header`; empty when it may.
@@ -118,6 +173,21 @@ inline std::vector<std::string> violations(const std::vector<Source>& sources) {
     }
   for (std::size_t i = 1; i < json_files.size(); ++i)
     found.push_back(json_files[i] + ": the JSON library is already named by " + json_files[0]);
+  return found;
+}
+
+/// No folder holds more sources: more are two concepts.
+inline constexpr int kMostSources = 20;
+
+/// One line for each folder that holds too many.
+inline std::vector<std::string> crowdedFolders(const std::vector<std::string>& paths) {
+  std::map<std::string, int> counts;
+  for (const std::string& path : paths) ++counts[folderOf(path)];
+  std::vector<std::string> found;
+  for (const auto& [folder, count] : counts)
+    if (count > kMostSources)
+      found.push_back(folder + " holds " + std::to_string(count) + " sources, more than " +
+                      std::to_string(kMostSources));
   return found;
 }
 

@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "tests/bench/carom_query.h"
-#include "tests/bench/linear_certificate.h"
-#include "tests/bench/true_gap.h"
+#include "tests/bench/peers/carom_query.h"
+#include "tests/bench/queries/linear_certificate.h"
+#include "tests/bench/queries/true_gap.h"
 #include "tests/oracle/test_shapes.h"
 
 namespace carom::bench {

@@ -13,8 +13,8 @@
 
 #include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
-#include "tests/bench/carom_query.h"
-#include "tests/bench/pile_step.h"
+#include "tests/bench/peers/carom_query.h"
+#include "tests/bench/peers/pile_step.h"
 
 namespace carom::bench {
 namespace {

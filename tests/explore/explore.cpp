@@ -8,13 +8,13 @@
 #include <iostream>
 #include <map>
 
-#include "demos/scene_file.h"
+#include "demos/language/scene_file.h"
 #include "engine/foundation/contract.h"
-#include "tests/explore/guarded_run.h"
 #include "tests/explore/open_failures.h"
-#include "tests/explore/query_trial.h"
 #include "tests/explore/scene_text.h"
 #include "tests/explore/shrink.h"
+#include "tests/explore/trial/query_trial.h"
+#include "tests/explore/watch/guarded_run.h"
 
 namespace carom::explore {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "demos/asset_path.h"
+#include "demos/asset/asset_path.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::explore {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "demos/scene.h"
+#include "demos/scene/scene.h"
 
 namespace carom::explore {
 

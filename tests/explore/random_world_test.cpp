@@ -8,7 +8,7 @@
 #include <set>
 
 #include "tests/explore/scene_text.h"
-#include "tests/explore/world_trial.h"
+#include "tests/explore/trial/world_trial.h"
 
 namespace carom::explore {
 namespace {

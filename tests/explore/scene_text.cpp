@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "demos/json.h"
-#include "demos/scene_file.h"
+#include "demos/format/json.h"
+#include "demos/language/scene_file.h"
 
 namespace carom::explore {
 namespace {

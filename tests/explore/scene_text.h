@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "demos/scene.h"
+#include "demos/scene/scene.h"
 
 namespace carom::explore {
 

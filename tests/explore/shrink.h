@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "tests/explore/world_trial.h"
+#include "tests/explore/trial/world_trial.h"
 
 namespace carom::explore {
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "demos/scene_file.h"
+#include "demos/language/scene_file.h"
 #include "tests/explore/scene_text.h"
 
 namespace carom::explore {

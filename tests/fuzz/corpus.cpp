@@ -1,4 +1,4 @@
-#include "corpus.h"
+#include "tests/fuzz/corpus.h"
 
 #include <algorithm>
 #include <fstream>
@@ -7,11 +7,11 @@
 
 #include <unistd.h>
 
-#include "demos/json.h"
-#include "demos/recording.h"
-#include "demos/scene_file.h"
-#include "demos/scene_world.h"
-#include "mutation.h"
+#include "demos/format/json.h"
+#include "demos/language/scene_file.h"
+#include "demos/record/recording.h"
+#include "demos/scene/scene_world.h"
+#include "tests/fuzz/mutation.h"
 
 namespace carom::fuzz {
 namespace fs = std::filesystem;

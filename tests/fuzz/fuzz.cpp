@@ -11,10 +11,10 @@
 
 #include <unistd.h>
 
-#include "corpus.h"
-#include "program.h"
-#include "readers.h"
-#include "watched_work.h"
+#include "tests/fuzz/corpus.h"
+#include "tests/fuzz/program.h"
+#include "tests/fuzz/readers.h"
+#include "tests/fuzz/watched_work.h"
 
 namespace {
 namespace fs = std::filesystem;

@@ -1,11 +1,11 @@
-#include "mutation.h"
+#include "tests/fuzz/mutation.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <vector>
 
-#include "demos/content_hash.h"
+#include "demos/format/content_hash.h"
 
 namespace carom::fuzz {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/foundation/contract.h"
-#include "renderer/png.h"
+#include "renderer/image/png.h"
 
 namespace carom::renderer {
 

@@ -1,4 +1,4 @@
-#include "program.h"
+#include "tests/fuzz/program.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "corpus.h"
+#include "tests/fuzz/corpus.h"
 
 namespace carom::fuzz {
 

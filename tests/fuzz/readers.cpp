@@ -1,17 +1,17 @@
-#include "readers.h"
+#include "tests/fuzz/readers.h"
 
 #include <exception>
 #include <sstream>
 
-#include "demos/distance_query.h"
-#include "demos/exit_code.h"
-#include "demos/recording.h"
-#include "demos/scene_file.h"
-#include "demos/scene_world.h"
-#include "demos/shape_solid.h"
+#include "demos/command/distance_query.h"
+#include "demos/language/scene_file.h"
+#include "demos/record/recording.h"
+#include "demos/scene/scene_world.h"
+#include "demos/scene/shape_solid.h"
+#include "demos/system/exit_code.h"
 #include "engine/foundation/contract.h"
 #include "engine/solid/solid.h"
-#include "renderer/png.h"
+#include "renderer/image/png.h"
 
 namespace carom::fuzz {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-#include "watched_work.h"
+#include "tests/fuzz/watched_work.h"
 
 #include <array>
 #include <atomic>

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ray_caster.h"
+#include "tests/oracle/ray_caster.h"
 
 namespace carom::oracle {
 

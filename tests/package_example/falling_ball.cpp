@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "engine/simulation/world.h"
-#include "renderer/frame_renderer.h"
-#include "renderer/projection.h"
+#include "renderer/frame/frame_renderer.h"
+#include "renderer/view/projection.h"
 
 int main() {
   carom::World world(carom::WorldSettings{});

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "../temporary_folder.h"
 #include "engine/foundation/contract.h"
+#include "tests/demos/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

@@ -1,6 +1,6 @@
 // One memory for whatever is asked: each answer is that of a query without memory, whether the pair has moved
 // a little or far, is another one, or the polytope that is remembered has collapsed. Seeds 7700 to 7703; the
-// same at length is tests/bench/any_history.cpp.
+// same at length is tests/bench/queries/any_history.cpp.
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/closest_features/level_axes.h"
+#include "engine/closest_features/separated/level_axes.h"
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/test_shapes.h"
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "engine/closest_features/feature_distance.h"
-#include "engine/closest_features/penetration.h"
+#include "engine/closest_features/pair/feature_distance.h"
+#include "engine/closest_features/penetrating/penetration.h"
 #include "tests/oracle/adversarial_pairs.h"
 
 namespace carom {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "engine/closest_features/certificate.h"
-#include "tests/bench/true_gap.h"
+#include "tests/bench/queries/true_gap.h"
 #include "tests/oracle/adversarial_pairs.h"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/tolerances.h"
-#include "tests/engine/response/random_contact.h"
+#include "tests/engine/response/sweeps/random_contact.h"
 
 namespace carom {
 namespace {

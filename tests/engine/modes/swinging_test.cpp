@@ -1,5 +1,5 @@
 // Small swings: who counts as swinging, and what it keeps of its velocity. Pendulums are cosines here; what
-// they do in a world is tested in tests/physics/swing_test.cpp.
+// they do in a world is tested in tests/physics/friction/swing_test.cpp.
 
 #include "engine/modes/swinging.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/response/impulse.h"
+#include "engine/response/one_point/impulse.h"
 
 namespace carom {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/engine/response/random_contact.h"
+#include "tests/engine/response/sweeps/random_contact.h"
 
 namespace carom {
 namespace {

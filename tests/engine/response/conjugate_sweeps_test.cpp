@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "tests/engine/response/masonry.h"
+#include "tests/engine/response/sweeps/masonry.h"
 
 namespace carom {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/standing_solver.h"
-#include "tests/engine/response/masonry.h"
+#include "tests/engine/response/sweeps/masonry.h"
 
 namespace carom {
 namespace {

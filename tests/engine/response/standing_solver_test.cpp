@@ -9,7 +9,7 @@
 
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/held_rows.h"
-#include "tests/engine/response/masonry.h"
+#include "tests/engine/response/sweeps/masonry.h"
 
 namespace carom {
 namespace {

@@ -1,6 +1,7 @@
 // Coming to rest, by what is looked at for it.
 
 #include "engine/simulation/resting_islands.h"
+#include "engine/simulation/world.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "engine/simulation/step_view.h"
+#include "engine/simulation/bodies/step_view.h"
+#include "engine/simulation/world.h"
 #include "tests/bench/bin_pile.h"
 
 namespace carom {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -15,8 +16,6 @@
 #include "engine/solid/surface_mesh.h"
 
 namespace carom::generated {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 inline void addQuad(SurfaceMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.push_back({a, b, c});
@@ -80,7 +79,7 @@ inline SurfaceMesh torus(int along, int around, double radius = 1.0, double thic
   std::vector<std::vector<Vec3>> rings(static_cast<std::size_t>(along));
   for (int i = 0; i < along; ++i)
     for (int k = 0; k < around; ++k) {
-      const double a = 2.0 * kPi * i / along, b = 2.0 * kPi * (k + 0.5) / around;
+      const double a = 2.0 * std::numbers::pi * i / along, b = 2.0 * std::numbers::pi * (k + 0.5) / around;
       const double r = radius + thickness * std::cos(b);
       rings[static_cast<std::size_t>(i)].emplace_back(r * std::cos(a), r * std::sin(a),
                                                       thickness * std::sin(b));
@@ -93,11 +92,12 @@ inline SurfaceMesh link(int along, int around, double straight = 1.0) {
   std::vector<std::vector<Vec3>> rings;
   for (int i = 0; i < along + 2; ++i) {
     const int half = along / 2 + 1;
-    const double a = kPi * (i % half) / (half - 1) + (i < half ? -0.5 * kPi : 0.5 * kPi);
+    const double a = std::numbers::pi * (i % half) / (half - 1) +
+                     (i < half ? -0.5 * std::numbers::pi : 0.5 * std::numbers::pi);
     const double shift = i < half ? 0.5 * straight : -0.5 * straight;
     rings.emplace_back();
     for (int k = 0; k < around; ++k) {
-      const double b = 2.0 * kPi * (k + 0.5) / around, r = 0.8 + 0.25 * std::cos(b);
+      const double b = 2.0 * std::numbers::pi * (k + 0.5) / around, r = 0.8 + 0.25 * std::cos(b);
       rings.back().emplace_back(r * std::cos(a) + shift, r * std::sin(a), 0.25 * std::sin(b));
     }
   }
@@ -109,7 +109,7 @@ inline SurfaceMesh turned(const std::vector<Vec2>& outline, int sides) {
   std::vector<std::vector<Vec3>> rings(static_cast<std::size_t>(sides));
   for (int i = 0; i < sides; ++i)
     for (const Vec2& p : outline) {
-      const double a = 2.0 * kPi * i / sides;
+      const double a = 2.0 * std::numbers::pi * i / sides;
       rings[static_cast<std::size_t>(i)].emplace_back(p.x() * std::cos(a), p.x() * std::sin(a), p.y());
     }
   SurfaceMesh mesh = band(rings);
@@ -126,11 +126,11 @@ inline SurfaceMesh cup(int sides) {
 inline SurfaceMesh bowl(int sides, int rows) {
   std::vector<Vec2> outline;
   for (int i = 0; i <= rows; ++i) {
-    const double a = 0.5 * kPi * i / rows;
+    const double a = 0.5 * std::numbers::pi * i / rows;
     outline.emplace_back(1.15 * std::sin(a), -1.15 * std::cos(a));
   }
   for (int i = rows; i >= 0; --i) {
-    const double a = 0.5 * kPi * i / rows;
+    const double a = 0.5 * std::numbers::pi * i / rows;
     outline.emplace_back(std::sin(a), -std::cos(a));
   }
   outline.front().x() = outline.back().x() = 0.0;
@@ -142,7 +142,7 @@ inline SurfaceMesh gear(int teeth) {
   std::vector<std::vector<Vec3>> rings;
   for (int i = 0; i < 4 * teeth; ++i) {
     const double shares[] = {0.0, 0.3, 0.45, 0.85};
-    const double a = 2.0 * kPi * (i / 4 + shares[i % 4]) / teeth;
+    const double a = 2.0 * std::numbers::pi * (i / 4 + shares[i % 4]) / teeth;
     const double r = i % 4 == 0 || i % 4 == 3 ? 0.85 : 1.05;
     const Vec3 out(std::cos(a), std::sin(a), 0.0), up(0.0, 0.0, 0.15);
     rings.push_back({r * out - up, r * out + up, 0.4 * out + up, 0.4 * out - up});
@@ -185,12 +185,13 @@ inline SurfaceMesh dentedBall(int sides, int rows, int every, std::uint64_t seed
                                r * std::cos(latitude) * std::sin(longitude), r * std::sin(latitude));
     return static_cast<int>(mesh.vertices.size()) - 1;
   };
-  const int south = add(-0.5 * kPi, 0.0), north = add(0.5 * kPi, 0.0);
+  const int south = add(-0.5 * std::numbers::pi, 0.0), north = add(0.5 * std::numbers::pi, 0.0);
   std::vector<std::vector<int>> rings;
   for (int i = 1; i < rows; ++i) {
     rings.emplace_back();
     for (int k = 0; k < sides; ++k)
-      rings.back().push_back(add(kPi * i / rows - 0.5 * kPi, 2.0 * kPi * k / sides));
+      rings.back().push_back(
+          add(std::numbers::pi * i / rows - 0.5 * std::numbers::pi, 2.0 * std::numbers::pi * k / sides));
   }
   for (std::size_t k = 0; k < rings[0].size(); ++k) {
     const std::size_t l = (k + 1) % rings[0].size();

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
-#include "engine/solid/surface_crossing.h"
+#include "engine/solid/decomposition/surface_crossing.h"
 #include "tests/engine/solid/generated_meshes.h"
 
 namespace carom {

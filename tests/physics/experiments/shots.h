@@ -1,7 +1,7 @@
 #pragma once
 // Fast bodies and thin obstacles: what came out on the other side is told by topology alone. The long runs of
 // our own engine, to 10^4 m/s and 500 rad/s and with an overlap oracle, are `stress tunnelling`
-// (tests/bench/tunnelling_trials.h).
+// (tests/bench/stress/tunnelling_trials.h).
 
 #include "tests/oracle/test_shapes.h"
 #include "tests/physics/experiments/experiment.h"

@@ -1,0 +1,13 @@
+#pragma once
+// The command line: commands, options, help with an example for each. command_line.cpp is the only file that
+// names the option library. Tested through the program in tests/demos/program/program_test.cpp.
+
+#include "demos/system/exit_code.h"
+
+namespace carom::demos {
+
+/// Carries out a command line. Throws UsageError for one that makes no sense, and whatever the command
+/// throws.
+ExitCode runCommandLine(int argc, char** argv);
+
+}  // namespace carom::demos

@@ -1,0 +1,61 @@
+#include "demos/compare/golden_update.h"
+
+#include <iterator>
+
+#include "demos/cause/motion_record.h"
+#include "demos/system/atomic_file.h"
+#include "engine/foundation/contract.h"
+#include "engine/foundation/input_file.h"
+
+namespace carom::demos {
+namespace {
+
+void copyWhole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::ifstream in = openInputFile(from);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in || bytes.empty()) throw InputError("cannot read '" + from.string() + "': it has changed meanwhile");
+  AtomicFile file(to);
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace
+
+Update plannedUpdate(const Comparison& comparison) {
+  if (comparison.passes()) return Update::kNone;
+  if (!comparison.actual_shape) return Update::kRefused;
+  return comparison.pair.has_golden ? Update::kReplaced : Update::kAdded;
+}
+
+Update updateGolden(const Comparison& comparison) {
+  const Update update = plannedUpdate(comparison);
+  if (update == Update::kReplaced || update == Update::kAdded)
+    copyWhole(comparison.pair.actual, comparison.pair.golden);
+  return update;
+}
+
+bool hasRecord(const ImagePair& pair) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(pair.actual.parent_path() / kRecordName, ignored);
+}
+
+void updateRecord(const ImagePair& pair) {
+  if (hasRecord(pair))
+    copyWhole(pair.actual.parent_path() / kRecordName, pair.golden.parent_path() / kRecordName);
+}
+
+const char* updateName(Update update) {
+  switch (update) {
+    case Update::kNone:
+      return "";
+    case Update::kReplaced:
+      return "replaced";
+    case Update::kAdded:
+      return "added";
+    case Update::kRefused:
+      return "kept";
+  }
+  return "";
+}
+
+}  // namespace carom::demos

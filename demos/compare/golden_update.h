@@ -1,0 +1,36 @@
+#pragma once
+// Golden images replaced by what was rendered: only those that the gate refuses, each whole or not at all,
+// byte for byte, so that text chunks with the frame's identity come along. A golden image whose counterpart
+// is missing is never deleted. Tested in tests/demos/compare/golden_update_test.cpp.
+
+#include <string>
+
+#include "demos/compare/comparison.h"
+
+namespace carom::demos {
+
+enum class Update {
+  kNone,  ///< The gate lets the golden image pass as it is.
+  kReplaced,
+  kAdded,
+  kRefused  ///< There is no whole image to put in its place.
+};
+
+/// What updateGolden would do.
+Update plannedUpdate(const Comparison& comparison);
+
+/// Writes the golden file where that is called for. Throws CannotWrite, and InputError when the actual file
+/// has gone since it was compared.
+Update updateGolden(const Comparison& comparison);
+
+/// Whether the actual frames have a record beside them.
+bool hasRecord(const ImagePair& pair);
+
+/// Puts the record of the actual frames' folder (cause/motion_record.h) beside the golden ones, where there
+/// is one. Throws CannotWrite.
+void updateRecord(const ImagePair& pair);
+
+/// "replaced", "added", "kept" or "" for none.
+const char* updateName(Update update);
+
+}  // namespace carom::demos

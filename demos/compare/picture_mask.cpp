@@ -1,0 +1,111 @@
+#include "demos/compare/picture_mask.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "demos/system/exit_code.h"
+#include "engine/foundation/contract.h"
+#include "renderer/image/image_difference.h"
+#include "renderer/image/png.h"
+
+namespace carom::demos {
+
+struct PictureMask::Rule {
+  std::string body;  ///< Empty: one of the others.
+  int x = 0, y = 0, width = 0, height = 0;
+  std::string file;
+  std::optional<renderer::Raster> image;
+};
+
+namespace {
+
+constexpr int kAround = 2;  // pixels
+
+/// Calls `mark(pixel)` for those on the body and `kAround` around them.
+template <typename Mark>
+void markBody(const RecordedShot& shot, std::int32_t body, const Mark& mark) {
+  for (int y = 0; y < shot.height; ++y)
+    for (int x = 0; x < shot.width; ++x) {
+      if (shot.bodies[static_cast<std::size_t>(y * shot.width + x)] != body) continue;
+      for (int v = std::max(0, y - kAround); v <= std::min(shot.height - 1, y + kAround); ++v)
+        for (int u = std::max(0, x - kAround); u <= std::min(shot.width - 1, x + kAround); ++u)
+          mark(static_cast<std::size_t>(v * shot.width + u));
+    }
+}
+
+bool isMarked(const renderer::Raster& image, std::size_t pixel) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t colors = channels - (channels % 2 == 0 ? 1 : 0);  // without alpha
+  for (std::size_t c = 0; c < colors; ++c)
+    if (image.samples[pixel * channels + c] != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+PictureMask::PictureMask(const std::vector<std::string>& texts, RecordShelf& shelf) : shelf_(shelf) {
+  for (const std::string& text : texts) {
+    Rule rule;
+    char rest = 0;
+    if (text.rfind("body:", 0) == 0 && text.size() > 5) {
+      rule.body = text.substr(5);
+    } else if (text.rfind("png:", 0) == 0 && text.size() > 4) {
+      rule.file = text.substr(4);
+      rule.image = renderer::readPngRaster(rule.file).raster;
+    } else if (std::sscanf(text.c_str(), "rect:%d,%d,%d,%d%c", &rule.x, &rule.y, &rule.width, &rule.height,
+                           &rest) != 4 ||
+               rule.width <= 0 || rule.height <= 0 || rule.x < 0 || rule.y < 0) {
+      throw UsageError("--mask " + text + ": accepted: body:NAME, rect:X,Y,W,H or png:FILE");
+    }
+    rules_.push_back(std::move(rule));
+  }
+}
+
+PictureMask::~PictureMask() = default;
+
+void PictureMask::apply(const ImagePair& pair, renderer::Raster& actual,
+                        const renderer::Raster& golden) const {
+  if (!any() || !renderer::comparable(actual, golden) || actual.channels != golden.channels) return;
+  const auto pixels = static_cast<std::size_t>(actual.width) * static_cast<std::size_t>(actual.height);
+  std::vector<bool> masked(pixels, false);
+  for (const Rule& rule : rules_) {
+    if (rule.image) {
+      if (rule.image->width != actual.width || rule.image->height != actual.height)
+        throw InputError("--mask png:" + rule.file + ": " + std::to_string(rule.image->width) + "x" +
+                         std::to_string(rule.image->height) + "; accepted: the size of " + pair.name + ", " +
+                         std::to_string(actual.width) + "x" + std::to_string(actual.height));
+      for (std::size_t i = 0; i < pixels; ++i) masked[i] = masked[i] || isMarked(*rule.image, i);
+    } else if (rule.body.empty()) {
+      for (int y = rule.y; y < std::min(rule.y + rule.height, actual.height); ++y)
+        for (int x = rule.x; x < std::min(rule.x + rule.width, actual.width); ++x)
+          masked[static_cast<std::size_t>(y * actual.width + x)] = true;
+    } else {
+      const std::lock_guard lock(reading_);
+      bool known = false;
+      for (const auto& path : {pair.actual, pair.golden}) {
+        const MotionRecord* record = shelf_.of(path);
+        const RecordedShot* shot = record != nullptr
+                                       ? record->shotOf(std::filesystem::path(pair.name).filename().string())
+                                       : nullptr;
+        if (shot == nullptr || shot->width != actual.width || shot->height != actual.height ||
+            shot->bodies.empty())
+          continue;
+        for (std::size_t b = 0; b < record->bodies.size(); ++b) {
+          if (record->bodies[b].name != rule.body) continue;
+          known = true;
+          markBody(*shot, static_cast<std::int32_t>(b), [&](std::size_t i) { masked[i] = true; });
+        }
+      }
+      if (!known)
+        throw InputError("--mask body:" + rule.body + ": no record beside " + pair.name +
+                         " knows it; accepted: a body of frames drawn with --states or --portable");
+    }
+  }
+  const auto channels = static_cast<std::size_t>(actual.channels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (masked[i])
+      for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) actual.samples[c] = golden.samples[c];
+}
+
+}  // namespace carom::demos

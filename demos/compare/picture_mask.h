@@ -1,0 +1,42 @@
+#pragma once
+// Parts of a picture that a comparison does not look at: bodies, rectangles, and what another image marks.
+//   body:NAME      the pixels on that body, then or now, and two around them, where edges are smoothed and
+//                  contact darkens; from the records beside the frames (states.carom)
+//   rect:X,Y,W,H   pixels
+//   png:FILE       the pixels that are not black in that image of the frames' size
+// Tested in tests/demos/compare/picture_mask_test.cpp.
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "demos/compare/cause.h"
+#include "demos/compare/image_pairs.h"
+#include "renderer/image/raster.h"
+
+namespace carom::demos {
+
+class PictureMask {
+ public:
+  /// Throws UsageError for a text that is none of the above, InputError for a file that is no image. `shelf`
+  /// must outlive this.
+  PictureMask(const std::vector<std::string>& texts, RecordShelf& shelf);
+  ~PictureMask();
+  PictureMask(const PictureMask&) = delete;
+  PictureMask& operator=(const PictureMask&) = delete;
+
+  bool any() const { return !rules_.empty(); }
+  /// Makes the masked pixels of `actual` those of `golden`, where the two are comparable. From any thread.
+  /// Throws InputError where a body is masked and the frame has no record, or where an image is of another
+  /// size.
+  void apply(const ImagePair& pair, renderer::Raster& actual, const renderer::Raster& golden) const;
+
+ private:
+  struct Rule;
+  std::vector<Rule> rules_;
+  RecordShelf& shelf_;
+  mutable std::mutex reading_;  // of the shelf
+};
+
+}  // namespace carom::demos

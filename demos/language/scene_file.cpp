@@ -1,0 +1,479 @@
+#include "demos/language/scene_file.h"
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "demos/asset/asset_path.h"
+#include "demos/format/json.h"
+#include "demos/format/nearest_name.h"
+#include "demos/language/common_shapes.h"
+#include "demos/language/scene_expansion.h"
+#include "demos/language/scene_mistakes.h"
+#include "demos/language/scene_motion.h"
+#include "demos/language/scene_pattern.h"
+#include "demos/language/scene_remedies.h"
+#include "demos/language/scene_values.h"
+#include "engine/foundation/contract.h"
+
+namespace carom::demos {
+namespace {
+
+using std::numbers::pi;
+
+// Materials.
+
+struct NamedMaterial {
+  Material physical;
+  SurfaceLook look;
+};
+using Materials = std::map<std::string, NamedMaterial>;
+
+NamedMaterial readMaterial(const Json& json) {
+  json.onlyKeys({"staticFriction", "dynamicFriction", "rollingResistance", "spinningResistance",
+                 "restitution", "density", "dragCoefficient", "color", "checker"});
+  NamedMaterial material;
+  Material& m = material.physical;
+  if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
+  m.dynamic_friction = m.static_friction;
+  if (const Json* value = json.find("dynamicFriction")) {
+    m.dynamic_friction = readNumber(*value, {0.0, 100.0});
+    if (m.dynamic_friction > m.static_friction)
+      value->fail(value->shown() + " is above the static friction of " + plainNumber(m.static_friction) +
+                  "; accepted: at most that");
+  }
+  if (const Json* value = json.find("rollingResistance"))
+    m.rolling_resistance_m = readNumber(*value, kResistance);
+  if (const Json* value = json.find("spinningResistance"))
+    m.spinning_resistance_m = readNumber(*value, kResistance);
+  if (const Json* value = json.find("restitution")) m.restitution = readNumber(*value, {0.0, 1.0});
+  if (const Json* value = json.find("density"))
+    m.density_kgpm3 = readNumber(*value, {0.0, kLargestDensity_kgpm3});
+  if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);
+  if (const Json* value = json.find("color")) {
+    material.look.color = readColor(*value);
+    material.look.has_color = true;
+  }
+  if (const Json* value = json.find("checker")) material.look.checker = value->asBoolean();
+  return material;
+}
+
+Materials readMaterials(const Json& json) {
+  Materials materials;
+  for (const auto& [name, value] : json.members()) {
+    materials[name] = readMaterial(value);
+    materials[name].look.material = name;
+  }
+  return materials;
+}
+
+NamedMaterial chooseMaterial(const Json& json, const Materials& materials) {
+  if (json.kind() == Json::Kind::kObject) return readMaterial(json);
+  const std::string& name = json.asString();
+  const auto found = materials.find(name);
+  if (found != materials.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, unused] : materials) names.push_back(known);
+  json.fail("unknown material \"" + name + "\"" + acceptedNames(name, names));
+}
+
+// Shapes: one of box, sphere, capsule, hull, mesh, compound.
+
+/// A "hull", of points or a file; a "mesh" is a file as it is, or with "hull": true its hull.
+HullShape readHull(const Json& json, const std::filesystem::path& scene_file, bool is_mesh) {
+  HullShape hull;
+  if (is_mesh) {
+    json.onlyKeys({"file", "scale", "fit", "up", "hull", "replaceable"});
+    json.at("file");
+    const Json* as_hull = json.find("hull");
+    hull.as_hull = as_hull != nullptr && as_hull->asBoolean();
+  } else {
+    json.onlyKeys({"file", "points", "scale", "fit", "up", "replaceable"});
+  }
+  const Json* file = json.find("file");
+  const Json* points = json.find("points");
+  if ((file == nullptr) == (points == nullptr)) json.fail("accepted: either \"file\" or \"points\"");
+  if (file != nullptr) {
+    const std::optional<std::filesystem::path> found = findBeside(scene_file, file->asString());
+    if (!found) file->fail("no file " + file->shown() + " beside the scene or in the assets folder");
+    hull.file = *found;
+  }
+  if (points != nullptr)
+    for (const Json& point : points->items()) hull.points.push_back(readVec3(point, kCoordinate));
+  if (const Json* scale = json.find("scale")) hull.scale = readNumber(*scale, {1e-9, 1e9});
+  if (const Json* fit = json.find("fit")) {
+    if (json.find("scale") != nullptr) fit->fail("given together with \"scale\"; accepted: one of them");
+    hull.fit_m = readNumber(*fit, kLength);
+  }
+  if (const Json* up = json.find("up")) {
+    if (file == nullptr) up->fail("only a \"file\" has an axis that is up");
+    if (up->asString() != "y" && up->asString() != "z") up->fail(up->shown() + "; accepted: \"y\", \"z\"");
+    hull.y_up = up->asString() == "y";
+  }
+  if (const Json* replaceable = json.find("replaceable")) {
+    hull.replaceable = replaceable->asBoolean();
+    if (hull.replaceable && file == nullptr) replaceable->fail("only a hull with a \"file\" can be replaced");
+  }
+  return hull;
+}
+
+Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound = false);
+
+CompoundShape readCompound(const Json& json, const std::filesystem::path& file) {
+  CompoundShape compound;
+  if (json.items().size() > kMostParts)
+    json.fail(std::to_string(json.items().size()) + " parts; accepted: at most " +
+              std::to_string(kMostParts));
+  for (const Json& item : json.items()) {
+    item.onlyKeys({"shape", "position", "rotation"});
+    compound.parts.push_back({readShape(item.at("shape"), file, true), readPose(item)});
+  }
+  if (compound.parts.empty()) json.fail("a compound needs at least one part");
+  return compound;
+}
+
+Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound) {
+  json.onlyKeys({"box", "sphere", "capsule", "cylinder", "cone", "prism", "wedge", "roundedBox", "hull",
+                 "mesh", "compound"});
+  if (json.members().size() != 1)
+    json.fail(
+        "accepted: exactly one of box, sphere, capsule, cylinder, cone, prism, wedge, roundedBox, hull, "
+        "mesh, "
+        "compound");
+  const auto& [kind, value] = json.members().front();
+  Shape shape;
+  if (isCommonShape(kind)) shape = readCommonShape(kind, value);
+  shape.place = placeOf(value, file);
+  if (isCommonShape(kind)) return shape;
+  if (kind == "box") {
+    shape.form = BoxShape{readVec3(value, kLength)};
+  } else if (kind == "sphere") {
+    value.onlyKeys({"radius"});
+    shape.form = SphereShape{readNumber(value.at("radius"), kLength)};
+  } else if (kind == "capsule") {
+    value.onlyKeys({"radius", "length"});
+    shape.form =
+        CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
+  } else if (kind == "hull") {
+    shape.form = readHull(value, file, false);
+  } else if (kind == "mesh") {
+    shape.form = readHull(value, file, true);
+  } else {
+    if (inside_compound) value.fail("a compound cannot hold a compound; accepted: any other shape");
+    shape.form = readCompound(value, file);
+  }
+  return shape;
+}
+
+// Bodies.
+
+/// What it was given in its group's frame, in the world's.
+void putIntoGroup(const ExpandedBody& written, Body& body) {
+  body.in_group = true;
+  body.X_WG = written.X_WG;
+  body.linear_velocity = written.X_WG.rotation * body.linear_velocity;
+  body.angular_velocity = written.X_WG.rotation * body.angular_velocity;
+  for (Keyframe& keyframe : body.keyframes) keyframe.X_WB = written.X_WG * keyframe.X_WB;
+}
+
+Body readBody(const ExpandedBody& written, const Materials& materials, std::vector<std::string>& warnings) {
+  const Json& json = written.json;
+  const std::filesystem::path& file = written.file;
+  json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
+                 "dragCoefficient", "color", "static", "repeat", "mass", "kinematic", "locked", "force",
+                 "torque", "bodyForce", "bodyTorque"});
+  Body body;
+  body.place = placeOf(json, file);
+  body.name = json.at("name").asString();
+  if (body.name.empty()) json.at("name").fail("a body needs a name");
+  body.shape = readShape(json.at("shape"), file);
+  body.X_WS = readPose(json);
+  if (const Json* velocity = json.find("linearVelocity")) body.linear_velocity = readVec3(*velocity, kSpeed);
+  if (const Json* velocity = json.find("angularVelocity"))
+    body.angular_velocity = readVec3(*velocity, kSpeed);
+  if (const Json* is_static = json.find("static")) body.is_static = is_static->asBoolean();
+  readMotion(json, body);
+  if (const Json* material = json.find("material")) {
+    const NamedMaterial chosen = chooseMaterial(*material, materials);
+    body.material = chosen.physical;
+    body.look = chosen.look;
+    if (!body.is_static && !body.is_kinematic && !body.mass_kg &&
+        !(body.material.density_kgpm3 >= kDensity.low))
+      material->fail("density " + plainNumber(body.material.density_kgpm3) +
+                     " for a body that moves; accepted: " + shown(kDensity));
+  }
+  if (const Json* value = json.find("dragCoefficient"))
+    body.material.drag_coefficient = readNumber(*value, kFactor);
+  if (const Json* color = json.find("color")) body.colors = readColors(*color);
+  if (const Json* repeat = json.find("repeat")) {
+    body.repeat = readRepeat(*repeat, warnings);
+    requireWithinReach(*repeat, body);
+  }
+  if (body.is_static && (!body.linear_velocity.isZero(0.0) || !body.angular_velocity.isZero(0.0)))
+    json.fail("a static body has no velocity; accepted: leave out linearVelocity and angularVelocity");
+  if (written.in_group) putIntoGroup(written, body);
+  requireOneMotion(json, body);
+  return body;
+}
+
+std::vector<Body> readBodies(const ExpandedScene& scene, const Materials& materials,
+                             std::vector<std::string>& warnings) {
+  std::vector<Body> bodies;
+  std::set<std::string> names;
+  int total = 0;
+  for (const ExpandedBody& written : scene.expanded) {
+    bodies.push_back(readBody(written, materials, warnings));
+    const Json& item = written.json;
+    if (!names.insert(bodies.back().name).second)
+      item.at("name").fail(item.at("name").shown() + " names two bodies");
+    total += bodies.back().repeat.total();
+    if (total > kMostBodies) item.fail("more bodies than " + std::to_string(kMostBodies));
+  }
+  if (bodies.empty()) scene.bodies.fail("a scene needs at least one body");
+  return bodies;
+}
+
+// Air and fluids.
+
+Air readAir(const Json& json) {
+  json.onlyKeys({"density", "wind", "skinFriction"});
+  Air air;
+  air.density_kgpm3 = 1.2;
+  if (const Json* value = json.find("density")) air.density_kgpm3 = readNumber(*value, {0.0, 1e4});
+  if (const Json* value = json.find("wind")) air.wind = readVec3(*value, kSpeed);
+  if (const Json* value = json.find("skinFriction")) air.skin_friction = readNumber(*value, kFactor);
+  return air;
+}
+
+Vec2 readDirection(const Json& json) {
+  if (json.items().size() != 2)
+    json.fail(json.shown() + " has " + std::to_string(json.items().size()) +
+              " numbers; accepted: two, x and y");
+  const Vec2 direction(readNumber(json.items()[0], kCoordinate), readNumber(json.items()[1], kCoordinate));
+  if (!(direction.norm() > kSmallestLength_m))
+    json.fail(json.shown() + " has no direction; accepted: two numbers, x and y, of some length");
+  return direction.normalized();
+}
+
+Wave readWave(const Json& json) {
+  json.onlyKeys({"amplitude", "wavelength", "direction", "period", "phaseDegrees"});
+  Wave wave;
+  wave.amplitude_m = readNumber(json.at("amplitude"), {0.0, kLargestLength_m});
+  wave.wavelength_m = readNumber(json.at("wavelength"), {0.01, kLargestLength_m});
+  if (const Json* value = json.find("direction")) wave.direction = readDirection(*value);
+  if (const Json* value = json.find("period")) wave.period_s = readNumber(*value, {0.01, 1e5});
+  if (const Json* value = json.find("phaseDegrees"))
+    wave.phase = readNumber(*value, {-36000.0, 36000.0}) * pi / 180.0;
+  return wave;
+}
+
+void readFluidSpace(const Json& json, Fluid& fluid) {
+  const Json* box = json.find("box");
+  const Json* level = json.find("level");
+  if ((box == nullptr) == (level == nullptr)) json.fail("accepted: either \"box\" or \"level\"");
+  if (level != nullptr) {
+    fluid.max.z() = readNumber(*level, kCoordinate);
+    return;
+  }
+  box->onlyKeys({"min", "max"});
+  fluid.min = readVec3(box->at("min"), kCoordinate);
+  fluid.max = readVec3(box->at("max"), kCoordinate);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (!(fluid.max[axis] - fluid.min[axis] >= kSmallestLength_m))
+      box->at("max").fail(box->at("max").shown() + " is not above \"min\" along " + "xyz"[axis] +
+                          "; accepted: larger along every axis");
+}
+
+NamedFluid readFluid(const Json& json, const std::filesystem::path& file) {
+  json.onlyKeys(
+      {"name", "box", "level", "density", "drag", "linearDrag", "flow", "addedMass", "waves", "color"});
+  NamedFluid named;
+  named.place = placeOf(json, file);
+  named.name = json.at("name").asString();
+  if (named.name.empty()) json.at("name").fail("a fluid needs a name");
+  Fluid& fluid = named.fluid;
+  readFluidSpace(json, fluid);
+  if (const Json* value = json.find("density")) fluid.density_kgpm3 = readNumber(*value, kDensity);
+  if (const Json* value = json.find("drag")) fluid.drag = readNumber(*value, kFactor);
+  if (const Json* value = json.find("linearDrag")) fluid.linear_drag_mps = readNumber(*value, kFactor);
+  if (const Json* value = json.find("flow")) fluid.flow = readVec3(*value, kSpeed);
+  if (const Json* value = json.find("addedMass")) fluid.added_mass = readNumber(*value, kFactor);
+  if (const Json* value = json.find("waves"))
+    for (const Json& item : value->items()) fluid.waves.push_back(readWave(item));
+  if (const Json* value = json.find("color")) named.color = readColor(*value);
+  return named;
+}
+
+std::vector<NamedFluid> readFluids(const Json& json, const std::filesystem::path& file) {
+  std::vector<NamedFluid> fluids;
+  std::set<std::string> names;
+  for (const Json& item : json.items()) {
+    fluids.push_back(readFluid(item, file));
+    if (!names.insert(fluids.back().name).second)
+      item.at("name").fail(item.at("name").shown() + " names two fluids");
+  }
+  return fluids;
+}
+
+// Cameras: one of "eye" and "target", "fit", "follow", "orbit".
+
+void readStillCamera(const Json& json, SceneCamera& camera) {
+  json.onlyKeys({"eye", "target", "fovDegrees"});
+  camera.eye = readVec3(json.at("eye"), kCoordinate);
+  camera.target = readVec3(json.at("target"), kCoordinate);
+  if (!((camera.eye - camera.target).norm() > kSmallestLength_m)) json.fail("eye and target coincide");
+}
+
+Vec3 readOffset(const Json& json) {
+  const Vec3 offset = readVec3(json, kCoordinate);
+  if (!(offset.norm() > kSmallestLength_m))
+    json.fail(json.shown() + " has no direction; accepted: a vector of some length");
+  return offset;
+}
+
+void readFitCamera(const Json& json, SceneCamera& camera) {
+  json.onlyKeys({"fit", "direction", "fovDegrees"});
+  if (!json.at("fit").asBoolean()) json.at("fit").fail("accepted: true, or another kind of camera");
+  FitView fit;
+  if (const Json* direction = json.find("direction")) fit.direction = readOffset(*direction);
+  camera.motion = fit;
+}
+
+/// The names of all copies, in the order of the scene and sorted.
+struct BodyNames {
+  explicit BodyNames(const std::vector<Body>& bodies) {
+    for (const Body& body : bodies)
+      for (int copy = 0; copy < body.repeat.total(); ++copy) in_order.push_back(nameOfCopy(body, copy));
+    sorted = in_order;
+    std::sort(sorted.begin(), sorted.end());
+  }
+  std::vector<std::string> in_order, sorted;
+};
+
+void readFollowCamera(const Json& json, const BodyNames& names, SceneCamera& camera) {
+  json.onlyKeys({"follow", "offset", "fovDegrees"});
+  FollowBody follow{json.at("follow").asString(), {}};
+  if (!std::binary_search(names.sorted.begin(), names.sorted.end(), follow.body))
+    json.at("follow").fail("unknown body " + json.at("follow").shown() +
+                           acceptedNames(follow.body, names.in_order));
+  if (const Json* offset = json.find("offset")) follow.offset_m = readOffset(*offset);
+  camera.motion = follow;
+}
+
+void readOrbitCamera(const Json& json, SceneCamera& camera) {
+  json.onlyKeys({"orbit", "fovDegrees"});
+  const Json& path = json.at("orbit");
+  path.onlyKeys({"target", "radius", "height", "degreesPerSecond", "startDegrees"});
+  Orbit orbit;
+  camera.target = readVec3(path.at("target"), kCoordinate);
+  orbit.radius_m = readNumber(path.at("radius"), kLength);
+  if (const Json* value = path.find("height")) orbit.height_m = readNumber(*value, kCoordinate);
+  if (const Json* value = path.find("degreesPerSecond"))
+    orbit.degrees_per_second = readNumber(*value, {-36000.0, 36000.0});
+  if (const Json* value = path.find("startDegrees"))
+    orbit.start_degrees = readNumber(*value, {-36000.0, 36000.0});
+  camera.motion = orbit;
+}
+
+SceneCamera readCamera(const Json& json, const BodyNames& names) {
+  json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit"});
+  SceneCamera camera;
+  if (json.find("fit") != nullptr)
+    readFitCamera(json, camera);
+  else if (json.find("follow") != nullptr)
+    readFollowCamera(json, names, camera);
+  else if (json.find("orbit") != nullptr)
+    readOrbitCamera(json, camera);
+  else
+    readStillCamera(json, camera);
+  if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, {1.0, 150.0});
+  return camera;
+}
+
+void readFormat(const Json& json) {
+  if (json.at("format").asNumber() != 1.0)
+    json.at("format").fail(json.at("format").shown() + " is unknown; accepted: 1");
+}
+
+/// Materials that no body has.
+void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const std::filesystem::path& file,
+                  std::vector<std::string>& warnings) {
+  for (const auto& [name, value] : materials.members()) {
+    bool is_used = false;
+    for (const Body& body : bodies) is_used = is_used || body.look.material == name;
+    if (!is_used) warnings.push_back(placeOf(value, file) + ": no body has this material");
+  }
+}
+
+/// Adds to `grown` how many values the scene was made into, also where it is refused.
+Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
+  written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
+                    "materials", "air", "fluids", "bodies", "cameras", "duration"});
+  readFormat(written);
+  const ExpandedScene expanded = expandScene(written, path, grown);
+  const Json& json = expanded.scene;
+  Scene scene;
+  scene.name = path.stem().string();
+  scene.file = path;
+  scene.included = expanded.included;
+  scene.warnings = expanded.warnings;
+  if (const Json* value = json.find("description")) scene.description = value->asString();
+  if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
+  if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
+  if (const Json* value = json.find("seed"))
+    scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
+  if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
+  if (const Json* value = json.find("air")) scene.air = readAir(*value);
+  if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
+  Materials materials;
+  if (const Json* value = json.find("materials")) materials = readMaterials(*value);
+  written.at("bodies");
+  scene.bodies = readBodies(expanded, materials, scene.warnings);
+  if (const Json* value = written.find("materials")) warnOfUnused(*value, scene.bodies, path, scene.warnings);
+  if (const Json* value = json.find("cameras")) {
+    const BodyNames names(scene.bodies);
+    for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera, names);
+  }
+  if (scene.cameras.empty()) scene.cameras["main"] = SceneCamera();
+  return scene;
+}
+
+Json parsedScene(std::string_view text, const std::filesystem::path& path) {
+  try {
+    return Json::parse(text, path.string());
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + syntaxRemedy(error.what()));
+  }
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& path,
+                 const std::vector<std::string>& settings) {
+  Json json = parsedScene(text, path);
+  for (const std::string& setting : settings) json = withSetting(json, setting);
+  std::size_t grown = 0;
+  try {
+    Scene scene = readScene(json, path, grown);
+    scene.settings = settings;
+    return scene;
+  } catch (const JsonError& error) {
+    constexpr std::size_t kWrittenByAProgram = 1 << 18;  // Bytes; a person writes less.
+    const std::vector<std::string> all = mistakesOf(
+        std::move(json), path, error, text.size() < kWrittenByAProgram ? 100 : 1, [&](const Json& rest) {
+          if (grown > static_cast<std::size_t>(kMostJsonValues)) throw InputError("read often enough");
+          readScene(rest, path, grown);
+        });
+    const std::string count = std::to_string(all.size());
+    throw SceneMistakes(
+        all.size() == 1 ? all.front()
+                        : all.front() + " (the first of " + count + " mistakes; carom check lists them all)",
+        all);
+  }
+}
+
+Scene readSceneFile(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  return parseScene(readTextFile(path), path, settings);
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,151 @@
+#include "demos/language/scene_mistakes.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "demos/language/scene_remedies.h"
+#include "engine/foundation/contract.h"
+
+namespace carom::demos {
+namespace {
+
+const Json* valueAt(const Json& json, const std::string& path) {
+  if (json.path() == path) return &json;
+  if (json.kind() == Json::Kind::kArray)
+    for (const Json& item : json.items())
+      if (const Json* found = path.rfind(item.path(), 0) == 0 ? valueAt(item, path) : nullptr) return found;
+  if (json.kind() == Json::Kind::kObject)
+    for (const auto& [key, value] : json.members())
+      if (const Json* found = path.rfind(value.path(), 0) == 0 ? valueAt(value, path) : nullptr) return found;
+  return nullptr;
+}
+
+/// What is taken out for a mistake: a member, or an item that is an object; never one number of a vector, and
+/// whole whatever has keys that are in place of each other.
+std::string taken(const Json& json, std::string path) {
+  if (path.rfind("cameras.", 0) == 0) return path.substr(0, path.find('.', std::string("cameras.").size()));
+  if (path.rfind("fluids[", 0) == 0) return path.substr(0, path.find(']') + 1);
+  for (const std::string part : {".repeat", ".rotation"})
+    if (const std::size_t at = path.find(part); at != std::string::npos)
+      return path.substr(0, at + part.size());
+  for (const Json* value = valueAt(json, path); !path.empty() && path.back() == ']';
+       value = valueAt(json, path)) {
+    if (value != nullptr && value->kind() == Json::Kind::kObject) break;
+    path.resize(path.rfind('['));
+  }
+  return path;
+}
+
+/// Whether the mistake follows from another that was taken out before.
+bool isConsequence(const JsonError& error, const std::set<std::string>& gone) {
+  const std::string message = error.what();
+  const auto has = [&message](const std::string& part) { return message.find(part) != std::string::npos; };
+  for (const std::string& path : gone) {
+    const std::size_t dot = path.rfind('.');
+    const std::string owner = dot == std::string::npos ? "" : path.substr(0, dot);
+    const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
+    if (error.spot.path == owner && (has("key \"" + key + "\" is missing") || !has("is missing")))
+      return true;
+    if (path.rfind("bodies", 0) == 0 && (has("unknown body") || has("at least one body"))) return true;
+    if (path.rfind("materials", 0) == 0 && has("unknown material")) return true;
+    if (path.rfind("set", 0) == 0 && has("unknown name")) return true;
+  }
+  return false;
+}
+
+/// What stands for a shape or a name that was refused, so that the rest of its body is read.
+Json placeholder(const std::string& key, const JsonError::Spot& spot) {
+  if (key == "name") return Json("mistake " + std::to_string(spot.line) + ":" + std::to_string(spot.column));
+  return Json::object({{"box", Json::array({1.0, 1.0, 1.0})}});
+}
+
+Json withMember(const Json& json, const std::string& path, const std::string& key, const Json& value) {
+  Json changed = json;
+  if (json.kind() == Json::Kind::kArray) {
+    changed = Json::array().placedAs(json);
+    for (const Json& item : json.items()) changed.push(withMember(item, path, key, value));
+  } else if (json.kind() == Json::Kind::kObject) {
+    changed = Json::object().placedAs(json);
+    for (const auto& [name, member] : json.members())
+      if (json.path() != path || name != key) changed.set(name, withMember(member, path, key, value));
+    if (json.path() == path) changed.set(key, value);
+  }
+  return changed;
+}
+
+/// The body's key that the mistake is of, where a body cannot do without it; and the body's path.
+std::optional<std::pair<std::string, std::string>> neededKey(const JsonError& error) {
+  const std::string& path = error.spot.path;
+  if (path.rfind("bodies[", 0) != 0) return std::nullopt;
+  for (const std::string key : {"shape", "name"}) {
+    const std::size_t at = path.find("]." + key);
+    if (at != std::string::npos && path.find(".compound") == std::string::npos)
+      return {{path.substr(0, at + 1), key}};
+    if (std::string(error.what()).find("key \"" + key + "\" is missing") != std::string::npos)
+      return {{path, key}};
+  }
+  return std::nullopt;
+}
+
+/// A key that is missing because it was written otherwise: a mistake that is already told names it as what
+/// was meant.
+bool isMeantByAnother(const JsonError& error,
+                      const std::vector<std::pair<JsonError::Spot, std::string>>& found) {
+  const std::string message = error.what();
+  const std::size_t end = message.find("\" is missing"), begin = message.rfind("key \"", end);
+  if (end == std::string::npos || begin == std::string::npos) return false;
+  const std::string key = message.substr(begin + 4, end + 1 - (begin + 4));
+  const std::string owner = error.spot.path.empty() ? "" : error.spot.path + ".";
+  for (const auto& [spot, told] : found)
+    if (spot.path.rfind(owner, 0) == 0 && spot.path.find('.', owner.size()) == std::string::npos &&
+        told.find(key) != std::string::npos)
+      return true;
+  return false;
+}
+
+/// What the remedy is for: of a colour's numbers the whole colour.
+const Json* meantValue(const Json& json, const std::string& path) {
+  const std::size_t color = path.rfind(".color[");
+  return valueAt(json, color == std::string::npos ? path : path.substr(0, color + 6));
+}
+
+}  // namespace
+
+std::vector<std::string> mistakesOf(Json json, const std::filesystem::path& path, JsonError first, int most,
+                                    const std::function<void(const Json&)>& read) {
+  std::vector<std::pair<JsonError::Spot, std::string>> found;
+  std::set<std::string> gone;
+  std::optional<JsonError> next = std::move(first);
+  for (int i = 0; i < most && next; ++i) {
+    const JsonError error = *next;
+    next.reset();
+    const Json* value = error.spot.origin == path.string() ? valueAt(json, error.spot.path) : nullptr;
+    if (!isConsequence(error, gone) && !isMeantByAnother(error, found))
+      found.emplace_back(
+          error.spot,
+          std::string(error.what()) +
+              (value == nullptr ? "" : remedyFor(*meantValue(json, error.spot.path), error.what())));
+    if (value == nullptr || error.spot.path.empty()) break;
+    const std::optional<std::pair<std::string, std::string>> needed = neededKey(error);
+    const std::string out = needed ? needed->first + "." + needed->second : taken(json, error.spot.path);
+    if (i + 1 == most || out.empty() || !gone.insert(out).second) break;
+    json = needed ? withMember(json, needed->first, needed->second, placeholder(needed->second, error.spot))
+                  : json.without(out);
+    try {
+      read(json);
+    } catch (const JsonError& another) {
+      next = another;
+    } catch (const InputError&) {
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.line, a.first.column) < std::pair(b.first.line, b.first.column);
+  });
+  std::vector<std::string> all;
+  for (const auto& [spot, message] : found) all.push_back(message);
+  return all;
+}
+
+}  // namespace carom::demos

@@ -1,0 +1,55 @@
+#pragma once
+// Makes the record of a run while it is drawn: watches the world step by step and is told of each frame.
+// Observation only: the frames and states are those of a run without it. Tested in
+// tests/demos/program/cause_program_test.cpp.
+
+#include <filesystem>
+#include <string>
+
+#include "demos/cause/motion_record.h"
+#include "demos/record/recording.h"
+#include "demos/scene/scene_world.h"
+#include "renderer/frame/frame_renderer.h"
+
+namespace carom::demos {
+
+class MotionRecorder {
+ public:
+  /// Watches `made`, which must outlive this, and be watched by nobody else.
+  MotionRecorder(const Scene& scene, SceneWorld& made, const renderer::Settings& settings);
+  ~MotionRecorder();
+  MotionRecorder(const MotionRecorder&) = delete;
+  MotionRecorder& operator=(const MotionRecorder&) = delete;
+
+  /// After every step.
+  void follow(const World& world);
+  /// Before the frame is drawn.
+  void addShot(const std::string& file, double time_s, const FrameState& state,
+               const renderer::Camera& camera);
+  /// What is behind the pixels of the shot added last; beyond kMostPixels in all it is left out.
+  void addPixels(const renderer::SurfaceImage& surfaces, int width, int height);
+  bool wantsPixels(int width, int height) const;
+
+  /// Throws CannotWrite.
+  void write(const std::filesystem::path& folder, const renderer::ContextInfo& gl);
+
+  static constexpr std::size_t kMostPixels = std::size_t{1} << 20;
+
+ private:
+  /// Beyond this many poses every second moment is forgotten.
+  static constexpr std::size_t kMostPoses = 20000;
+  static constexpr std::size_t kMostStrikes = 4000;
+  static constexpr std::size_t kMostPrints = 16384;
+
+  void addMoment(const World& world);
+  void addPrint(const World& world);
+  std::vector<RoundedPose> posesOf(std::span<const BodyState> states) const;
+
+  SceneWorld& made_;
+  StepView view_;
+  MotionRecord record_;
+  int moment_stride_ = 1;
+  std::size_t pixels_ = 0;
+};
+
+}  // namespace carom::demos

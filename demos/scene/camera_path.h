@@ -1,0 +1,40 @@
+#pragma once
+// Where a scene's camera is in a frame: a function of the frame's time and of the bodies' states there, and
+// of the bodies at the start, so that any frame can be drawn without those before it, from a recording as
+// well. Tested in tests/demos/scene/camera_path_test.cpp.
+
+#include <span>
+
+#include "demos/scene/scene_camera.h"
+#include "demos/scene/scene_world.h"
+
+namespace carom::demos {
+
+struct FitRequest {
+  Vec3 direction = Vec3(6.0, -9.0, 4.0);  ///< Towards the eye, any length.
+  double fov_degrees = 40.0;              ///< Vertical.
+  double aspect = 16.0 / 9.0;             ///< Width over height of the image.
+};
+/// The nearest camera with this direction that has all points in its picture, with a margin of a twelfth on
+/// the sides that bound it. At least two points that differ.
+renderer::Camera fittedCamera(std::span<const Vec3> points, const FitRequest& request);
+
+/// What a fitting camera shows: the boxes around all bodies but the grounds, as they are at the start, and
+/// where those that move would come down on the lowest ground.
+std::vector<Vec3> fittedPoints(const SceneWorld& start);
+
+class CameraPath {
+ public:
+  /// `start` is the world as it is at the start; it need not outlive this. Throws InputError for a body that
+  /// is not there.
+  CameraPath(const SceneCamera& camera, const SceneWorld& start, double aspect);
+
+  /// The camera at a time, with the bodies in the states that they have then.
+  renderer::Camera at(double time_s, std::span<const BodyState> bodies) const;
+
+ private:
+  SceneCamera camera_;
+  std::size_t body_ = 0;  // followed
+};
+
+}  // namespace carom::demos

@@ -1,0 +1,24 @@
+#pragma once
+// From a described shape to a solid of the engine: primitives, convex hulls of points, mesh files, compounds.
+// Tested in tests/demos/scene/shape_solid_test.cpp.
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "demos/asset/mesh_solid.h"
+#include "demos/scene/scene.h"
+#include "engine/solid/solid.h"
+
+namespace carom::demos {
+
+/// One hull around all meshes of the file, where they stand in it. Throws InputError, with the path, when
+/// they enclose no volume.
+ConvexPolyhedron meshHull(const std::filesystem::path& path);
+
+/// The solid of a shape; `mesh` takes the place of every replaceable file. What was made of its mesh files is
+/// added to `reports`. Throws InputError, with the place of the shape, for what encloses no volume.
+Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh,
+                std::vector<MeshReport>* reports = nullptr);
+
+}  // namespace carom::demos

@@ -1,0 +1,167 @@
+#pragma once
+// What the world keeps of a body and of its parts. Internal to the simulation floor.
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "engine/modes/resting.h"
+#include "engine/modes/swinging.h"
+#include "engine/motion/axis_locks.h"
+#include "engine/motion/rigid_body.h"
+#include "engine/motion/trajectory.h"
+#include "engine/response/one_point/impulse.h"
+#include "engine/simulation/bodies/world_types.h"
+#include "engine/solid/solid.h"
+
+namespace carom {
+
+/// How a body travels through the current step.
+enum class Travel : std::uint8_t {
+  kStill,      ///< Static or resting.
+  kBallistic,  ///< Free flight: gravity and what else surrounds the body act along the path.
+  kCarried,    ///< In lasting contact, whose forces act evenly over the step (paper §2.4).
+  kDriven,     ///< A kinematic body on its prescribed path.
+  kHeld        ///< Stopped at its last safe time for the rest of the step.
+};
+
+/// How a body moves from an instant of the step on. The path is where it goes; the momentum velocity is what
+/// impulses act on. They differ in lasting contact, where the path also reopens gaps without giving the body
+/// energy. Forces act evenly in time, so that a body struck within the step has what they have given it until
+/// then.
+struct StepMotion {
+  Travel travel = Travel::kStill;
+  Trajectory path;
+  Velocity momentum_velocity;        ///< At path.start_s.
+  Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
+  Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  // The same of its rotation, in its own frame when it had the orientation that its forces were found for:
+  // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
+  Vec3 solved_spin_B = Vec3::Zero();
+  Vec3 turning_B = Vec3::Zero();
+
+  /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
+  /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where
+  /// contacts lead the path, the body has the energy that their impulses left it, whatever its orientation.
+  Velocity velocityAt(const Inertia& inertia, double t_s, const Quat& R_WB) const {
+    Velocity v = momentum_velocity;
+    const double dt = t_s - path.start_s;
+    if (travel == Travel::kStill || dt == 0.0) return v;
+    v.linear += dt * acceleration;
+    if (travel == Travel::kDriven) {
+      v.angular += dt * path.spin_change.rate;
+      return v;
+    }
+    if (v.angular.isZero(0.0) && torque.isZero(0.0)) return v;
+    const Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular) + dt * torque;
+    if (travel == Travel::kBallistic) {
+      v.angular = angularVelocity(inertia, R_WB, momentum);
+      return v;
+    }
+    const Vec3 spin_B = solved_spin_B + dt * turning_B;
+    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * spin_B.dot(inertia.tensor_B * spin_B));
+    return v;
+  }
+};
+
+struct Body : StepMotion {
+  Inertia inertia;
+  Material material;
+  double radius_m = 0.0;
+  bool is_static = false;
+  bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it, ...
+  double late_s = 0.0;        ///< ... but it may be stopped: for so long it was, and is late on its path.
+  bool was_stopped = false;   ///< In the last step.
+  double piece_end_s = std::numeric_limits<double>::infinity();  ///< Of the path, within the step.
+  AxisLocks locks;
+  bool resting = false;
+  int next_at_rest = -1;   ///< Those that came to rest together are a ring.
+  bool active = true;      ///< In the list of active bodies (active_bodies.h).
+  bool lay = false;        ///< It did not move when the last step began.
+  bool supported = false;  ///< Static, resting, or pressed by lasting contact in the last step.
+  // What lasting contacts gave it in the last step, in the mean: its way through water and air is foreseen
+  // with this, or what a floor holds would seem to sink. Zero in flight.
+  Vec3 contact_force = Vec3::Zero();   ///< N, world frame.
+  Vec3 contact_torque = Vec3::Zero();  ///< N m about the centre of mass, world frame.
+  double still_s = 0.0;                ///< For how long it has lain still.
+  SwingWatch swing;                    ///< Whether it swings about its rest.
+  Mode mode = Mode::kFree;
+  int in_vain = 0;      ///< How much more often solving its island at once was not worth it than it was.
+  int swept_alone = 0;  ///< Steps for which that is not tried again.
+
+  Pose X_WB;          ///< At the time of the last finished step.
+  Velocity velocity;  ///< At the time of the last finished step.
+  /// kg m^2/s, world frame, of a body that has flown freely since it was computed: not rounded in every step.
+  std::optional<Vec3> kept_angular_momentum;
+
+  // Within a step, besides its motion.
+  Pose X_end;  ///< Where its path ends, at the end of the step.
+  int events = 0;
+  int cleared = 0;  ///< How often its path was led clear of another body.
+  bool collided = false;
+
+  /// Whether impulses can move it.
+  bool yields() const { return !is_static && !is_kinematic; }
+  bool moves() const { return yields() && !resting; }
+  /// Whether it has a path through the step.
+  bool travels() const { return moves() || is_kinematic; }
+  /// What lies on it cannot come to rest.
+  bool isDriven() const { return is_kinematic && !path.still(); }
+  bool liesStill() const { return !moves() || carom::liesStill(velocity, radius_m); }
+  /// Nothing has turned it in this step but its own spin.
+  bool flewFreely() const {
+    return travel == Travel::kBallistic && path.start_s == 0.0 && torque.isZero(0.0) &&
+           momentum_velocity.angular == velocity.angular;
+  }
+
+  /// The velocity impulses act on, at a time not before path.start_s.
+  Velocity velocityAt(double t_s) const { return velocityAt(t_s, path.at(t_s).rotation); }
+  /// The same when it is known that the path has turned the body to `R_WB`.
+  Velocity velocityAt(double t_s, const Quat& R_WB) const {
+    return StepMotion::velocityAt(inertia, t_s, R_WB);
+  }
+
+  ImpulseBody impulseBody(const Pose& X, const Velocity& v) const {
+    ImpulseBody seen{v, X.position, inertia.inverse_mass,
+                     yields() ? inverseTensorInWorld(inertia, X.rotation) : Mat3(Mat3::Zero())};
+    if (yields() && locks.any()) {
+      seen.free_axes = locks.free_axes;
+      seen.has_locks = true;
+      if (locks.turning != AxisLocks::Turning::kFree) seen.inverse_tensor = turningResponse(inertia, locks);
+    }
+    return seen;
+  }
+};
+
+/// Makes a body that rested move again.
+inline void wake(Body& body) {
+  body.resting = body.lay = false;
+  body.still_s = 0.0;
+}
+
+/// Where constant spin misses the orientation of a free body by more radians than this, its path is its free
+/// rotation: impacts on the way find the body as it is.
+inline constexpr double kTumblingMiss = 1e-9;
+
+/// Lets the body's path, which starts with its momentum velocity, turn torque-free for `dt_s` seconds.
+inline void turnFreely(Body& body, double dt_s) {
+  const Quat& R = body.path.X_WB.rotation;
+  const Vec3& omega = body.momentum_velocity.angular;
+  if (omega.isZero(0.0) || dt_s == 0.0 || body.inertia.isIsotropic()) return body.path.turnAt(omega);
+  const FreeRotation free(body.inertia, R, omega);
+  body.path.turnAt(free.meanSpin(R, dt_s));
+  if (tumblingMiss(body.inertia, R, omega, dt_s) > kTumblingMiss) body.path.tumbling = free;
+}
+
+/// So many bodies are worked on by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewBodies = 500;
+
+/// One convex part of one body: what the broad phase pairs. The shapes of a world ascend by body.
+struct Shape {
+  int body = -1;
+  const ConvexPart* part = nullptr;
+  double reach_m = 0.0;  ///< The largest distance of the core from the body's centre of mass.
+  double width_m = 0.0;  ///< Of the body, as the collision window takes it: +infinity where it cannot move.
+};
+
+}  // namespace carom

@@ -1,0 +1,209 @@
+#include "engine/simulation/bodies/flight_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/environment/gravity.h"
+#include "engine/foundation/index.h"
+
+namespace carom {
+namespace {
+
+// Where drag takes most of a velocity within a step the mean force would carry a body there and back again;
+// its path is then as straight as keeps it from turning round. Times gravity: what counts as such drag.
+constexpr double kBraking = 4.0;
+constexpr double kSameTime = 1e-9;  // of a step: a piece of a path that ends so soon is over
+
+// Only its room is kept.
+ForceScratch& scratch() {
+  static thread_local ForceScratch scratch;
+  return scratch;
+}
+
+}  // namespace
+
+FlightPlanner::FlightPlanner(const WorldSettings& settings)
+    : environment_{settings.gravity, settings.air, settings.fluids}, step_s_(settings.step_s) {}
+
+void FlightPlanner::begin(std::span<const Solid> solids, std::vector<int> solid_of) {
+  solid_of_ = std::move(solid_of);
+  surfaces_.clear();
+  if (isVacuum() &&
+      std::none_of(loads_.begin(), loads_.end(), [](const AppliedLoad& load) { return load.bends(); }))
+    return;
+  for (const Solid& solid : solids) surfaces_.push_back(surfaceOf(solid));
+}
+
+void FlightPlanner::add(const AppliedLoad& load, std::optional<PrescribedPath> path) {
+  loads_.push_back(load);
+  prescribed_.push_back(std::move(path));
+}
+
+EnvironmentBody FlightPlanner::environmentBody(int index, const Body& body) const {
+  return {&surfaces_[at(solid_of_[at(index)])], &body.inertia, body.material.drag_coefficient,
+          &loads_[at(index)]};
+}
+
+// Whether more than even acceleration acts on the body on its way.
+bool FlightPlanner::isTouched(int index, const Body& body, double rest_of_step_s) const {
+  if (loads_[at(index)].bends()) return true;
+  if (environment_.air.density_kgpm3 > 0.0) return true;
+  const double way =
+      (body.momentum_velocity.linear.norm() + 0.5 * rest_of_step_s * environment_.gravity.norm()) *
+      rest_of_step_s;
+  return std::any_of(environment_.fluids.begin(), environment_.fluids.end(), [&](const Fluid& fluid) {
+    return reaches(fluid, body.path.X_WB.position, body.radius_m + way);
+  });
+}
+
+void FlightPlanner::plan(int index, Body& body) const {
+  planPath(index, body);
+  const Quat to_body = body.path.X_WB.rotation.conjugate();
+  body.solved_spin_B = to_body * body.momentum_velocity.angular;
+  body.turning_B = body.inertia.inverse_tensor_B * (to_body * body.torque);
+}
+
+// The acceleration by gravity and by a constant force.
+Vec3 FlightPlanner::parabolaOf(int index, const Body& body) const {
+  const Vec3& force_W = loads_[at(index)].force_W;
+  Vec3 acceleration = environment_.gravity;
+  if (!force_W.isZero(0.0)) acceleration += body.inertia.inverse_mass * force_W;
+  return body.locks.any() ? body.locks.movingPart(acceleration) : acceleration;
+}
+
+void FlightPlanner::planPath(int index, Body& body) const {
+  Trajectory& path = body.path;
+  const double dt = step_s_ - path.start_s;
+  const Velocity& start = body.momentum_velocity;
+  path.velocity = start.linear;
+  path.acceleration = parabolaOf(index, body);
+  body.acceleration = path.acceleration;
+  body.torque.setZero();
+  if (!(dt > 0.0) || surfaces_.empty() || !isTouched(index, body, dt)) {
+    turnFreely(body, dt);
+    return;
+  }
+  const EnvironmentFlight flight =
+      flyThroughEnvironment(environment_, environmentBody(index, body), path.X_WB, start,
+                            {body.contact_force, body.contact_torque}, time_s_ + path.start_s, dt, scratch());
+  Vec3 mean = (flight.X_end.position - path.X_WB.position) / dt;
+  const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, start.angular);
+  path.acceleration = (flight.velocity_end - start.linear) / dt;
+  body.acceleration = path.acceleration - body.inertia.inverse_mass * body.contact_force;
+  body.torque = (flight.angular_momentum_end - momentum) / dt - body.contact_torque;
+  Vec3 spin = flight.spin;
+  if (body.locks.any()) {
+    mean = body.locks.movingPart(mean);
+    path.acceleration = body.locks.movingPart(path.acceleration);
+    body.acceleration = body.locks.movingPart(body.acceleration);
+    body.torque = body.locks.turningPart(body.torque);
+    spin = body.locks.turningPart(spin);
+  }
+  const double swing = 0.5 * dt * path.acceleration.norm();
+  if (path.acceleration.norm() > kBraking * environment_.gravity.norm() && swing > mean.norm())
+    path.acceleration *= mean.norm() / swing;
+  path.velocity = mean - (0.5 * dt) * path.acceleration;
+  path.turnAt(spin);
+}
+
+void FlightPlanner::drive(int index, Body& body) const {
+  const double start_s = body.path.start_s;
+  const PrescribedPath::Piece piece =
+      prescribed_[at(index)]->pieceAt(time_s_ - body.late_s + start_s, kSameTime * step_s_);
+  body.travel = Travel::kDriven;
+  body.path = piece.path;
+  body.path.start_s = start_s;
+  body.piece_end_s = start_s + piece.end_s;
+  body.momentum_velocity = {piece.path.velocity, piece.path.spin};
+  body.acceleration = piece.path.acceleration;
+  body.torque.setZero();
+}
+
+void FlightPlanner::endDrive(int index, Body& body) const {
+  body.was_stopped = body.travel == Travel::kHeld;
+  if (body.was_stopped) body.late_s += step_s_ - body.path.start_s;
+  const double end_s = time_s_ + step_s_ - body.late_s;
+  const Trajectory path = prescribed_[at(index)]->pieceAt(end_s, kSameTime * step_s_).path;
+  body.X_WB = path.X_WB;
+  body.velocity = body.was_stopped ? Velocity{} : Velocity{path.velocity, path.spin};
+}
+
+void FlightPlanner::planStep(int index, Body& body) const {
+  if (body.is_kinematic) {
+    body.path.start_s = 0.0;
+    drive(index, body);
+    // One that was stopped presses nothing until its way is found to be free.
+    body.velocity = body.was_stopped ? Velocity{} : body.momentum_velocity;
+    return;
+  }
+  body.travel = Travel::kBallistic;
+  body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  body.momentum_velocity = body.velocity;
+  plan(index, body);
+}
+
+void FlightPlanner::takeContacts(Body& body, const Velocity& change, const Quat& R_WB) const {
+  body.contact_force = body.inertia.mass_kg / step_s_ * change.linear;
+  body.contact_torque = angularMomentum(body.inertia, R_WB, change.angular) / step_s_;
+}
+
+void FlightPlanner::leaveContacts(int index, Body& body) const {
+  if (body.contact_force.isZero(0.0) && body.contact_torque.isZero(0.0)) return;
+  body.contact_force.setZero();
+  body.contact_torque.setZero();
+  plan(index, body);
+}
+
+Velocity FlightPlanner::gained(const Body& body) const {
+  const double dt = step_s_ - body.path.start_s;
+  if (body.is_kinematic) {
+    if (body.was_stopped) return {};
+    return {dt * body.path.acceleration, dt * body.path.spin_change.rate};
+  }
+  Velocity gain{gravityImpulsePerMass(body.acceleration, dt), Vec3::Zero()};
+  if (!body.torque.isZero(0.0))
+    gain.angular = inverseTensorInWorld(body.inertia, body.path.X_WB.rotation) * (dt * body.torque);
+  return gain;
+}
+
+Velocity FlightPlanner::pushAtRest(int index, const Body& body) const {
+  if (surfaces_.empty()) return {step_s_ * parabolaOf(index, body), Vec3::Zero()};
+  const BodyForces forces = bodyForces(environment_, environmentBody(index, body), body.X_WB, Vec6::Zero(),
+                                       time_s_ + step_s_, scratch());
+  const Vec6 wrench = forces.total(Vec6::Zero());
+  const Quat& R_WB = body.X_WB.rotation;
+  const Velocity push{step_s_ * body.inertia.inverse_mass * (R_WB * wrench.head<3>()),
+                      step_s_ * (R_WB * (body.inertia.inverse_tensor_B * wrench.tail<3>()))};
+  if (!body.locks.any()) return push;
+  return {body.locks.movingPart(push.linear), body.locks.turningPart(push.angular)};
+}
+
+bool FlightPlanner::isWeightAll(int index, const Body& body) const {
+  return isVacuum() && loads_[at(index)].isZero() && !body.locks.any();
+}
+
+double FlightPlanner::workOfLoad(int index, const Body& body, double end_s) const {
+  const AppliedLoad& load = loads_[at(index)];
+  if (load.isZero() || !body.moves()) return 0.0;
+  const Trajectory& path = body.path;
+  const Vec3 way = path.positionAt(end_s) - path.X_WB.position;
+  if (!load.bends()) return load.force_W.dot(way);
+  const double dt = end_s - path.start_s;
+  const Quat R_WB = path.at(path.start_s + 0.5 * dt).rotation;
+  return load.force(R_WB).dot(way) + dt * load.torque(R_WB).dot(path.spin);
+}
+
+bool FlightPlanner::restless(const Body& body) const {
+  return std::any_of(environment_.fluids.begin(), environment_.fluids.end(), [&](const Fluid& fluid) {
+    return !fluid.waves.empty() && reaches(fluid, body.X_WB.position, body.radius_m);
+  });
+}
+
+double FlightPlanner::potential(int index, const Body& body) const {
+  double energy = gravityPotential(body.inertia, environment_.gravity, body.X_WB.position);
+  if (surfaces_.empty()) return energy;  // vacuum, or a world not started
+  return energy +
+         buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_, scratch());
+}
+
+}  // namespace carom

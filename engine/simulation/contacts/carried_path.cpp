@@ -1,0 +1,42 @@
+#include "engine/simulation/contacts/carried_path.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/foundation/index.h"
+
+namespace carom {
+namespace {
+
+constexpr double kDipShare = 0.05;  // of the room below a gap
+constexpr double kNoDip = 1e-6;     // of the rest gap: what rounding may do to a body that slides
+
+}  // namespace
+
+void driveEvenly(Body& body, const CarriedStretch& stretch) {
+  const double dt = stretch.rest_of_step_s;
+  body.momentum_velocity = stretch.begin;
+  body.acceleration = stretch.gain.linear / dt;
+  body.torque = angularMomentum(body.inertia, stretch.R_WB, stretch.gain.angular) / dt;
+  body.solved_spin_B = stretch.R_WB.conjugate() * stretch.spin;
+  body.turning_B = stretch.R_WB.conjugate() * stretch.gain.angular / dt;
+}
+
+void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends) {
+  body.path.acceleration = bends ? body.acceleration : Vec3(Vec3::Zero());
+  body.path.velocity = mean.linear - (0.5 * rest_of_step_s) * body.path.acceleration;
+  body.path.turnAt(mean.angular);
+}
+
+void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,
+                    std::span<const Vec3> accelerations, std::span<char> bends) {
+  // A parabola lies below its chord by up to an eighth of the acceleration times the time squared.
+  const double share = 0.125 * rest_of_step_s * rest_of_step_s;
+  const double room = std::min(gap_m, window.rest) - window.floor;
+  const double dip = std::max(kDipShare * room, kNoDip * window.rest);
+  const auto straighten = [&](int i) { std::atomic_ref(bends[at(i)]).store(0, std::memory_order_relaxed); };
+  if (-share * row.n.dot(accelerations[at(row.a)]) > dip) straighten(row.a);
+  if (share * row.n.dot(accelerations[at(row.b)]) > dip) straighten(row.b);
+}
+
+}  // namespace carom

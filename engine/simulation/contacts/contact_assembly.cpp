@@ -1,0 +1,399 @@
+#include "engine/simulation/contacts/contact_assembly.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "engine/foundation/index.h"
+#include "engine/response/sweeps/dissection.h"
+#include "engine/simulation/contacts/internal_edges.h"
+#include "engine/simulation/contacts/midstep_rows.h"
+#include "engine/simulation/contacts/warm_start.h"
+
+namespace carom {
+namespace {
+
+// Of the speed that gravity adds in a step: where turning changes less, arms stay. What swings so slowly
+// gains energy from its gaps; and what only just stands (an arch near the limit) loses its hold if nothing is
+// too slow.
+constexpr double kNoticedTurning = 1e-6;
+// Pairs of one island, or more, that one thread sweeps: half of them are some 40 us of work.
+constexpr std::size_t kPairsOfAPart = 1000;
+constexpr int kMostLevels = 5;
+
+// No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
+// height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
+double lastingHeight(const ShapePair& pair, double step_s) {
+  return pair.window.ceiling + pair.collision_speed_mps * step_s;
+}
+
+bool givesWay(const ShapePair& pair, const std::vector<Body>& bodies) {
+  return bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
+}
+
+// Level ones; all where nothing is.
+std::vector<Vec3> cutDirections(const Vec3& gravity) {
+  if (gravity.isZero(0.0)) return {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  const TangentBasis level = tangentBasis(gravity.normalized());
+  return {level.t1, level.t2};
+}
+
+class Assembly {
+ public:
+  Assembly(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts)
+      : world_(world), counters_(counters), contacts_(contacts) {}
+
+  void assemble() {
+    seeBodies();
+    findLastingPairs();
+    dissectIslands();
+    std::sort(lasting_.begin(), lasting_.end());
+    makeRows();
+    joinRows();
+  }
+
+  std::vector<std::size_t> addLandings(std::span<const int> pairs) {
+    std::vector<RowStretch> stretches(2);
+    keepRows(pairs, stretches[0]);
+    for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
+    for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
+    addQueries(stretches[1].counters);
+    contacts_.stretches.swap(stretches);
+    joinRows();
+    return islandsOf(pairs);
+  }
+
+ private:
+  void addQueries(const StepCounters& made) {
+    counters_.distance_queries += made.distance_queries;
+    counters_.states_walked += made.states_walked;
+  }
+
+  // In the order of the rows: those of an island together, those of a crowd by descending part of it.
+  struct LastingPair {
+    int island = -1;  // at first a body of it
+    int from_last_part = -kWhole;
+    std::uint64_t rank = 0;
+    int pair = -1;
+    auto operator<=>(const LastingPair&) const = default;
+  };
+
+  // The bodies as the solver takes them.
+  void seeBodies() {
+    contacts_.bodies.resize(world_.bodies.size());
+    contacts_.half_turns.resize(world_.bodies.size());
+    const std::span<const int> active = world_.active.list();
+    world_.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t i = at(active[k]);
+        const Body& body = world_.bodies[i];
+        ImpulseBody& seen = contacts_.bodies[i];
+        HalfTurn& half = contacts_.half_turns[i];
+        half = halfTurn(body, world_.settings.step_s, noticedTurning());
+        seen = body.impulseBody({half.R_WB, body.X_WB.position}, {body.velocity.linear, half.spin});
+        if (!body.resting) continue;
+        seen.inverse_mass = 0.0;
+        seen.inverse_tensor.setZero();
+      }
+    });
+  }
+
+  // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
+  void findLastingPairs() {
+    const std::vector<int>& active = world_.table.active();
+    std::vector<char> lasts(active.size(), 0);
+    world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        ShapePair& pair = world_.table.pairs()[at(active[i])];
+        if (!givesWay(pair, world_.bodies)) continue;
+        lasts[i] = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
+        if (!lasts[i]) pair.remembered.clear();
+      }
+    });
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
+    for (std::size_t i = 0; i < lasts.size(); ++i) {
+      if (!lasts[i]) continue;
+      const ShapePair& pair = world_.table.pairs()[at(active[i])];
+      const bool a_moves = moves(pair.body_a);
+      if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
+      lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, pair.rank, active[i]});
+    }
+    for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
+  }
+
+  PlacedPair placed(int index) const {
+    const ShapePair& pair = world_.table.pairs()[at(index)];
+    return {pair, pair.closest, world_.bodies[at(pair.body_a)].X_WB, world_.bodies[at(pair.body_b)].X_WB};
+  }
+
+  // Whether a pair's contact is one with an internal edge.
+  bool isInternal(int index) const {
+    const PlacedPair contact = placed(index);
+    if (!isAtEdges(contact, world_.shapes)) return false;
+    for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+      if (!moves(body)) continue;
+      for (const int other : world_.table.pairsOf(body))
+        if (other != index && isLasting(world_.table.pairs()[at(other)], world_.settings.step_s) &&
+            passesEdge(contact, placed(other), world_.settings.step_s, world_.bodies, world_.shapes))
+          return true;
+    }
+    return false;
+  }
+
+  double noticedTurning() const {
+    return kNoticedTurning * world_.settings.gravity.norm() * world_.settings.step_s;
+  }
+
+  bool moves(int body) const { return world_.bodies[at(body)].moves(); }
+
+  // Crowds, so that several threads can sweep them.
+  void dissectIslands() {
+    if (lasting_.size() < 2 * kPairsOfAPart) return;
+    std::vector<std::size_t> pairs_of(world_.bodies.size(), 0);  // by island
+    for (const LastingPair& pair : lasting_) ++pairs_of[at(pair.island)];
+    if (*std::max_element(pairs_of.begin(), pairs_of.end()) < 2 * kPairsOfAPart) return;
+    std::vector<int> island_of(world_.bodies.size(), -1);
+    for (const LastingPair& lasting : lasting_) {
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
+      for (const int body : {pair.body_a, pair.body_b})
+        if (moves(body)) island_of[at(body)] = lasting.island;
+    }
+    const std::vector<Vec3> directions = cutDirections(world_.settings.gravity);
+    std::vector<int> part_of(world_.bodies.size(), kNoPart);
+    std::vector<int> members;
+    for (std::size_t island = 0; island < pairs_of.size(); ++island) {
+      if (pairs_of[island] < 2 * kPairsOfAPart) continue;
+      members.clear();
+      for (std::size_t i = 0; i < island_of.size(); ++i)
+        if (island_of[i] == static_cast<int>(island)) members.push_back(static_cast<int>(i));
+      const int levels =
+          std::min(kMostLevels, static_cast<int>(std::bit_width(pairs_of[island] / kPairsOfAPart)) - 1);
+      dissect({contacts_.bodies, directions, levels}, members, part_of);
+    }
+    for (LastingPair& lasting : lasting_) {
+      if (pairs_of[at(lasting.island)] < 2 * kPairsOfAPart) continue;
+      const ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
+      lasting.from_last_part = -commonPart(part_of[at(pair.body_a)], part_of[at(pair.body_b)]);
+    }
+  }
+
+  // Every stretch of pairs makes its own; where they stand in the end is known when all are made.
+  void makeRows() {
+    const std::size_t stretches = std::clamp<std::size_t>(lasting_.size() / kFewPairs, 1, kMostStretches);
+    contacts_.stretches.resize(stretches);
+    world_.crew.run(static_cast<int>(stretches), [&](int k) {
+      RowStretch& stretch = contacts_.stretches[at(k)];
+      stretch.rows.clear();
+      stretch.sources.clear();
+      stretch.pairs.clear();
+      stretch.counters = {};
+      for (std::size_t i = lasting_.size() * at(k) / stretches; i < lasting_.size() * (at(k) + 1) / stretches;
+           ++i)
+        makeRowsOf(lasting_[i], stretch);
+    });
+    for (const RowStretch& stretch : contacts_.stretches) addQueries(stretch.counters);
+  }
+
+  void makeRowsOf(const LastingPair& lasting, RowStretch& stretch) {
+    const double step_s = world_.settings.step_s;
+    ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
+    const Body& a = world_.bodies[at(pair.body_a)];
+    const Body& b = world_.bodies[at(pair.body_b)];
+    std::vector<SourcedRow>& rows = stretch.of_pair;
+    rows.clear();
+    if (pair.landing)
+      appendLandingRows(lasting.pair, pair, rows);
+    else
+      appendLastingRows(lasting.pair, pair, stretch);
+    warmStart(pair, a.liesStill() && b.liesStill(), rows);
+    pair.remembered.clear();
+    if (rows.empty()) return;
+    stretch.pairs.push_back({lasting.pair, pair.body_a, pair.body_b, rows.size()});
+    for (SourcedRow& sourced : rows) {
+      ContactRow& row = sourced.row;
+      row.part = -lasting.from_last_part;
+      row.lowest_speed += gapSpeeds(sourced.gap_m, pair, step_s, row.impulse.x() > 0.0).momentum;
+      stretch.rows.push_back(row);
+      stretch.sources.push_back(sourced);
+    }
+  }
+
+  // Where the bodies are when the step begins, seen from its middle.
+  void appendLastingRows(int index, const ShapePair& pair, RowStretch& stretch) {
+    const double step_s = world_.settings.step_s;
+    const RememberedPoints remembered(pair);
+    const RowRequest request{.pair = index,
+                             .row_a = pair.body_a,
+                             .row_b = pair.body_b,
+                             .closest = &pair.closest,
+                             .X_WA = world_.bodies[at(pair.body_a)].X_WB,
+                             .X_WB = world_.bodies[at(pair.body_b)].X_WB,
+                             .former = remembered.view(),
+                             .height_m = lastingHeight(pair, step_s)};
+    std::vector<SourcedRow>& rows = stretch.of_pair;
+    appendRows(request, pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
+    // A point that comes in fast (the far edge of a falling box) lands, or has its own time of impact and
+    // restitution; so will one that bounces up.
+    std::erase_if(rows, [&](const SourcedRow& sourced) {
+      const double speed = rowVelocity(sourced.row, contacts_.bodies).x();
+      return speed < -pair.collision_speed_mps ||
+             (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
+    });
+    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
+    moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
+  }
+
+  // Where the bodies come down. There the gap is known, and how it goes on changing with the velocities. They
+  // act from the beginning of the step: so long before counts as if the gap were larger by what it lost.
+  void appendLandingRows(int index, const ShapePair& pair, std::vector<SourcedRow>& rows) {
+    const Landing& landing = *pair.landing;
+    const RememberedPoints remembered(pair);
+    appendRows({.pair = index,
+                .row_a = pair.body_a,
+                .row_b = pair.body_b,
+                .closest = &landing.closest,
+                .X_WA = landing.X_WA,
+                .X_WB = landing.X_WB,
+                .former = remembered.view(),
+                .height_m = lastingHeight(pair, world_.settings.step_s),
+                .struck = true},
+               pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
+    for (SourcedRow& sourced : rows) {
+      const ContactRow& row = sourced.row;
+      const Vec3 parting = landing.b.at(row.r_b) - landing.a.at(row.r_a);
+      sourced.gap_m -= landing.time_s * row.n.dot(parting);
+    }
+  }
+
+  // The rows of all other pairs, which have been solved; what those of `pairs` gave is given back.
+  void keepRows(std::span<const int> pairs, RowStretch& kept) {
+    std::vector<int> meeting;
+    for (const int i : pairs) {
+      const ShapePair& pair = world_.table.pairs()[at(i)];
+      for (const int body : {pair.body_a, pair.body_b})
+        if (moves(body)) meeting.push_back(body);
+    }
+    std::sort(meeting.begin(), meeting.end());
+    const auto meets = [&](int body) { return std::binary_search(meeting.begin(), meeting.end(), body); };
+    for (const LastingContacts::PairRows& of_pair : contacts_.pair_rows) {
+      const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
+      const bool is_met = meets(pair.body_a) || meets(pair.body_b);
+      if (is_met && isOneOf(of_pair.pair, pairs)) {
+        for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+          ContactRow given_back = contacts_.rows[i];
+          given_back.impulse = -given_back.impulse;
+          given_back.torque = -given_back.torque;
+          applyLoad(given_back, contacts_.bodies);
+        }
+        continue;
+      }
+      kept.pairs.push_back({of_pair.pair, pair.body_a, pair.body_b, of_pair.end - of_pair.begin});
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        kept.rows.push_back(contacts_.rows[i]);
+        kept.rows.back().seen_stir = is_met ? -1.0 : 0.0;
+        kept.sources.push_back(contacts_.sources[i]);
+      }
+    }
+  }
+
+  static bool isOneOf(int pair, std::span<const int> pairs) {
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  }
+
+  // Those with the rows that have just been made.
+  std::vector<std::size_t> islandsOf(std::span<const int> pairs) const {
+    std::vector<std::size_t> islands;
+    for (std::size_t i = 0; i < contacts_.islands.size(); ++i) {
+      // The rows kept come first in their island, those just made last.
+      const auto of_island = contacts_.pairsOf(contacts_.islands[i]);
+      if (isOneOf(of_island.back().pair, pairs)) islands.push_back(i);
+    }
+    return islands;
+  }
+
+  // Rows of one island stand together; each island is solved on its own, so that one that converges slowly
+  // does not keep the others sweeping. Pairs without rows may have parted islands.
+  void joinRows() {
+    Islands& islands = contacts_.room.joined;
+    islands.part(static_cast<int>(world_.bodies.size()));
+    for (const RowStretch& stretch : contacts_.stretches)
+      for (const RowStretch::Pair& pair : stretch.pairs)
+        if (moves(pair.body_a) && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
+    struct Origin {  // of a pair's rows
+      int island = -1;
+      std::size_t stretch = 0;
+      std::size_t first = 0;
+      std::size_t count = 0;
+      int pair = -1;
+      auto operator<=>(const Origin&) const = default;
+    };
+    std::vector<Origin> origins;
+    for (std::size_t k = 0; k < contacts_.stretches.size(); ++k) {
+      std::size_t first = 0;
+      for (const RowStretch::Pair& pair : contacts_.stretches[k].pairs) {
+        const int island = islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b);
+        origins.push_back({island, k, first, pair.rows, pair.pair});
+        first += pair.rows;
+      }
+    }
+    std::sort(origins.begin(), origins.end());
+    contacts_.pair_rows.clear();
+    contacts_.islands.clear();
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+      if (i == 0 || origins[i].island != origins[i - 1].island)
+        contacts_.islands.push_back({rows, rows, i, i});
+      contacts_.pair_rows.push_back({origins[i].pair, rows, rows + origins[i].count});
+      rows += origins[i].count;
+      contacts_.islands.back().row_end = rows;
+      contacts_.islands.back().pair_end = i + 1;
+    }
+    contacts_.rows.resize(rows);
+    contacts_.sources.resize(rows);
+    world_.crew.runStretches(origins.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const RowStretch& from = contacts_.stretches[origins[i].stretch];
+        const auto copy = [&](const auto& all, auto& rows_of_world) {
+          std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(origins[i].first), origins[i].count,
+                      rows_of_world.begin() + static_cast<std::ptrdiff_t>(contacts_.pair_rows[i].begin));
+        };
+        copy(from.rows, contacts_.rows);
+        copy(from.sources, contacts_.sources);
+      }
+    });
+  }
+
+  static constexpr std::size_t kMostStretches = 64;
+
+  LastingWorld world_;
+  StepCounters& counters_;
+  LastingContacts& contacts_;
+  std::vector<LastingPair> lasting_;
+};
+
+}  // namespace
+
+std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) const {
+  std::vector<int> listed;
+  for (const std::size_t island : some)
+    for (const PairRows& pair : pairsOf(islands[island]))
+      for (const int body : {rows[pair.begin].a, rows[pair.begin].b}) listed.push_back(body);
+  std::sort(listed.begin(), listed.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+  return listed;
+}
+
+bool isLasting(const ShapePair& pair, double step_s) {
+  return pair.closest.distance_m <= lastingHeight(pair, step_s);
+}
+
+void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {
+  Assembly(world, counters, contacts).assemble();
+}
+
+std::vector<std::size_t> addLandings(const LastingWorld& world, std::span<const int> pairs,
+                                     StepCounters& counters, LastingContacts& contacts) {
+  return Assembly(world, counters, contacts).addLandings(pairs);
+}
+
+}  // namespace carom

@@ -1,0 +1,149 @@
+#pragma once
+// The contact rows of a step: those of all pairs of shapes that are near enough, island by island, the bodies
+// of a crowd dissected so that several threads can sweep its rows. Internal to the simulation floor. Tested
+// through tests/engine/simulation/ and tests/physics/.
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "engine/modes/islands.h"
+#include "engine/simulation/bodies/active_bodies.h"
+#include "engine/simulation/bodies/half_turn.h"
+#include "engine/simulation/contacts/contact_rows.h"
+
+namespace carom {
+
+/// What of a row differs between the solve of the momentum and that of the paths.
+struct MomentumPart {
+  Vec3 impulse;
+  double lowest_speed = 0.0;
+};
+
+/// The rows of some pairs, as one thread makes them.
+struct RowStretch {
+  struct Pair {
+    int pair = -1;
+    int body_a = -1;
+    int body_b = -1;
+    std::size_t rows = 0;
+  };
+  std::vector<ContactRow> rows;
+  std::vector<RowSource> sources;
+  std::vector<Pair> pairs;
+  std::vector<SourcedRow> of_pair;  ///< Scratch.
+  StepCounters counters;
+};
+
+/// How a body moved before the step's impulses, once for all its rows.
+struct BodyMotion {
+  double mass_kg = 0.0;    ///< 0: it does not move.
+  double speed_mps = 0.0;  ///< Of its middle, and of its surface about that.
+  bool lies_still = true;
+};
+
+/// Room that is kept from step to step, by body of the world; what belongs to bodies that are not active is
+/// as they came to rest.
+struct ContactRoom {
+  std::vector<char> bends;
+  std::vector<Vec3> accelerations;
+  std::vector<BodyMotion> motions;
+  Islands joined;
+};
+
+/// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
+/// step.
+struct LastingContacts {
+  struct PairRows {
+    int pair = -1;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  ContactRoom room;  ///< Scratch.
+  /// What moves and hangs together by rows: those of one island stand together, and so do its pairs.
+  struct Island {
+    std::size_t row_begin = 0;
+    std::size_t row_end = 0;
+    std::size_t pair_begin = 0;
+    std::size_t pair_end = 0;
+  };
+  std::span<ContactRow> rowsOf(const Island& island) {
+    return std::span(rows).subspan(island.row_begin, island.row_end - island.row_begin);
+  }
+  std::span<const PairRows> pairsOf(const Island& island) const {
+    return std::span(pair_rows).subspan(island.pair_begin, island.pair_end - island.pair_begin);
+  }
+  /// Of some islands, by index: all bodies that their rows have, ascending.
+  std::vector<int> bodiesOf(std::span<const std::size_t> some) const;
+
+  std::vector<ContactRow> rows;
+  std::vector<RowSource> sources;      ///< As long.
+  std::vector<PairRows> pair_rows;     ///< The rows of each pair that has any, in their order.
+  std::vector<HalfTurn> half_turns;    ///< One per body of the world.
+  std::vector<ImpulseBody> bodies;     ///< In mid-step, one likewise, velocities after the solve.
+  std::vector<char> touched;           ///< Moving bodies that some row pressed.
+  std::vector<Velocity> gained;        ///< What the environment gives the bodies in the step, likewise.
+  std::vector<Island> islands;         ///< In the order of the rows.
+  std::vector<ImpulseBody> paths;      ///< The bodies with the mean velocities of their paths.
+  std::vector<MomentumPart> momentum;  ///< Of the rows, while they are bounds on paths.
+  std::vector<RowStretch> stretches;   ///< Scratch.
+};
+
+/// So many rows are looked at by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewRows = 1000;
+
+/// Of what a step's lasting contacts are made.
+struct LastingWorld {
+  std::vector<Body>& bodies;
+  const std::vector<Shape>& shapes;
+  PairTable& table;
+  ActiveBodies& active;
+  const WorldSettings& settings;
+  Crew& crew;
+};
+
+/// So often can each of `rows` be visited within a step's budget.
+inline int sweepsInBudget(std::size_t rows) {
+  return tolerance::kSolverRowVisits / std::max(1, static_cast<int>(rows));
+}
+
+/// Solves islands within a step's budget of row visits, by `solve(island, sweeps, again)`, which returns its
+/// report: each at first for its share, then those that have not come to `enough_mps` again, for what the
+/// others have left. Returns all row visits.
+template <typename Solve>
+long solveWithinBudget(const LastingContacts& contacts, std::span<const std::size_t> islands,
+                       double enough_mps, const Solve& solve) {
+  const auto rowsOf = [&](std::size_t island) {
+    return contacts.islands[island].row_end - contacts.islands[island].row_begin;
+  };
+  long visits = 0;
+  std::size_t unfinished_rows = 0;
+  std::vector<std::size_t> unfinished;
+  for (const std::size_t island : islands) {
+    const SolverReport report = solve(island, sweepsInBudget(contacts.rows.size()), false);
+    visits += report.visits;
+    if (report.residual_mps <= enough_mps) continue;
+    unfinished.push_back(island);
+    unfinished_rows += rowsOf(island);
+  }
+  if (unfinished.empty()) return visits;
+  const long sweeps = (tolerance::kSolverRowVisits - visits) / static_cast<long>(unfinished_rows);
+  if (sweeps < 1) return visits;
+  for (const std::size_t island : unfinished) visits += solve(island, static_cast<int>(sweeps), true).visits;
+  return visits;
+}
+
+/// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
+bool isLasting(const ShapePair& pair, double step_s);
+
+/// Makes the rows of all lasting pairs of which a body moves, prepared and with the impulses that they start
+/// from, not yet applied. What these pairs remember is over then.
+void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts);
+
+/// Puts rows where `pairs` come down (ShapePair::landing) beside those solved already, or in place of what
+/// these pairs had; what their bodies have of the rows taken out is given back. Returns the islands of the
+/// new rows; of theirs, those with a body of such a pair are marked as not looked at.
+std::vector<std::size_t> addLandings(const LastingWorld& world, std::span<const int> pairs,
+                                     StepCounters& counters, LastingContacts& contacts);
+
+}  // namespace carom

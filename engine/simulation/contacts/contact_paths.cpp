@@ -1,0 +1,199 @@
+#include "engine/simulation/contacts/contact_paths.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "engine/foundation/index.h"
+#include "engine/response/sweeps/ordered_pass.h"
+#include "engine/simulation/contacts/carried_path.h"
+
+namespace carom {
+namespace {
+
+constexpr int kPathSweeps = 2;          // at least
+constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
+constexpr double kPathShare =
+    0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
+
+void lowerTo(double value, double& smallest) {
+  std::atomic_ref<double> shared(smallest);
+  double seen = shared.load(std::memory_order_relaxed);
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+}
+
+class ContactPaths {
+ public:
+  ContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+               LastingContacts& contacts)
+      : world_(world),
+        islands_(islands),
+        counters_(counters),
+        contacts_(contacts),
+        bodies_(contacts.bodiesOf(islands)),
+        step_s_(world.settings.step_s) {
+    for (const std::size_t island : islands_) {
+      const auto of_island = contacts_.pairsOf(contacts_.islands[island]);
+      pairs_.insert(pairs_.end(), of_island.begin(), of_island.end());
+    }
+  }
+
+  void set() {
+    beginAtMeans();
+    const double residual_mps = kPathShare * boundPaths() / step_s_;
+    solve(residual_mps);
+    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solve(residual_mps);
+    takeMomentum();
+    carry();
+  }
+
+ private:
+  // Calls work(pair, rows) for stretches of pairs side by side; `rows` are indices.
+  template <typename Work>
+  void forPairs(const Work& work) {
+    world_.crew.runStretches(pairs_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) work(world_.table.pairs()[at(pairs_[k].pair)], pairs_[k]);
+    });
+  }
+
+  // The same for bodies: work(index).
+  template <typename Work>
+  void forBodies(const Work& work) {
+    world_.crew.runStretches(bodies_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(at(bodies_[i]));
+    });
+  }
+
+  void beginAtMeans() {
+    contacts_.paths.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) {
+      contacts_.paths[i] = contacts_.bodies[i];
+      Velocity& mean = contacts_.paths[i].velocity;
+      if (world_.bodies[i].is_kinematic) {
+        mean.linear -= 0.5 * contacts_.gained[i].linear;
+        mean.angular -= 0.5 * contacts_.gained[i].angular;
+      }
+      if (!contacts_.touched[i]) return;
+      mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
+      mean.angular = meanSpin(world_.bodies[i], contacts_.half_turns[i], mean.angular, step_s_);
+    });
+  }
+
+  // Makes the rows bounds on paths, without impulses yet. Returns the smallest rest gap, m.
+  double boundPaths() {
+    contacts_.momentum.resize(contacts_.rows.size());
+    double smallest = std::numeric_limits<double>::infinity();
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i) {
+        ContactRow& row = contacts_.rows[i];
+        contacts_.momentum[i] = {row.impulse, row.lowest_speed};
+        row.lowest_speed = gapSpeeds(contacts_.sources[i].gap_m, pair, step_s_, row.impulse.x() > 0.0).path;
+        row.impulse.setZero();
+      }
+      lowerTo(pair.window.rest, smallest);
+    });
+    return smallest;
+  }
+
+  void takeMomentum() {
+    forPairs([&](const ShapePair&, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i) {
+        contacts_.rows[i].impulse = contacts_.momentum[i].impulse;
+        contacts_.rows[i].lowest_speed = contacts_.momentum[i].lowest_speed;
+      }
+    });
+  }
+
+  bool raiseForTurning() {
+    std::atomic<bool> raised = false;
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      StepCounters counters;
+      if (carom::raiseForTurning({world_.bodies, world_.shapes, 0.0, step_s_}, pair, contacts_.paths,
+                                 std::span(contacts_.rows).subspan(rows.begin, rows.end - rows.begin),
+                                 counters))
+        raised = true;
+      if (counters.distance_queries == 0) return;
+      std::atomic_ref(counters_.distance_queries) += counters.distance_queries;
+      std::atomic_ref(counters_.states_walked) += counters.states_walked;
+    });
+    return raised;
+  }
+
+  // Without friction. Where few sweeps do not do, one pass from the supports upwards leaves only what is
+  // wedged.
+  void solve(double coarse_residual_mps) {
+    std::vector<std::size_t> coarse;
+    const auto solveIsland = [&](std::size_t island, int sweeps, bool again) {
+      const SolverReport report = solveContacts(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths,
+                                                {.sweeps = again ? sweeps : std::max(kPathSweeps, sweeps),
+                                                 .residual_mps = kPathResidual,
+                                                 .friction = false,
+                                                 .careful_sweeps = sweeps,
+                                                 .coarse_residual_mps = coarse_residual_mps,
+                                                 .crew = &world_.crew});
+      if (again) std::erase(coarse, island);
+      if (report.residual_mps > coarse_residual_mps) coarse.push_back(island);
+      return report;
+    };
+    counters_.row_visits += solveWithinBudget(contacts_, islands_, kPathResidual, solveIsland);
+    for (const std::size_t island : coarse)
+      passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
+  }
+
+  void carry() {
+    std::vector<Body>& bodies = world_.bodies;
+    forBodies([&](std::size_t i) {
+      if (!contacts_.touched[i]) return;
+      bodies[i].travel = Travel::kCarried;
+      const HalfTurn& half = contacts_.half_turns[i];
+      const Velocity& after = contacts_.bodies[i].velocity;
+      driveEvenly(bodies[i], {bodies[i].velocity,
+                              {after.linear - bodies[i].velocity.linear, after.angular - half.spin},
+                              half.R_WB,
+                              half.spin,
+                              step_s_});
+    });
+    counters_.projected_paths += static_cast<int>(
+        std::ranges::count_if(bodies_, [&](int i) { return contacts_.touched[at(i)] != 0; }));
+    findBends();
+    forBodies([&](std::size_t i) {
+      if (contacts_.touched[i])
+        carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.room.bends[i] != 0);
+    });
+  }
+
+  // Whose paths may bend.
+  void findBends() {
+    std::vector<char>& bends = contacts_.room.bends;
+    std::vector<Vec3>& accelerations = contacts_.room.accelerations;
+    bends.resize(world_.bodies.size());
+    accelerations.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) {
+      bends[i] = contacts_.touched[i];
+      accelerations[i] = world_.bodies[i].travels() ? world_.bodies[i].acceleration : Vec3(Vec3::Zero());
+    });
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      for (std::size_t i = rows.begin; i < rows.end; ++i)
+        straightenDips(contacts_.rows[i], contacts_.sources[i].gap_m, pair.window, step_s_, accelerations,
+                       bends);
+    });
+  }
+
+  LastingWorld world_;
+  std::span<const std::size_t> islands_;
+  std::vector<LastingContacts::PairRows> pairs_;  ///< Theirs.
+  StepCounters& counters_;
+  LastingContacts& contacts_;
+  std::vector<int> bodies_;  ///< Of the islands.
+  double step_s_;
+};
+
+}  // namespace
+
+void setContactPaths(const LastingWorld& world, std::span<const std::size_t> islands, StepCounters& counters,
+                     LastingContacts& contacts) {
+  ContactPaths(world, islands, counters, contacts).set();
+}
+
+}  // namespace carom

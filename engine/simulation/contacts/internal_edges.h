@@ -1,0 +1,31 @@
+#pragma once
+// Contacts with internal edges: those of a surface that several solids make together, of tiles that lie side
+// by side, of the parts of a compound body. The closest features of a box on one tile and of the next tile
+// are two edges, and the way between them is oblique: a contact along it would brake the box, push it aside
+// and lift it (ghost collisions). On the union of the tiles it is no contact: its direction is not in the
+// normal cone of the union, as the surface goes on below the box. What is tested is what makes it harmless,
+// so that tiles need not be flush: the box is held on a face beside the edge, and held there it passes the
+// edge at or above the window's floor (paper §2.3). Tested in tests/physics/friction/flush_tiles_test.cpp.
+
+#include "engine/simulation/contacts/pair_table.h"
+
+namespace carom {
+
+/// A pair of shapes at some instant.
+struct PlacedPair {
+  const ShapePair& pair;
+  const ClosestFeatures& closest;
+  Pose X_WA;
+  Pose X_WB;
+};
+
+/// Whether the direction of a contact is not determined by a face, nor by edges that cross: only such a
+/// contact can be one with an internal edge.
+bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes);
+
+/// Whether `other`, another contact of one of its bodies, makes `contact`, which is at edges, one with an
+/// internal edge over the next `dt_s`.
+bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
+                const std::vector<Body>& bodies, const std::vector<Shape>& shapes);
+
+}  // namespace carom

@@ -1,0 +1,345 @@
+#include "engine/simulation/contacts/lasting_contact.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include "engine/foundation/index.h"
+#include "engine/modes/islands.h"
+#include "engine/response/conjugate_sweeps.h"
+#include "engine/response/focused_solver.h"
+#include "engine/response/standing_solver.h"
+#include "engine/response/sweeps/energy_bound.h"
+#include "engine/response/sweeps/turning_resistance.h"
+#include "engine/simulation/bodies/solver_patience.h"
+#include "engine/simulation/contacts/contact_paths.h"
+
+namespace carom {
+namespace {
+
+constexpr int kLandingSweeps = 8;     // over rows that landings stir; the next step solves on
+constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
+constexpr double kFewMoving = 0.05;   // of a crowd's bodies: so many falling about do not set it in motion
+
+std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
+  contacts.room.motions.resize(world.bodies.size());
+  const std::span<const int> active = world.active.list();
+  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Body& body = world.bodies[at(active[k])];
+      BodyMotion& motion = contacts.room.motions[at(active[k])];
+      motion = {};
+      motion.lies_still = !body.isDriven() || body.was_stopped;
+      if (!body.moves()) continue;
+      motion = {1.0 / body.inertia.inverse_mass,
+                body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
+    }
+  });
+  return contacts.room.motions;
+}
+
+// Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
+// of them. A body counts as often as it has rows.
+bool stands(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
+  double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
+  double mass = 0.0;
+  int all = 0, moving = 0;
+  for (const ContactRow& row : rows) {
+    for (const int i : {row.a, row.b}) {
+      const BodyMotion& body = motions[at(i)];
+      if (body.mass_kg == 0.0 && !body.lies_still) return false;  // it rides on what moves
+      if (body.mass_kg == 0.0) continue;
+      ++all;
+      if (!(body.speed_mps < tolerance::kRestSpeed)) ++moving;
+      mass += body.mass_kg;
+      twice_energy += body.mass_kg * body.speed_mps * body.speed_mps;
+    }
+  }
+  if (rows.size() >= kFocusedRows && moving <= kFewMoving * all) return true;
+  return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
+}
+
+bool isStirred(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
+  return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
+    return !motions[at(row.a)].lies_still || !motions[at(row.b)].lies_still;
+  });
+}
+
+// The least sweeps of an island that stands but for what moves in it.
+int fewestSweeps(std::span<const ContactRow> rows) {
+  return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
+}
+
+// Of an island that lies still, before its rows are solved at once.
+int standingSweeps(std::span<const ContactRow> rows) {
+  return rows.size() < kFocusedRows ? tolerance::kSolverStandingSweeps
+                                    : tolerance::kSolverCrowdStandingSweeps;
+}
+
+// Small islands are solved to the fine residual, large ones to a coarser one.
+double residualOf(std::span<const ContactRow> rows, double coarser) {
+  return sweepsInBudget(rows.size()) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
+}
+
+// What lies still, all of it.
+SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
+                              std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
+  SolverSettings settings{
+      .sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
+      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
+      .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
+      .crew = &crew};
+  SolverPatience patience(rows, bodies);
+  if (patience.isLost()) {
+    settings.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows));
+    settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
+    settings.in_the_mean = true;
+    patience.waitAStep();
+    return solveContactsFocused(rows, solver_bodies, settings);
+  }
+  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
+  patience.learn(report, settings.residual_mps);
+  return report;
+}
+
+// While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
+// taken as equations, would contradict each other.
+SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
+                                 std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
+                                 double gravity_speed, Crew& crew) {
+  // What presses holds at the gap it has: closing it would keep the rest from lying still.
+  for (ContactRow& row : rows)
+    if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
+  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
+  return solveContactsFocused(
+      rows, solver_bodies,
+      {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
+       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
+       .in_the_mean = rows.size() >= kFocusedRows,
+       .crew = &crew});
+}
+
+// Carefully for its share of the budget, and coarsely for longer; a crowd in motion is solved on in the next
+// step.
+SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, int careful_sweeps,
+                               int most_sweeps, double gravity_speed, Crew& crew) {
+  return solveContactsFinely(rows, bodies,
+                             {.sweeps = most_sweeps,
+                              .residual_mps = tolerance::kSolverResidual * gravity_speed,
+                              .careful_sweeps = careful_sweeps,
+                              .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                              .crew = &crew});
+}
+
+// With friction.
+void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
+                   StepCounters& counters) {
+  const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+  const std::span<const BodyMotion> motions = motionsOf(world, contacts);
+  const int most_sweeps =
+      std::max(tolerance::kSolverMovingSweeps,
+               tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size())));
+  const auto solve = [&](std::size_t island, int sweeps, bool again) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
+    if (!again && stands(rows, motions)) {
+      SolverReport report =
+          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew);
+      report.residual_mps = 0.0;  // it has budgets of its own
+      return report;
+    }
+    return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
+                             gravity_speed, world.crew);
+  };
+  counters.row_visits +=
+      solveWithinBudget(contacts, islands, tolerance::kSolverResidual * gravity_speed, solve);
+  for (const std::size_t island : islands)
+    takeBackGain(contacts.rowsOf(contacts.islands[island]), contacts.bodies);
+}
+
+// The impulse of gravity and of what else surrounds the body over the step.
+void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const FlightPlanner& planner) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.gained.resize(bodies.size());
+  for (const int active : world.active.list()) {
+    const std::size_t i = at(active);
+    contacts.gained[i] = {};
+    if (!bodies[i].travels()) continue;
+    contacts.gained[i] = planner.gained(bodies[i]);
+    contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
+    contacts.bodies[i].velocity.angular += contacts.gained[i].angular;
+  }
+}
+
+// Gives the bodies the impulses that rows begin with. What an island remembers of another arrangement may be
+// far too much for this one, and few sweeps would leave some of that in its bodies.
+void warmUp(LastingContacts& contacts) {
+  for (const ContactRow& row : contacts.rows) applyLoad(row, contacts.bodies);
+  for (const LastingContacts::Island& island : contacts.islands)
+    takeBackGain(contacts.rowsOf(island), contacts.bodies);
+}
+
+// The moving bodies that some row presses.
+void findTouched(LastingContacts& contacts, const LastingWorld& world) {
+  const std::vector<Body>& bodies = world.bodies;
+  contacts.touched.resize(bodies.size(), 0);
+  for (const int i : world.active.list()) contacts.touched[at(i)] = 0;
+  world.crew.runStretches(contacts.rows.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const ContactRow& row = contacts.rows[k];
+      if (row.impulse.isZero(0.0)) continue;
+      for (const int i : {row.a, row.b})
+        if (bodies[at(i)].moves())
+          std::atomic_ref(contacts.touched[at(i)]).store(1, std::memory_order_relaxed);
+    }
+  });
+}
+
+// For the next step's plans: what contacts have given; nothing to a body in flight, which must not be planned
+// as if something held it.
+void foreseeContacts(const LastingContacts& contacts, int index, Body& body, const FlightPlanner& planner) {
+  const auto i = at(index);
+  if (!contacts.touched[i]) {
+    planner.leaveContacts(index, body);
+    return;
+  }
+  const Velocity& after = contacts.bodies[i].velocity;
+  const Velocity& gained = contacts.gained[i];
+  planner.takeContacts(body,
+                       {after.linear - body.velocity.linear - gained.linear,
+                        after.angular - contacts.half_turns[i].spin - gained.angular},
+                       contacts.half_turns[i].R_WB);
+}
+
+void remember(const LastingContacts& contacts, std::span<const LastingContacts::PairRows> pairs,
+              const LastingWorld& world) {
+  const double step_s = world.settings.step_s;
+  world.crew.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const LastingContacts::PairRows& of_pair = pairs[k];
+      ShapePair& pair = world.table.pairs()[at(of_pair.pair)];
+      pair.remembered.clear();
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        const ContactRow& row = contacts.rows[i];
+        const Vec3 impulse_W = rowImpulse(row, row.impulse);
+        const Vec3 torque_impulse_W = rowImpulse(row, row.torque);
+        pair.remembered.push_back({.id = contacts.sources[i].id,
+                                   .impulse_W = impulse_W,
+                                   .force_W = impulse_W / step_s,
+                                   .arm_a = row.r_a,
+                                   .arm_b = row.r_b,
+                                   .torque_impulse_W = torque_impulse_W,
+                                   .torque_W = torque_impulse_W / step_s});
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void correctLoad(const LastingContacts& contacts, std::size_t row, const RowLoad& load, double step_s,
+                 std::vector<ShapePair>& pairs) {
+  const ContactRow& corrected = contacts.rows[row];
+  const RowSource& source = contacts.sources[row];
+  ShapePair& pair = pairs[at(source.pair)];
+  // Pairs may have been collected anew since.
+  if (pair.body_a != corrected.a || pair.body_b != corrected.b) return;
+  for (RememberedImpulse& remembered : pair.remembered) {
+    if (remembered.id != source.id) continue;
+    remembered.impulse_W = rowImpulse(corrected, load.impulse);
+    remembered.force_W = remembered.impulse_W / step_s;
+    remembered.torque_impulse_W = rowImpulse(corrected, load.torque);
+    remembered.torque_W = remembered.torque_impulse_W / step_s;
+  }
+}
+
+bool wakePressed(const LastingWorld& world, const LastingContacts& contacts) {
+  bool woken = false;
+  for (const ContactRow& row : contacts.rows) {
+    if (!(row.impulse.x() > 0.0)) continue;
+    for (int i : {row.a, row.b}) {
+      if (!world.bodies[at(i)].resting) continue;
+      for (const int member : world.active.wakeIsland(world.bodies, i))
+        world.table.activate(member, world.bodies, world.settings);
+      woken = true;
+    }
+  }
+  return woken;
+}
+
+void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+                          LastingContacts& contacts) {
+  assembleContacts(world, counters, contacts);
+  giveEnvironment(contacts, world, planner);
+  warmUp(contacts);
+  std::vector<std::size_t> islands(contacts.islands.size());
+  std::iota(islands.begin(), islands.end(), std::size_t{0});
+  solveImpulses(contacts, islands, world, counters);
+  findTouched(contacts, world);
+  for (const int i : world.active.list())
+    if (world.bodies[at(i)].moves()) foreseeContacts(contacts, i, world.bodies[at(i)], planner);
+  setContactPaths(world, islands, counters, contacts);
+  remember(contacts, contacts.pair_rows, world);
+  counters.contact_points = static_cast<int>(contacts.rows.size());
+}
+
+std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
+                                 LastingContacts& contacts) {
+  const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
+  Islands& joined = contacts.room.joined;
+  joined.part(static_cast<int>(world.bodies.size()));
+  const auto join = [&](int index) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    if (moves(pair.body_a) && moves(pair.body_b)) joined.join(pair.body_a, pair.body_b);
+  };
+  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) join(of_pair.pair);
+  for (const int pair : pairs) join(pair);
+  std::vector<int> islands;  // of the pairs
+  for (const int index : pairs) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    islands.push_back(joined.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  }
+  const int most = sweepsInBudget(contacts.rows.size()) / kVisitsOfAnEvent;
+  std::vector<int> crowded;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (std::count(islands.begin(), islands.end(), islands[k]) > most)
+      crowded.push_back(pairs[k]);
+    else
+      world.table.pairs()[at(pairs[k])].landing.reset();
+  }
+  return crowded;
+}
+
+std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& world,
+                               const FlightPlanner& planner, StepCounters& counters,
+                               LastingContacts& contacts) {
+  const std::vector<std::size_t> islands = addLandings(world, pairs, counters, contacts);
+  std::vector<int> bodies = contacts.bodiesOf(islands);
+  for (const int i : bodies) contacts.bodies[at(i)].stir = 0.0;
+  for (const std::size_t i : islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
+    const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
+    const SolverReport report =
+        solveContacts(rows, contacts.bodies,
+                      {.sweeps = kLandingSweeps,
+                       .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                       .resumes = true,
+                       .crew = &world.crew});
+    takeBackGain(rows, contacts.bodies);
+    counters.row_visits += report.visits;
+  }
+  findTouched(contacts, world);
+  std::erase_if(bodies, [&](int i) { return !world.bodies[at(i)].moves(); });
+  for (const int i : bodies) {
+    Body& body = world.bodies[at(i)];
+    if (!contacts.touched[at(i)] && body.travel != Travel::kBallistic)
+      planner.planStep(i, body);  // nothing presses it any more
+    foreseeContacts(contacts, i, body, planner);
+  }
+  setContactPaths(world, islands, counters, contacts);
+  for (const std::size_t i : islands) remember(contacts, contacts.pairsOf(contacts.islands[i]), world);
+  counters.landings += static_cast<int>(pairs.size());
+  counters.contact_points = static_cast<int>(contacts.rows.size());
+  return bodies;
+}
+
+}  // namespace carom

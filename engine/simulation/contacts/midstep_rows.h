@@ -1,0 +1,31 @@
+#pragma once
+// Rows of bodies that turn, in the middle of their step. While a body turns about a contact, the arm to the
+// contact turns too (DEVIATES: the paper takes contacts where the step begins): what holds the contact at the
+// beginning of a step lets it move at the end. Impulses do work on the mean of the velocities before and
+// after, so their rows stand where the bodies are in mid-step, and ask there for the velocity that will be
+// nought at the step's end: a block rocks on its edge, a coin on its rim, without gain or loss (to third
+// order in the step). Internal to the simulation floor. Tested in
+// tests/physics/friction/rocking_block_test.cpp.
+
+#include <span>
+
+#include "engine/simulation/bodies/half_turn.h"
+#include "engine/simulation/contacts/contact_rows.h"
+
+namespace carom {
+
+/// How far ahead the middle of the step is, and what turning is worth a look there.
+struct MidStep {
+  double half_step_s = 0.0;
+  double noticed_mps = 0.0;              ///< Speed by which a contact's arms change in half a step.
+  std::span<const HalfTurn> half_turns;  ///< Of the world's bodies.
+};
+
+/// Moves the rows of one pair, as `appendRows` made them for `request`, to mid-step, where the velocities of
+/// `solver_bodies` carry the two; their coefficients stay. Rows of points that are not there then stay.
+void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
+                   const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                   std::span<const ImpulseBody> solver_bodies, std::span<SourcedRow> rows,
+                   StepCounters& counters);
+
+}  // namespace carom

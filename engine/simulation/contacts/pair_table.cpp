@@ -1,0 +1,329 @@
+#include "engine/simulation/contacts/pair_table.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/foundation/contract.h"
+#include "engine/foundation/index.h"
+#include "engine/simulation/bodies/phase_clock.h"
+#include "engine/simulation/contacts/contact_rows.h"
+
+namespace carom {
+namespace {
+
+constexpr double kLeastGravity = 0.01;          // m/s^2: 6 mm/s for parts a metre wide
+constexpr double kShortestBounce = 1.0 / 32.0;  // half a bounce, in steps
+constexpr double kNoticedBounce = 1.0;          // steps: a bounce that would last longer is one
+constexpr double kFallingShare = 0.5;
+constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
+
+// The bounds of a part in a pose.
+Bounds boundsAt(const ConvexPart& part, const Pose& X) {
+  const Mat3 to_body = X.rotation.conjugate().toRotationMatrix();
+  Bounds bounds;
+  int v = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Vec3 direction = to_body.col(axis);
+    v = part.core.support(direction, v);
+    bounds.high[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] + part.radius_m;
+    v = part.core.support(-direction, v);
+    bounds.low[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] - part.radius_m;
+  }
+  return bounds;
+}
+
+// Everything the part can touch along its path: its bounds at the start moved along the parabola and grown by
+// what rotation can do.
+Bounds sweptBounds(Bounds bounds, const Shape& shape, const Trajectory& path, double end_s) {
+  const double dt = end_s - path.start_s;
+  const Vec3 travel = path.positionAt(end_s) - path.X_WB.position;
+  const double sag = 0.125 * path.acceleration.norm() * dt * dt;
+  const double turn = std::min(path.fastestSpin() * dt, 2.0) * shape.reach_m;
+  const double margin = turn + sag;
+  bounds.low = bounds.low + travel.cwiseMin(0.0) - Vec3::Constant(margin);
+  bounds.high = bounds.high + travel.cwiseMax(0.0) + Vec3::Constant(margin);
+  return bounds;
+}
+
+// What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
+// contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
+// only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
+// gravity never brings them together again. A trace of it always remains, or the rounding of a finished
+// collision would be taken for another. A bounce that would last longer than a step, 2 e v / g, is one,
+// however slow.
+double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, const WorldSettings& settings) {
+  const auto given = [&](double gravity) {
+    return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling),
+                    kStepsOfGravity * gravity * settings.step_s);
+  };
+  const double gravity = std::max(settings.gravity.norm(), kLeastGravity);
+  const double e = pair.restitution;
+  if (e == 0.0) return given(gravity);
+  const bool both_fall = !bodies[at(pair.body_a)].supported && !bodies[at(pair.body_b)].supported;
+  if (both_fall) return std::max(kFallingShare * (1.0 - e) * given(gravity), given(kLeastGravity));
+  const double step_speed = gravity * settings.step_s;
+  const double share = std::min((1.0 - e) / (1.0 - tolerance::kLively), 1.0);
+  const double noticed = std::min(share * given(gravity), kNoticedBounce * step_speed / (2.0 * e));
+  return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
+}
+
+constexpr std::uint64_t kAddedWithinAStep = std::uint64_t{1} << 63;
+
+std::uint64_t rankOf(const IndexPair& shapes) {
+  return static_cast<std::uint64_t>(shapes.a) << 32 | static_cast<std::uint64_t>(shapes.b);
+}
+
+void scaleRemembered(ShapePair& pair, double factor) {
+  for (RememberedImpulse& remembered : pair.remembered) {
+    remembered.impulse_W *= factor;
+    remembered.torque_impulse_W *= factor;
+  }
+}
+
+// Room for the collision window, and for what contacts may do to the velocity within the step.
+double pairingMargin(const Shape& shape) {
+  return 2.0 * tolerance::kManifoldHeight * std::min(shape.width_m, tolerance::kWindowLargestScale);
+}
+
+}  // namespace
+
+void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                             std::span<const int> active, double end_s, Crew& crew) {
+  if (proxies_.size() != shapes.size()) {
+    proxies_.resize(shapes.size());
+    starts_.resize(shapes.size());
+    of_body_.resize(bodies.size());
+    first_shape_.assign(bodies.size() + 1, 0);
+    for (const Shape& shape : shapes) ++first_shape_[at(shape.body) + 1];
+    std::partial_sum(first_shape_.begin(), first_shape_.end(), first_shape_.begin());
+  }
+  active_shapes_.clear();
+  for (const int body : active)
+    for (int i = first_shape_[at(body)]; i < first_shape_[at(body) + 1]; ++i) active_shapes_.push_back(i);
+  crew.runStretches(active_shapes_.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = at(active_shapes_[k]);
+      const Body& body = bodies[at(shapes[i].body)];
+      proxies_[i].group = shapes[i].body;
+      starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
+      const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
+      proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
+      proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that contacts are remembered
+    }
+  });
+}
+
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
+                              const std::vector<Shape>& shapes, const WorldSettings& settings) const {
+  ShapePair pair;
+  pair.shapes = shapes_of_pair;
+  pair.rank = rankOf(shapes_of_pair);
+  const Shape& a = shapes[at(shapes_of_pair.a)];
+  const Shape& b = shapes[at(shapes_of_pair.b)];
+  pair.body_a = a.body;
+  pair.body_b = b.body;
+  pair.window = collisionWindow(std::min(a.width_m, b.width_m));
+  pair.restitution = combinedRestitution(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
+  pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
+  return pair;
+}
+
+// In its place among the pairs of its bodies; nobody asks for those of static ones.
+int PairTable::add(ShapePair pair, const std::vector<Body>& bodies) {
+  if (count() >= kMostPairs) throw TooManyPairs();
+  int place = static_cast<int>(pairs_.size());
+  if (free_.empty()) {
+    pairs_.push_back(std::move(pair));
+  } else {
+    place = free_.back();
+    free_.pop_back();
+    pairAt(place) = std::move(pair);
+  }
+  pairAt(place).active = true;
+  for (const int body : {pairAt(place).body_a, pairAt(place).body_b}) {
+    if (bodies[at(body)].is_static) continue;
+    std::vector<int>& known = of_body_[at(body)];
+    known.insert(
+        std::upper_bound(known.begin(), known.end(), place, [this](int p, int q) { return isBefore(p, q); }),
+        place);
+  }
+  return place;
+}
+
+void PairTable::remove(int place, const std::vector<Body>& bodies) {
+  ShapePair& pair = pairAt(place);
+  for (const int body : {pair.body_a, pair.body_b})
+    if (!bodies[at(body)].is_static) std::erase(of_body_[at(body)], place);
+  pair.remembered.clear();
+  pair.shapes = {};
+  pair.active = false;
+  free_.push_back(place);
+}
+
+// Pairs without an active body are kept, and looked at no more.
+void PairTable::restPairs(const std::vector<Body>& bodies) {
+  std::erase_if(active_, [&](int place) {
+    ShapePair& pair = pairAt(place);
+    if (bodies[at(pair.body_a)].active || bodies[at(pair.body_b)].active) return false;
+    pair.active = false;
+    pair.scale = scale_;
+    if (resting_gap_m_) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
+    return true;
+  });
+}
+
+// Pairs added within the last step have the places of their shapes from now on.
+void PairTable::takeInExtended(const std::vector<Body>& bodies) {
+  const auto before = [this](int p, int q) { return isBefore(p, q); };
+  for (const int place : extended_) pairAt(place).rank = rankOf(pairAt(place).shapes);
+  for (const int place : extended_)
+    for (const int body : {pairAt(place).body_a, pairAt(place).body_b})
+      if (!bodies[at(body)].is_static)
+        std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
+  extended_.clear();
+  if (!std::is_sorted(active_.begin(), active_.end(), before))
+    std::sort(active_.begin(), active_.end(), before);
+}
+
+void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                        const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
+  const std::vector<IndexPair>& wanted = finder_.find(proxies_, active_shapes_);
+  restPairs(bodies);
+  takeInExtended(bodies);
+  collected_.clear();
+  auto old = active_.begin();
+  for (const IndexPair& shapes_of_pair : wanted) {
+    for (; old != active_.end() && pairAt(*old).shapes < shapes_of_pair; ++old) remove(*old, bodies);
+    if (old != active_.end() && pairAt(*old).shapes == shapes_of_pair) {
+      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, settings);
+      collected_.push_back(*old++);
+      continue;
+    }
+    ShapePair pair = makePair(shapes_of_pair, bodies, shapes, settings);
+    const PhaseScope phase(clock, StepPhase::kClosestFeatures);
+    pair.closest =
+        closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
+                        *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
+    counters.addQuery(pair.closest.states);
+    counters.iteration_limits += pair.closest.reached_limit;
+    collected_.push_back(add(std::move(pair), bodies));
+  }
+  for (; old != active_.end(); ++old) remove(*old, bodies);
+  active_.swap(collected_);
+  counters.candidate_pairs = static_cast<int>(count());
+  counters.active_pairs = static_cast<int>(active_.size());
+}
+
+void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
+                       const std::vector<Shape>& shapes, const WorldSettings& settings,
+                       StepCounters& counters, PhaseClock* clock) {
+  for (int shape = first_shape_[at(body)]; shape < first_shape_[at(body) + 1]; ++shape) {
+    const std::size_t i = at(shape);
+    const Trajectory& path = bodies[at(body)].path;
+    starts_[i] = boundsAt(*shapes[i].part, path.X_WB);
+    const Bounds swept = sweptBounds(starts_[i], shapes[i], path, settings.step_s);
+    if (proxies_[i].bounds.contains(swept)) continue;
+    const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
+    proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
+    proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
+    finder_.grow(shape, onwards);
+    finder_.findPartners(proxies_, shape, partners_);
+    for (int partner : partners_) {
+      const IndexPair both{std::min(shape, partner), std::max(shape, partner)};
+      const std::vector<int>& known = of_body_[at(body)];
+      if (std::any_of(known.begin(), known.end(), [&](int p) { return pairAt(p).shapes == both; })) continue;
+      ShapePair pair = makePair(both, bodies, shapes, settings);
+      pair.rank = kAddedWithinAStep + extended_.size();
+      const PhaseScope phase(clock, StepPhase::kClosestFeatures);
+      pair.closest =
+          closestFeatures(*shapes[at(both.a)].part, bodies[at(pair.body_a)].path.at(time_s),
+                          *shapes[at(both.b)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
+      counters.addQuery(pair.closest.states);
+      const int place = add(std::move(pair), bodies);
+      active_.push_back(place);
+      extended_.push_back(place);
+      ++counters.candidate_pairs;
+    }
+  }
+}
+
+void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings) {
+  for (const int place : of_body_[at(body)]) {
+    ShapePair& pair = pairAt(place);
+    if (pair.active) continue;
+    if (resting_gap_m_ && pair.closest.distance_m <= *resting_gap_m_) resting_gap_m_.reset();
+    scaleRemembered(pair, impulseScale(pair));
+    pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
+    pair.active = true;
+    active_.push_back(place);
+  }
+}
+
+// Powers of two come to the same, whether one by one or together.
+void PairTable::scaleImpulses(double factor) {
+  for (const int place : active_) scaleRemembered(pairAt(place), factor);
+  scale_ *= factor;
+}
+
+double PairTable::smallestGap() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!resting_gap_m_) {
+    resting_gap_m_ = kInfinity;
+    for (const ShapePair& pair : pairs_)
+      if (!pair.isFree() && !pair.active) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
+  }
+  double smallest = *resting_gap_m_;
+  for (const int place : active_) smallest = std::min(smallest, pairAt(place).closest.distance_m);
+  return smallest;
+}
+
+std::vector<int> PairTable::all() const {
+  std::vector<int> places;
+  places.reserve(count());
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (!pairs_[i].isFree()) places.push_back(static_cast<int>(i));
+  std::sort(places.begin(), places.end(), [this](int p, int q) { return isBefore(p, q); });
+  return places;
+}
+
+bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                                 std::span<const int> active, double end_s, Crew& crew) const {
+  std::atomic<bool> leave = false;
+  crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end && !leave; ++k) {
+      const std::size_t b = at(active[k]);
+      if (!bodies[b].moves()) continue;
+      for (std::size_t i = at(first_shape_[b]); i < at(first_shape_[b + 1]); ++i)
+        if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], bodies[b].path, end_s)))
+          leave = true;
+    }
+  });
+  return leave;
+}
+
+void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
+                        StepCounters& counters) {
+  crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    int queries = 0, limits = 0;
+    long states = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      ShapePair& pair = pairAt(active_[i]);
+      const Body& a = bodies[at(pair.body_a)];
+      const Body& b = bodies[at(pair.body_b)];
+      if (!a.travels() && !b.travels()) continue;
+      pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
+                                     b.X_WB, pair.tracked);
+      ++queries;
+      states += pair.closest.states;
+      limits += pair.closest.reached_limit;
+    }
+    std::atomic_ref(counters.distance_queries) += queries;
+    std::atomic_ref(counters.states_walked) += states;
+    std::atomic_ref(counters.iteration_limits) += limits;
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,148 @@
+#pragma once
+// The candidate pairs of shapes and what is remembered of each from step to step: tracked features, the
+// closest features at the current time, and the impulses of its contact points. Internal to the simulation
+// floor. Tested through tests/engine/simulation/.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/broad_phase/pair_finder.h"
+#include "engine/contact/contact_manifold.h"
+#include "engine/contact/time_of_impact.h"
+#include "engine/foundation/crew.h"
+#include "engine/simulation/bodies/body.h"
+#include "engine/simulation/bodies/phase_clock.h"
+
+namespace carom {
+
+struct RememberedImpulse {
+  std::uint64_t id = 0;
+  Vec3 impulse_W = Vec3::Zero();  ///< N s on B: what the point took in its last step.
+  // What acts at the point for the rest of the step: events may end it, or give it anew.
+  Vec3 force_W = Vec3::Zero();  ///< N on B.
+  Vec3 arm_a = Vec3::Zero();    ///< From the centres of mass to where it acts, m.
+  Vec3 arm_b = Vec3::Zero();
+  // Against turning, likewise.
+  Vec3 torque_impulse_W = Vec3::Zero();  ///< N m s on B.
+  Vec3 torque_W = Vec3::Zero();          ///< N m on B.
+};
+
+/// Where a pair that will not bounce comes down within the step, on the paths that its bodies were to take.
+struct Landing {
+  double time_s = 0.0;  ///< From the step's beginning.
+  ClosestFeatures closest;
+  Pose X_WA;
+  Pose X_WB;
+  Velocity a;  ///< Of the paths, in the mean until then.
+  Velocity b;
+};
+
+/// Keeps its place in the table as long as the shapes are candidates.
+struct ShapePair {
+  IndexPair shapes;
+  std::uint64_t rank = 0;  ///< Pairs come in the order of their shapes, those added within a step after them.
+  bool active = false;
+  double scale = 1.0;  ///< Of the table's impulses, when it was active last.
+  int body_a = -1;
+  int body_b = -1;
+  CollisionWindow window;
+  double restitution = 0.0;
+  double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
+  FeaturePair tracked;
+  ClosestFeatures closest;                    ///< At the end of the last step.
+  std::optional<Landing> landing;             ///< In this step: its contact rows are made of it.
+  std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
+
+  bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
+};
+
+/// The ids of the points that a pair remembers.
+struct RememberedPoints {
+  explicit RememberedPoints(const ShapePair& pair) {
+    for (const RememberedImpulse& remembered : pair.remembered) add(remembered.id);
+  }
+  RememberedPoints() = default;
+  void add(std::uint64_t id) { ids[static_cast<std::size_t>(count++)] = id; }
+  FormerPoints view() const& { return {ids.data(), static_cast<std::size_t>(count)}; }
+  FormerPoints view() const&& = delete;  // it would outlive what it shows
+
+  int count = 0;
+  std::array<std::uint64_t, ContactManifold::kMaxPoints> ids{};
+};
+
+/// So many pairs are worked on by one thread: to wait for another takes as long.
+inline constexpr std::size_t kFewPairs = 500;
+
+class PairTable {
+ public:
+  /// The bounds that each shape of the active bodies (ascending) sweeps from its path's start to `end_s`,
+  /// with a margin of the collision window. All bodies must be active the first time.
+  void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                    std::span<const int> active, double end_s, Crew& crew);
+  /// Makes the pairs of active bodies those whose bounds overlap, keeping what was remembered; new ones are
+  /// queried at the bodies' poses of the last finished step. The pairs of others stay as they are.
+  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+  /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
+  void extend(int body, double time_s, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+              const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+  /// The pairs of a body that rested are active from now on, until the next `collect`.
+  void activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings);
+  /// For a step of another length: what was remembered of the impulses, so many times, a power of two.
+  void scaleImpulses(double factor);
+  /// Whether the path of some active body leaves the bounds it was paired by; all start where they did then.
+  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
+                        std::span<const int> active, double end_s, Crew& crew) const;
+  /// Queries the closest features again where a body moved.
+  void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
+               StepCounters& counters);
+
+  /// By place; some places may be free.
+  std::vector<ShapePair>& pairs() { return pairs_; }
+  const std::vector<ShapePair>& pairs() const { return pairs_; }
+  /// The places of the pairs that the step looks at: those with an active body. In their order after
+  /// `collect`.
+  const std::vector<int>& active() const { return active_; }
+  /// The places of all pairs, in their order. Cost O(pairs).
+  std::vector<int> all() const;
+  /// Of all pairs, m; +infinity when there is none. Cost O(active), and where one that rested with the
+  /// smallest gap has woken, O(pairs).
+  double smallestGap() const;
+  std::size_t count() const { return pairs_.size() - free_.size(); }
+  /// By what the impulses that a pair remembers are to be multiplied.
+  double impulseScale(const ShapePair& pair) const { return pair.active ? 1.0 : scale_ / pair.scale; }
+  /// One a shape: what it was paired by.
+  const std::vector<Proxy>& proxies() const { return proxies_; }
+  /// The places of the pairs of a body that is not static, in their order.
+  const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
+
+ private:
+  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
+                     const std::vector<Shape>& shapes, const WorldSettings& settings) const;
+  ShapePair& pairAt(int place) { return pairs_[static_cast<std::size_t>(place)]; }
+  const ShapePair& pairAt(int place) const { return pairs_[static_cast<std::size_t>(place)]; }
+  bool isBefore(int place, int other) const { return pairAt(place).rank < pairAt(other).rank; }
+  int add(ShapePair pair, const std::vector<Body>& bodies);
+  void remove(int place, const std::vector<Body>& bodies);
+  void restPairs(const std::vector<Body>& bodies);
+  void takeInExtended(const std::vector<Body>& bodies);
+
+  std::vector<int> first_shape_;  ///< Of each body, and the end.
+  std::vector<int> active_shapes_;
+  std::vector<Proxy> proxies_;
+  std::vector<Bounds> starts_;  ///< Of the shapes, where the paths start that they were paired by.
+  PairFinder finder_;
+  std::vector<ShapePair> pairs_;
+  std::vector<int> free_;                        ///< Places.
+  std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
+  std::vector<int> extended_;                    ///< Places of the pairs added since.
+  mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
+  double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
+  std::vector<std::vector<int>> of_body_;
+  std::vector<int> partners_, collected_;  ///< Scratch.
+};
+
+}  // namespace carom

@@ -1,0 +1,551 @@
+#include "engine/simulation/events/contact_cluster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/foundation/index.h"
+#include "engine/response/collision.h"
+#include "engine/response/conjugate_sweeps.h"
+#include "engine/response/sweeps/energy_bound.h"
+#include "engine/response/sweeps/turning_resistance.h"
+#include "engine/simulation/contacts/carried_path.h"
+#include "engine/simulation/contacts/internal_edges.h"
+
+namespace carom {
+namespace {
+
+// What lies between bodies a thousand times as heavy converges slowly; where rows are few, that is waited
+// for.
+constexpr std::size_t kFewRows = 32;
+constexpr long kFewRowsVisits = 4000;
+constexpr double kFewRowsShare = 1e-3;  // of what is safe
+constexpr int kSweepsARound = 4;        // between two looks at whom the impulses have reached
+constexpr int kFineSweeps = 20;         // at least, when they have reached all
+constexpr int kMostSweeps = 80;         // of one solve
+// A crowd: most of its rows are quiet, and only those that are not are visited; what has not settled after
+// these sweeps is left to the next step. Impulses and forces go on only to bodies that they move by so many
+// rest gaps in a step, and by more the larger the crowd has grown.
+constexpr std::size_t kCrowdRows = 100;
+constexpr int kCrowdSweeps = 20;
+constexpr double kCrowdRestGaps = 2.0;
+// Small clusters are solved to this share of the approach; when so many rows have been visited, and for
+// paths, it is enough that what is left over cannot use up much of the gap within a step.
+constexpr double kShareOfApproach = 1e-10;
+constexpr long kCarefulVisits = 1000;
+constexpr double kPathShare = 0.01;   // of that, for small clusters
+constexpr double kGapShare = 0.4;     // of the rest gap
+constexpr double kWakingShare = 0.1;  // of the resting mode's speed: forces that do less wake nobody
+constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
+
+}  // namespace
+
+void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time_s) {
+  ++number_;
+  body_joined_.resize(bodies_.size(), 0);
+  body_member_.resize(bodies_.size(), 0);
+  pair_joined_.resize(table_.pairs().size(), 0);
+  pair_seen_.resize(table_.pairs().size(), 0);
+  closest_.resize(table_.pairs().size());
+  pair_released_.resize(table_.pairs().size(), 0);
+  time_s_ = time_s;
+  event_pair_ = pair;
+  stage_ = Stage::kMomentum;
+  stops_short_ = false;
+  members_.clear();
+  momentum_.clear();
+  ends_.clear();
+  planned_ends_.clear();
+  pressed_.clear();
+  bends_.clear();
+  paths_.clear();
+  solve_before_.clear();
+  sources_.clear();
+  rows_.clear();
+  pair_seen_[at(pair)] = number_;
+  closest_[at(pair)] = closest;
+  addPair(pair, closest);
+}
+
+const ClosestFeatures* ContactCluster::closestSeen(int pair, double time_s) const {
+  const bool seen = time_s == time_s_ && at(pair) < pair_seen_.size() && pair_seen_[at(pair)] == number_;
+  return seen ? &closest_[at(pair)] : nullptr;
+}
+
+const ClosestFeatures& ContactCluster::look(int index) {
+  if (pair_seen_[at(index)] == number_) return closest_[at(index)];
+  pair_seen_[at(index)] = number_;
+  ShapePair& pair = table_.pairs()[at(index)];
+  ClosestFeatures& closest = closest_[at(index)];
+  closest = closestFeatures(*shapes_[at(pair.shapes.a)].part, bodies_[at(pair.body_a)].path.at(time_s_),
+                            *shapes_[at(pair.shapes.b)].part, bodies_[at(pair.body_b)].path.at(time_s_),
+                            pair.tracked);
+  counters_.addQuery(closest.states);
+  return closest;
+}
+
+int ContactCluster::join(int index) {
+  if (body_joined_[at(index)] == number_) return body_member_[at(index)];
+  body_joined_[at(index)] = number_;
+  body_member_[at(index)] = static_cast<int>(members_.size());
+  const Body& body = bodies_[at(index)];
+  if (!body.is_static && !body.active) table_.activate(index, bodies_, settings_);
+  Member member;
+  member.body = index;
+  member.expanded = !body.yields();
+  if (!body.is_static) {
+    member.momentum_before = body.velocityAt(time_s_);
+    member.path_before = {body.path.velocityAt(time_s_) + 0.5 * restOfStep() * body.path.acceleration,
+                          body.path.angularVelocityAt(time_s_)};
+  }
+  members_.push_back(member);
+  momentum_.push_back(body.impulseBody(body.path.at(time_s_), member.momentum_before));
+  paths_.push_back(momentum_.back());
+  paths_.back().velocity = member.path_before;
+  if (body.travel == Travel::kHeld) fixPath(paths_.size() - 1);
+  ends_.push_back(momentum_.back());
+  const Velocity gain = gainedByForces(body);
+  ends_.back().velocity = {member.momentum_before.linear + gain.linear,
+                           member.momentum_before.angular + gain.angular};
+  planned_ends_.push_back(ends_.back().velocity);
+  pressed_.push_back(0);
+  bends_.push_back(0);
+  solve_before_.push_back(stageBodies().back().velocity);
+  return body_member_[at(index)];
+}
+
+// Its momentum may change, its path may not.
+void ContactCluster::fixPath(std::size_t i) {
+  paths_[i].inverse_mass = 0.0;
+  paths_[i].inverse_tensor.setZero();
+}
+
+Velocity ContactCluster::gainedByForces(const Body& body) const {
+  if (body.is_static) return {};
+  Velocity gain{restOfStep() * body.acceleration, Vec3::Zero()};
+  if (body.is_kinematic) {
+    if (body.travel == Travel::kDriven) gain.angular = restOfStep() * body.path.spin_change.rate;
+    return gain;
+  }
+  if (!body.torque.isZero(0.0))
+    gain.angular = angularVelocity(body.inertia, body.path.at(time_s_).rotation, restOfStep() * body.torque);
+  return gain;
+}
+
+bool ContactCluster::forcesChanged(std::size_t i) const {
+  const Body& body = bodies_[at(members_[i].body)];
+  const double change = (ends_[i].velocity.linear - planned_ends_[i].linear).norm() +
+                        (ends_[i].velocity.angular - planned_ends_[i].angular).norm() * body.radius_m;
+  return change > (body.resting ? kWakingShare * tolerance::kRestSpeed : 0.0);
+}
+
+double ContactCluster::lowestSpeed(const SourcedRow& sourced) const {
+  const ShapePair& pair = table_.pairs()[at(sourced.pair)];
+  const GapSpeeds bounds = gapSpeeds(sourced.gap_m, pair, restOfStep());
+  if (stage_ == Stage::kPath) return bounds.path;
+  if (sourced.pair == event_pair_) return 0.0;
+  const bool in_window = sourced.gap_m <= pair.window.ceiling;
+  return in_window ? std::max(bounds.momentum, -kSlowShare * pair.collision_speed_mps) : bounds.momentum;
+}
+
+void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
+  pair_joined_[at(index)] = number_;
+  const ShapePair& pair = table_.pairs()[at(index)];
+  const int a = join(pair.body_a);
+  const int b = join(pair.body_b);
+  if (!givesWay(a) && !givesWay(b)) return;
+  const std::size_t first = sources_.size();
+  const RememberedPoints remembered(pair);
+  appendRows({.pair = index,
+              .row_a = a,
+              .row_b = b,
+              .closest = &closest,
+              .X_WA = bodies_[at(pair.body_a)].path.at(time_s_),
+              .X_WB = bodies_[at(pair.body_b)].path.at(time_s_),
+              .former = remembered.view(),
+              .struck = index == event_pair_},
+             pair, bodies_, shapes_, stageBodies(), sources_);
+  const double highest =
+      std::max(closest.distance_m, index == event_pair_ ? pair.window.ceiling : pair.window.manifold);
+  std::erase_if(sources_, [&](const SourcedRow& s) { return s.pair == index && s.gap_m > highest; });
+  for (std::size_t i = first; i < sources_.size(); ++i) {
+    rows_.push_back(sources_[i].row);
+    rows_.back().lowest_speed = lowestSpeed(sources_[i]);
+    if (stage_ == Stage::kMomentum) rows_.back().resistance = {};  // it belongs to lasting contact
+  }
+  if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
+}
+
+// Whether the contact of a pair that has been looked at is one with an internal edge.
+bool ContactCluster::isInternal(int index) {
+  const auto placed = [&](int i) {
+    const ShapePair& pair = table_.pairs()[at(i)];
+    return PlacedPair{pair, look(i), bodies_[at(pair.body_a)].path.at(time_s_),
+                      bodies_[at(pair.body_b)].path.at(time_s_)};
+  };
+  const PlacedPair contact = placed(index);
+  if (!isAtEdges(contact, shapes_)) return false;
+  for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
+    if (bodies_[at(body)].is_static) continue;
+    for (const int other : table_.pairsOf(body))
+      if (other != index && look(other).distance_m <= table_.pairs()[at(other)].window.manifold &&
+          passesEdge(contact, placed(other), restOfStep(), bodies_, shapes_))
+        return true;
+  }
+  return false;
+}
+
+void ContactCluster::expand(int body) {
+  for (int p : table_.pairsOf(body)) {
+    if (pair_joined_[at(p)] == number_) continue;
+    pair_joined_[at(p)] = number_;
+    const ClosestFeatures& closest = look(p);
+    if (closest.distance_m <= table_.pairs()[at(p)].window.manifold && !isInternal(p)) addPair(p, closest);
+  }
+  if (stage_ == Stage::kSupport) releaseDistant(body);
+}
+
+// Whether contacts have joined.
+bool ContactCluster::expandMoved(double noticeable_mps) {
+  const std::size_t rows = rows_.size();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].expanded) continue;
+    const Velocity& now = stageBodies()[i].velocity;
+    const Body& body = bodies_[at(members_[i].body)];
+    const double change = (now.linear - solve_before_[i].linear).norm() +
+                          (now.angular - solve_before_[i].angular).norm() * body.radius_m;
+    if (change <= noticeable_mps) continue;
+    members_[i].expanded = true;
+    expand(members_[i].body);
+  }
+  return rows_.size() > rows;
+}
+
+// Whether the bodies' spheres say that the pair could be in the window.
+bool ContactCluster::isNear(const ShapePair& pair) const {
+  const Body& a = bodies_[at(pair.body_a)];
+  const Body& b = bodies_[at(pair.body_b)];
+  return (b.path.positionAt(time_s_) - a.path.positionAt(time_s_)).norm() <=
+         a.radius_m + b.radius_m + pair.window.ceiling;
+}
+
+// Bodies may meet several others at the same instant and speed (a ball two that touch): one collision, so
+// that its outcome does not depend on who is asked first.
+void ContactCluster::joinSimultaneous(double approach_mps) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!bodies_[at(members_[i].body)].yields()) continue;
+    for (int p : table_.pairsOf(members_[i].body)) {
+      const ShapePair& pair = table_.pairs()[at(p)];
+      if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
+      pair_joined_[at(p)] = number_;
+      const Body& a = bodies_[at(pair.body_a)];
+      const Body& b = bodies_[at(pair.body_b)];
+      const ClosestFeatures& closest = look(p);
+      const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
+                            a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
+      if (closest.distance_m <= pair.window.ceiling && sameApproach(closest.n_W.dot(relative), approach_mps))
+        addPair(p, closest);
+      else
+        pair_joined_[at(p)] = 0;  // it may still join as a support
+    }
+  }
+}
+
+double ContactCluster::safeResidual() const {
+  return kGapShare * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
+}
+
+double ContactCluster::noticeableSpeed() const {
+  if (!isCrowd() || stage_ == Stage::kPath) return safeResidual();
+  const double crowds = static_cast<double>(rows_.size()) / static_cast<double>(kCrowdRows);
+  return kCrowdRestGaps * crowds * crowds * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
+}
+
+bool ContactCluster::isCrowd() const {
+  return rows_.size() > kCrowdRows;
+}
+
+int ContactCluster::mostSweeps() const {
+  return isCrowd() ? kCrowdSweeps : kMostSweeps;
+}
+
+long ContactCluster::fewRowsVisits() const {
+  return rows_.size() <= kFewRows ? kFewRowsVisits : 0;
+}
+
+void ContactCluster::solveSpreading(double careful_mps) {
+  const bool friction = stage_ != Stage::kPath;
+  const double safe = safeResidual();
+  long visits = 0;
+  bool resumes = false;
+  bool reached = false;  // all whom the impulses reach have joined
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
+    const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
+                          : visits < fewRowsVisits() ? kFewRowsShare * safe
+                                                     : safe;
+    const int fine_sweeps =
+        std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
+    const bool fine = reached && !isCrowd();
+    const SolverSettings settings{.sweeps = fine ? fine_sweeps : kSweepsARound,
+                                  .residual_mps = enough,
+                                  .friction = friction,
+                                  .resumes = resumes};
+    const SolverReport report = fine ? solveContactsFinely(rows_, stageBodies(), settings)
+                                     : solveContacts(rows_, stageBodies(), settings);
+    resumes = !fine;
+    sweeps += report.sweeps;
+    visits += report.visits;
+    visits_ += report.visits;
+    const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
+    if (!grew && report.residual_mps <= enough) return;
+    reached = !grew;
+  }
+}
+
+std::vector<double> ContactCluster::findRestitution() {
+  std::vector<double> restitution(rows_.size(), 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const ShapePair& pair = table_.pairs()[at(sources_[i].pair)];
+    if (rowVelocity(rows_[i], momentum_).x() >= -pair.collision_speed_mps) continue;
+    restitution[i] =
+        combinedRestitution(bodies_[at(pair.body_a)].material, bodies_[at(pair.body_b)].material);
+    members_[at(rows_[i].a)].collided = members_[at(rows_[i].b)].collided = true;
+  }
+  return restitution;
+}
+
+void ContactCluster::collide(bool spreads) {
+  double approach = 0.0;
+  for (const ContactRow& row : rows_) approach = std::min(approach, rowVelocity(row, momentum_).x());
+  if (!spreads && approach < 0.0) joinSimultaneous(approach);
+  std::vector<double> restitution = findRestitution();
+  if (approach >= 0.0) return;
+  const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });
+  if (spreads) {
+    solveSpreading(kShareOfApproach * -approach);
+    takeBackGain(rows_, momentum_);
+    if (!elastic && rows_.size() > 1) return;  // one point is followed through
+    startAgain();
+    restitution = findRestitution();
+  }
+  carom::collide(rows_, momentum_, restitution);
+}
+
+// The compression has found whom the collision reaches. With restitution it starts from the velocities
+// before, between those in contact.
+void ContactCluster::startAgain() {
+  for (std::size_t i = 0; i < members_.size(); ++i) momentum_[i].velocity = members_[i].momentum_before;
+  std::erase_if(sources_, [&](const SourcedRow& s) {
+    return s.pair != event_pair_ && s.gap_m > table_.pairs()[at(s.pair)].window.ceiling;
+  });
+  rows_.clear();
+  for (const SourcedRow& sourced : sources_) rows_.push_back(sourced.row);
+}
+
+// Whether a point comes in so fast that it has its own time of impact; in the window, without restitution, it
+// is stopped with the others.
+bool ContactCluster::collidesLater(const ContactRow& row, const SourcedRow& sourced) const {
+  const ShapePair& pair = table_.pairs()[at(sourced.pair)];
+  if (rowVelocity(row, momentum_).x() >= -pair.collision_speed_mps) return false;
+  return pair.restitution > 0.0 || sourced.gap_m > pair.window.ceiling;
+}
+
+double ContactCluster::workOfCollision() const {
+  double work_J = 0.0;
+  for (const ContactRow& row : rows_) {
+    const Vec3 impulse = rowImpulse(row, row.impulse);
+    if (bodies_[at(members_[at(row.a)].body)].is_kinematic)
+      work_J += impulse.dot(momentum_[at(row.a)].velocity.at(row.r_a));
+    if (bodies_[at(members_[at(row.b)].body)].is_kinematic)
+      work_J -= impulse.dot(momentum_[at(row.b)].velocity.at(row.r_b));
+  }
+  return work_J;
+}
+
+// Ends the forces between the bodies of a pair, both members.
+void ContactCluster::releaseForces(int index) {
+  pair_released_[at(index)] = number_;
+  const ShapePair& pair = table_.pairs()[at(index)];
+  counters_.work_J -= workOfForces(pair, bodies_, time_s_, settings_.step_s);
+  const int member_a = join(pair.body_a);
+  const int member_b = join(pair.body_b);
+  ImpulseBody& a = ends_[at(member_a)];
+  ImpulseBody& b = ends_[at(member_b)];
+  for (const RememberedImpulse& acting : pair.remembered) {
+    a.apply(restOfStep() * acting.force_W, acting.arm_a);
+    b.apply(-restOfStep() * acting.force_W, acting.arm_b);
+    a.turn(restOfStep() * acting.torque_W);
+    b.turn(-restOfStep() * acting.torque_W);
+  }
+}
+
+// Ends the forces of a body's pairs whose contact is over, but that still press each other. Before the others
+// are solved: what such a force was balanced by must not be left to act alone.
+void ContactCluster::releaseDistant(int body) {
+  for (int p : table_.pairsOf(body)) {
+    ShapePair& pair = table_.pairs()[at(p)];
+    if (pair.remembered.empty() || pair_released_[at(p)] == number_) continue;
+    releaseForces(p);
+    pair.remembered.clear();
+  }
+}
+
+// The forces that act between the bodies of a pair, whose rows these are, become the rows' own; rows of fast
+// approaches, and of fast partings where restitution makes them bounce, give no support.
+void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  const ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+  releaseForces(sources_[first].pair);
+  for (std::size_t k = first; k < first + count; ++k) {
+    ContactRow& row = rows_[k];
+    row.impulse.setZero();
+    row.torque.setZero();
+    row.lowest_speed = -std::numeric_limits<double>::max();
+    if (collidesLater(row, sources_[k])) continue;
+    if (pair.restitution > 0.0 && rowVelocity(row, momentum_).x() > pair.collision_speed_mps) continue;
+    for (const RememberedImpulse& acting : pair.remembered) {
+      if (acting.id != sources_[k].id) continue;
+      row.impulse = inRowFrame(row, restOfStep() * acting.force_W);
+      row.impulse.x() = std::max(0.0, row.impulse.x());
+      row.torque = inRowFrame(row, restOfStep() * acting.torque_W);
+    }
+    applyLoad(row, ends_);
+    row.lowest_speed = gapSpeeds(sources_[k].gap_m, pair, restOfStep(), row.impulse.x() > 0.0).momentum;
+  }
+}
+
+// Points of the event's pair that press, but that the manifold of this instant does not show (of five corners
+// it keeps four): else two corners struck in turn would each undo what holds the other.
+void ContactCluster::recallPoints() {
+  if (sources_.empty() || sources_.front().pair != event_pair_) return;
+  const ShapePair& pair = table_.pairs()[at(event_pair_)];
+  std::size_t shown = 0;
+  while (shown < sources_.size() && sources_[shown].pair == event_pair_) ++shown;
+  for (const RememberedImpulse& acting : pair.remembered) {
+    if (shown >= ContactManifold::kMaxPoints) break;
+    const auto known = std::find_if(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(shown),
+                                    [&](const SourcedRow& s) { return s.id == acting.id; });
+    if (acting.force_W.isZero(0.0) || known != sources_.begin() + static_cast<std::ptrdiff_t>(shown))
+      continue;
+    SourcedRow recalled = sources_.front();
+    recalled.id = acting.id;
+    recalled.gap_m = pair.window.rest;  // held as it is
+    recalled.row.r_a = acting.arm_a;
+    recalled.row.r_b = acting.arm_b;
+    if (rowVelocity(recalled.row, momentum_).x() > pair.collision_speed_mps) continue;
+    sources_.insert(sources_.begin() + static_cast<std::ptrdiff_t>(shown++), recalled);
+  }
+}
+
+bool ContactCluster::meetsCarried() const {
+  return std::any_of(members_.begin(), members_.end(), [this](const Member& m) {
+    const Body& body = bodies_[at(m.body)];
+    return body.yields() && body.travel != Travel::kBallistic;
+  });
+}
+
+void ContactCluster::support() {
+  stage_ = Stage::kSupport;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Velocity gain = gainedByForces(bodies_[at(members_[i].body)]);
+    ends_[i].velocity = {momentum_[i].velocity.linear + gain.linear,
+                         momentum_[i].velocity.angular + gain.angular};
+    solve_before_[i] = planned_ends_[i];
+  }
+  recallPoints();
+  rows_.clear();
+  for (const SourcedRow& sourced : sources_) {
+    rows_.push_back(sourced.row);
+    prepareRow(rows_.back(), ends_);
+  }
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;
+    takeOverForces(first, end - first);
+  }
+  for (std::size_t i = 0, known = members_.size(); i < known; ++i) {
+    if (!bodies_[at(members_[i].body)].yields()) continue;
+    if (members_[i].expanded) {
+      releaseDistant(members_[i].body);
+    } else if (i < 2) {
+      members_[i].expanded = true;
+      expand(members_[i].body);
+    }
+  }
+  solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
+  takeBackGain(rows_, ends_);
+  stops_short_ = isCrowd();
+  keepForces();
+  findBends();
+}
+
+void ContactCluster::findBends() {
+  std::vector<Vec3> accelerations;
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    accelerations.push_back((ends_[i].velocity.linear - momentum_[i].velocity.linear) / restOfStep());
+  bends_.assign(members_.size(), 1);
+  for (const SourcedRow& sourced : sources_)
+    straightenDips(sourced.row, sourced.gap_m, table_.pairs()[at(sourced.pair)].window, restOfStep(),
+                   accelerations, bends_);
+}
+
+// What the rows' forces are from now on.
+void ContactCluster::keepForces() {
+  std::vector<RememberedImpulse> known;
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+    known.swap(pair.remembered);
+    pair.remembered.clear();
+    for (; end < sources_.size() && sources_[end].pair == sources_[first].pair; ++end) {
+      const ContactRow& row = rows_[end];
+      RememberedImpulse now{.id = sources_[end].id,
+                            .force_W = rowImpulse(row, row.impulse) / restOfStep(),
+                            .arm_a = row.r_a,
+                            .arm_b = row.r_b,
+                            .torque_W = rowImpulse(row, row.torque) / restOfStep()};
+      for (const RememberedImpulse& before : known)
+        if (before.id == now.id) {
+          now.impulse_W = before.impulse_W;
+          now.torque_impulse_W = before.torque_impulse_W;
+        }
+      pair.remembered.push_back(now);
+      if (row.impulse.x() > 0.0) pressed_[at(row.a)] = pressed_[at(row.b)] = 1;
+    }
+    counters_.work_J += workOfForces(pair, bodies_, time_s_, settings_.step_s);
+  }
+}
+
+void ContactCluster::boundPaths(bool all) {
+  stage_ = Stage::kPath;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    solve_before_[i] = paths_[i].velocity;
+    if (keepsPath(i)) fixPath(i);
+  }
+  std::erase_if(sources_, [&](const SourcedRow& s) {
+    return (!givesWay(s.row.a) && !givesWay(s.row.b)) || (!all && collidesLater(s.row, s));
+  });
+  rows_.clear();
+  for (const SourcedRow& sourced : sources_) {
+    rows_.push_back(sourced.row);
+    rows_.back().lowest_speed = lowestSpeed(sourced);
+    prepareRow(rows_.back(), paths_);
+  }
+  solveSpreading(kPathShare * safeResidual());
+  for (int round = 0; round < kTurningRounds; ++round) {
+    if (!raiseForTurning(all)) break;
+    solveSpreading(kPathShare * safeResidual());
+  }
+}
+
+bool ContactCluster::raiseForTurning(bool all) {
+  const PathBounds bounds{bodies_, shapes_, time_s_, restOfStep(), all};
+  bool raised = false;
+  for (std::size_t first = 0, end = 0; first < sources_.size(); first = end) {
+    while (end < sources_.size() && sources_[end].pair == sources_[first].pair) ++end;
+    const ShapePair& pair = table_.pairs()[at(sources_[first].pair)];
+    raised |=
+        carom::raiseForTurning(bounds, pair, paths_, std::span(rows_).subspan(first, end - first), counters_);
+  }
+  return raised;
+}
+
+}  // namespace carom

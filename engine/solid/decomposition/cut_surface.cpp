@@ -1,0 +1,480 @@
+#include "engine/solid/decomposition/cut_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/foundation/contract.h"
+#include "engine/foundation/elementary.h"
+#include "engine/solid/decomposition/polygon_triangles.h"
+
+namespace carom {
+namespace {
+
+/// The same for a side and its mate.
+int edgeOf(int half, int mate) {
+  return std::min(half, mate);
+}
+
+class Groups {
+ public:
+  int add() {
+    parents_.push_back(static_cast<int>(parents_.size()));
+    return parents_.back();
+  }
+  int rootOf(int i) {
+    while (parents_[static_cast<std::size_t>(i)] != i) {
+      int& parent = parents_[static_cast<std::size_t>(i)];
+      parent = parents_[static_cast<std::size_t>(parent)];
+      i = parent;
+    }
+    return i;
+  }
+  void join(int a, int b) {
+    const int root_a = rootOf(a), root_b = rootOf(b);
+    parents_[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
+  }
+  int count() const { return static_cast<int>(parents_.size()); }
+
+ private:
+  std::vector<int> parents_;
+};
+
+struct Frame2 {
+  TangentBasis basis;
+  Vec2 operator()(const Vec3& p) const { return {basis.t1.dot(p), basis.t2.dot(p)}; }
+};
+
+double cross2(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+/// The curves of a section that are near the notch.
+struct CutSurface::Section {
+  Plane plane;
+  std::vector<int> crossed;       // edges, in order
+  std::vector<char> near_notch;   // by point: on the plane, and on a curve that is cut
+  std::vector<char> edge_chosen;  // by half (of crossed edges)
+  double twice_area = 0.0;
+};
+
+CutSurface::CutSurface(const ClosedSurface& surface, double tolerance_m)
+    : tolerance_m_(tolerance_m), points_(surface.mesh.vertices), triangles_(surface.mesh.triangles) {
+  std::map<std::pair<int, int>, int> half_of;
+  mates_.assign(3 * triangles_.size(), -1);
+  for (int half = 0; half < static_cast<int>(mates_.size()); ++half) {
+    const auto other = half_of.find({head(half), tail(half)});
+    if (other == half_of.end()) {
+      half_of[{tail(half), head(half)}] = half;
+    } else {
+      pair(half, other->second);
+      half_of.erase(other);
+    }
+  }
+  REQUIRE(half_of.empty(), half_of.size());
+
+  facets_of_.assign(triangles_.size(), -1);
+  std::vector<double> area(triangles_.size());
+  for (std::size_t t = 0; t < area.size(); ++t) area[t] = triangleArea(static_cast<int>(t)).norm();
+  std::vector<int> order(triangles_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area[at(a)] > area[at(b)]; });
+  for (const int t : order)
+    if (facets_of_[at(t)] < 0) growFacet(t);
+}
+
+Vec3 CutSurface::triangleArea(int t) const {
+  const Triangle& c = triangles_[at(t)];
+  return 0.5 * (point(c[1]) - point(c[0])).cross(point(c[2]) - point(c[0]));
+}
+
+// The plane is fitted again with each triangle, so that a facet of slender triangles does not depend on the
+// one it began with.
+void CutSurface::growFacet(int seed) {
+  const int id = static_cast<int>(facets_.size());
+  Vec3 area = Vec3::Zero(), moment = Vec3::Zero();
+  double weight = 0.0;
+  const auto include = [&](int t) {
+    const Vec3 a = triangleArea(t);
+    const Triangle& c = triangles_[at(t)];
+    area += a;
+    weight += a.norm();
+    moment += a.norm() * (point(c[0]) + point(c[1]) + point(c[2])) / 3.0;
+    facets_of_[at(t)] = id;
+  };
+  include(seed);
+  if (!(weight > 0.0)) {  // three corners on a line, beside nothing that is flat with them
+    facets_.push_back({{Vec3::UnitZ(), point(triangles_[at(seed)][0]).z()}, 1.0});
+    return;
+  }
+  std::vector<int> reached{seed};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const int half = mate(3 * reached[i] + k), t = half / 3;
+      if (facets_of_[at(t)] >= 0) continue;
+      const Vec3 n = area.normalized(), center = moment / weight;
+      const Vec3& apex = point(tail(next(next(half))));
+      if (std::abs(n.dot(apex - center)) > tolerance_m_) continue;
+      // A triangle that is folded back is flat, but no part of the facet.
+      const Vec3 own = triangleArea(t);
+      const Triangle& c = triangles_[at(t)];
+      const double longest = std::max({(point(c[1]) - point(c[0])).norm(), (point(c[2]) - point(c[1])).norm(),
+                                       (point(c[0]) - point(c[2])).norm()});
+      if (n.dot(own) < 0.0 && own.norm() > tolerance_m_ * longest) continue;
+      include(t);
+      reached.push_back(t);
+    }
+  const Vec3 n = area.normalized();
+  // How wide the facet is at least: twice its area over its longest extent.
+  double longest = 0.0;
+  for (const int t : reached)
+    for (const int v : triangles_[at(t)])
+      longest = std::max(longest, 2.0 * (point(v) - Vec3(moment / weight)).norm());
+  const double width = 2.0 * weight / std::max(longest, std::numeric_limits<double>::min());
+  facets_.push_back({{n, n.dot(Vec3(moment / weight))}, std::min(1.0, tolerance_m_ / width)});
+}
+
+bool CutSurface::isNotch(int half) const {
+  const int f = facetOf(half), g = facetOf(mate(half));
+  if (f == g) return false;
+  const Facet &left = facets_[at(f)], &right = facets_[at(g)];
+  const Vec3 along = (point(head(half)) - point(tail(half))).normalized();
+  return left.plane.normal.cross(right.plane.normal).dot(along) < -(left.normal_error + right.normal_error);
+}
+
+std::vector<int> CutSurface::notches(std::span<const int> piece) const {
+  std::vector<int> found;
+  for (const int t : piece)
+    for (int half = 3 * t; half < 3 * t + 3; ++half)
+      if (half < mate(half) && isNotch(half)) found.push_back(half);
+  return found;
+}
+
+bool CutSurface::divides(const Plane& plane, int half) const {
+  const int f = facetOf(half), g = facetOf(mate(half));
+  const Vec3 along = point(head(half)) - point(tail(half));
+  const double left = plane.normal.dot(facet(f).normal.cross(along)) / along.norm();
+  const double right = -plane.normal.dot(facet(g).normal.cross(along)) / along.norm();
+  const double l = std::abs(left) <= facets_[at(f)].normal_error ? 0.0 : left;
+  const double r = std::abs(right) <= facets_[at(g)].normal_error ? 0.0 : right;
+  return l * r < 0.0 || ((l == 0.0) != (r == 0.0));
+}
+
+// The same bits from either side of the edge.
+Vec3 CutSurface::crossing(const Plane& plane, int half) const {
+  const int low = std::min(tail(half), head(half)), high = std::max(tail(half), head(half));
+  const double l = plane.signedDistance(point(low)), h = plane.signedDistance(point(high));
+  return point(low) + (l / (l - h)) * (point(high) - point(low));
+}
+
+CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const NotchPlane& by) {
+  const Plane& plane = by.plane;
+  label_.assign(points_.size(), 0);
+  node_of_point_.assign(points_.size(), -1);
+  node_of_half_.assign(mates_.size(), -1);
+  for (const int t : piece)
+    for (const int v : triangles_[at(t)]) {
+      const double d = plane.signedDistance(point(v));
+      label_[at(v)] = static_cast<signed char>(std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1);
+    }
+  for (const int v : {tail(by.half), head(by.half)}) label_[at(v)] = 0;
+  if (by.along >= 0)
+    for (const int t : piece)
+      if (facets_of_[at(t)] == by.along)
+        for (const int v : triangles_[at(t)]) label_[at(v)] = 0;
+
+  // The section's curves run from edge to edge through the triangles.
+  Groups curves;
+  const auto pointNode = [&](int v) {
+    int& node = node_of_point_[at(v)];
+    return node >= 0 ? node : node = curves.add();
+  };
+  const auto edgeNode = [&](int half) {
+    int& node = node_of_half_[at(edgeOf(half, mate(half)))];
+    return node >= 0 ? node : node = curves.add();
+  };
+  std::vector<int> crossed;
+  for (const int t : piece) {
+    int first = -1;
+    const auto meet = [&](int node) {
+      if (first < 0) first = node;
+      curves.join(first, node);
+    };
+    for (int half = 3 * t; half < 3 * t + 3; ++half) {
+      const int from = label_[at(tail(half))], to = label_[at(head(half))];
+      if (from == 0) meet(pointNode(tail(half)));
+      if (from * to < 0) {
+        meet(edgeNode(half));
+        if (half < mate(half)) crossed.push_back(half);
+      }
+    }
+  }
+
+  // Chosen are the notch's curve and all whose boxes meet that of a chosen one: no other can be around it or
+  // in it.
+  const Frame2 flat{tangentBasis(plane.normal)};
+  std::vector<Eigen::AlignedBox2d> boxes(at(curves.count()));
+  for (const int t : piece)
+    for (int half = 3 * t; half < 3 * t + 3; ++half) {
+      if (label_[at(tail(half))] == 0)
+        boxes[at(curves.rootOf(pointNode(tail(half))))].extend(flat(point(tail(half))));
+      if (const int node = node_of_half_[at(edgeOf(half, mate(half)))]; node >= 0)
+        boxes[at(curves.rootOf(node))].extend(flat(crossing(plane, half)));
+    }
+  std::vector<char> chosen(boxes.size(), 0);
+  const int own = curves.rootOf(pointNode(tail(by.half)));
+  Eigen::AlignedBox2d reach = boxes[at(own)];
+  chosen[at(own)] = 1;
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (!chosen[i] && !boxes[i].isEmpty() && boxes[i].intersects(reach)) {
+        chosen[i] = 1;
+        reach.extend(boxes[i]);
+        more = true;
+      }
+  }
+
+  Section section;
+  section.plane = plane;
+  section.near_notch.assign(points_.size(), 0);
+  section.edge_chosen.assign(mates_.size(), 0);
+  for (const int t : piece)
+    for (const int v : triangles_[at(t)])
+      if (label_[at(v)] == 0) section.near_notch[at(v)] = chosen[at(curves.rootOf(pointNode(v)))];
+  for (const int half : crossed)
+    if (chosen[at(curves.rootOf(edgeNode(half)))]) {
+      section.crossed.push_back(half);
+      section.edge_chosen[at(half)] = 1;
+    }
+
+  // The area by the curves' segments, on whose left the section is: against the triangles' own direction.
+  for (const int t : piece) {
+    std::optional<Vec2> up, down;
+    for (int half = 3 * t; half < 3 * t + 3; ++half) {
+      const int from = label_[at(tail(half))], to = label_[at(head(half))];
+      if (from * to < 0 && section.edge_chosen[at(edgeOf(half, mate(half)))])
+        (to > 0 ? up : down) = flat(crossing(plane, half));
+      if (to == 0 && section.near_notch[at(head(half))]) {
+        const int beyond = label_[at(head(next(half)))];
+        if (from * beyond < 0) (beyond > 0 ? up : down) = flat(point(head(half)));
+      }
+      if (isRim(half, section))
+        section.twice_area += cross2(flat(point(head(half))), flat(point(tail(half))));
+    }
+    if (up && down) section.twice_area += cross2(*down, *up);
+  }
+  return section;
+}
+
+// Which side of the plane a triangle is on that it does not cross: one in the plane belongs to what is behind
+// its face.
+int CutSurface::sideOf(int t, const Section& section) const {
+  for (const int v : triangles_[at(t)])
+    if (label_[at(v)] != 0) return label_[at(v)];
+  return facet(facets_of_[at(t)]).normal.dot(section.plane.normal) > 0.0 ? -1 : 1;
+}
+
+/// Whether the side runs along the cut, with its triangle below the plane and the other above.
+bool CutSurface::isRim(int half, const Section& section) const {
+  const int a = tail(half), b = head(half);
+  if (label_[at(a)] != 0 || label_[at(b)] != 0) return false;
+  if (!section.near_notch[at(a)] || !section.near_notch[at(b)]) return false;
+  return sideOf(half / 3, section) < 0 && sideOf(mate(half) / 3, section) > 0;
+}
+
+CutEffect CutSurface::effect(std::span<const int> piece, std::span<const int> notches, const NotchPlane& by) {
+  const Section section = sectionOf(piece, by);
+  CutEffect effect;
+  effect.area_m2 = 0.5 * section.twice_area;
+  for (const int half : notches) {
+    const int a = tail(half), b = head(half);
+    if (label_[at(a)] * label_[at(b)] < 0) effect.notches_crossed += section.edge_chosen[at(half)];
+    const bool on = label_[at(a)] == 0 && label_[at(b)] == 0;
+    if (on && section.near_notch[at(a)] && divides(by.plane, half)) ++effect.notches_removed;
+  }
+  return effect;
+}
+
+int CutSurface::addTriangle(const Triangle& corners, int facet) {
+  triangles_.push_back(corners);
+  facets_of_.push_back(facet);
+  mates_.insert(mates_.end(), 3, -1);
+  return static_cast<int>(triangles_.size()) - 1;
+}
+
+void CutSurface::pair(int half, int other) {
+  mates_[at(half)] = other;
+  mates_[at(other)] = half;
+}
+
+// Both triangles a b c of the edge from a to b become a p c and p b c.
+void CutSurface::splitEdge(int half, int p, std::vector<int>& piece) {
+  const int other = mate(half);
+  const auto divide = [&](int side) {
+    const int t = side / 3;
+    const int b = head(side), c = head(next(side));
+    const int beyond = mate(next(side));  // of the side from b to c
+    const int added = addTriangle({p, b, c}, facets_of_[at(t)]);
+    piece.push_back(added);
+    triangles_[at(t)][at((side + 1) % 3)] = p;
+    pair(3 * added + 1, beyond);
+    moved_[next(side)] = 3 * added + 1;
+    pair(3 * added + 2, next(side));
+    return 3 * added;
+  };
+  const int second = divide(half), other_second = divide(other);
+  // `half` is now a p and `other` b p; the added sides are p b and p a.
+  pair(half, other_second);
+  pair(second, other);
+}
+
+/// The closed ways along the rim; one that comes to a vertex twice is two.
+std::vector<std::vector<int>> CutSurface::rims(std::span<const int> piece, const Section& section) const {
+  std::vector<char> taken(mates_.size(), 0);
+  std::vector<std::vector<int>> found;
+  for (const int t : piece)
+    for (int start = 3 * t; start < 3 * t + 3; ++start) {
+      if (taken[at(start)] || !isRim(start, section)) continue;
+      std::vector<int> way;
+      for (int half = start; !taken[at(half)];) {
+        taken[at(half)] = 1;
+        const auto before =
+            std::find_if(way.begin(), way.end(), [&](int other) { return tail(other) == tail(half); });
+        if (before != way.end()) {
+          found.emplace_back(before, way.end());
+          way.erase(before, way.end());
+        }
+        way.push_back(half);
+        half = next(half);
+        // Around the vertex, through what is below the plane, to where the rim goes on.
+        for (std::size_t turns = 0; !isRim(half, section) && turns < mates_.size(); ++turns)
+          half = next(mate(half));
+      }
+      found.push_back(std::move(way));
+    }
+  return found;
+}
+
+bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
+  Section section = sectionOf(piece, by);
+  moved_.clear();
+  for (int half : section.crossed) {
+    for (auto moved = moved_.find(half); moved != moved_.end(); moved = moved_.find(half))
+      half = moved->second;
+    const int p = static_cast<int>(points_.size());
+    points_.push_back(crossing(by.plane, half));
+    label_.push_back(0);
+    section.near_notch.push_back(1);
+    splitEdge(half, p, piece);
+  }
+  // One of the sides of the notch is the rim's, or the plane does not divide it.
+  const int notch = isRim(by.half, section) ? by.half : mate(by.half);
+  if (!isRim(notch, section)) return false;
+  std::vector<std::vector<int>> all = rims(piece, section);
+  // Corner numbers are those of the rims' sides, one behind the other; each stands for the side's tail.
+  const Frame2 flat{tangentBasis(by.plane.normal)};
+  std::vector<Vec2> corners;
+  Rings rings;
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    rings.emplace_back();
+    for (const int half : all[i]) {
+      if (half == notch) own = i;
+      rings.back().push_back(static_cast<int>(corners.size()));
+      corners.push_back(flat(point(tail(half))));
+    }
+    std::reverse(rings.back().begin(), rings.back().end());
+  }
+  // The region: a ring with area on its left, and the holes of which it is the smallest ring around.
+  const auto within = [&](std::size_t inner, std::size_t outer) {
+    int votes = 0;
+    for (std::size_t i = 0; i < rings[inner].size(); ++i) {
+      const Vec2 q =
+          0.5 * (corners[at(rings[inner][i])] + corners[at(rings[inner][(i + 1) % rings[inner].size()])]);
+      bool inside = false;
+      for (std::size_t k = 0; k < rings[outer].size(); ++k) {
+        const Vec2 &a = corners[at(rings[outer][k])],
+                   &b = corners[at(rings[outer][(k + 1) % rings[outer].size()])];
+        if ((a.y() > q.y()) != (b.y() > q.y()) &&
+            q.x() < a.x() + (q.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+          inside = !inside;
+      }
+      votes += inside ? 1 : -1;
+    }
+    return votes > 0;
+  };
+  std::vector<double> areas;
+  for (const std::vector<int>& ring : rings) areas.push_back(twiceArea(ring, corners));
+  const auto around = [&](std::size_t hole) {
+    std::optional<std::size_t> smallest;
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      if (areas[i] > 0.0 && i != hole && (!smallest || areas[i] < areas[*smallest]) && within(hole, i))
+        smallest = i;
+    return smallest;
+  };
+  const std::optional<std::size_t> outer = areas[own] > 0.0 ? std::optional(own) : around(own);
+  if (!outer) return false;
+  std::vector<std::vector<int>> chosen{all[*outer]};
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    if (!(areas[i] > 0.0) && i != *outer && around(i) == outer) chosen.push_back(all[i]);
+  return addCaps(chosen, section, by, piece);
+}
+
+bool CutSurface::addCaps(const std::vector<std::vector<int>>& rims, const Section& section,
+                         const NotchPlane& by, std::vector<int>& piece) {
+  const Frame2 flat{tangentBasis(by.plane.normal)};
+  std::vector<Vec2> corners;
+  std::vector<int> corner_points;
+  std::vector<std::pair<int, int>> rim_of;  // by corner: below and above the ring's side that begins there
+  Rings rings;
+  for (const std::vector<int>& rim : rims) {
+    const int first = static_cast<int>(corners.size()), n = static_cast<int>(rim.size());
+    rings.emplace_back();
+    for (int i = 0; i < n; ++i) {
+      corners.push_back(flat(point(tail(rim[at(i)]))));
+      corner_points.push_back(tail(rim[at(i)]));
+      rings.back().push_back(first + n - 1 - i);  // against the rim
+      const int half = rim[at((i + n - 1) % n)];
+      rim_of.push_back({half, mate(half)});
+    }
+  }
+  const std::optional<PolygonTriangles> caps = polygonTriangles(rings, corners, tolerance_m_);
+  if (!caps) return false;
+
+  const int below = by.along >= 0 ? by.along : static_cast<int>(facets_.size());
+  if (by.along < 0) facets_.push_back({by.plane, 0.0});
+  const int above = static_cast<int>(facets_.size());
+  const double error = facets_[at(below)].normal_error;
+  facets_.push_back({{-by.plane.normal, -by.plane.offset}, error});
+  for (const int t : piece) {
+    const Triangle& c = triangles_[at(t)];
+    if (label_[at(c[0])] != 0 || label_[at(c[1])] != 0 || label_[at(c[2])] != 0) continue;
+    facets_of_[at(t)] = sideOf(t, section) < 0 ? below : above;
+  }
+  const int lower = triangleCount();
+  for (const std::array<int, 3>& t : caps->triangles)
+    piece.push_back(
+        addTriangle({corner_points[at(t[0])], corner_points[at(t[1])], corner_points[at(t[2])]}, below));
+  const int upper = triangleCount();
+  for (const std::array<int, 3>& t : caps->triangles)
+    piece.push_back(
+        addTriangle({corner_points[at(t[0])], corner_points[at(t[2])], corner_points[at(t[1])]}, above));
+  // Side k of a lower triangle is side 2 - k of the upper one, the other way round.
+  const auto lowerHalf = [&](SideNumber side) {
+    return side >= 0 ? 3 * lower + side : rim_of[at(-1 - side)].first;
+  };
+  const auto upperHalf = [&](SideNumber side) {
+    return side >= 0 ? 3 * upper + side / 3 * 3 + 2 - side % 3 : rim_of[at(-1 - side)].second;
+  };
+  for (const auto& [side, other] : caps->joins) {
+    pair(lowerHalf(side), lowerHalf(other));
+    pair(upperHalf(side), upperHalf(other));
+  }
+  return true;
+}
+
+}  // namespace carom

@@ -1,0 +1,93 @@
+#pragma once
+// A closed surface that is cut apart by planes through its notches (Chazelle 1984): only the part of the
+// section that a notch lies on is cut and closed by two caps, so that what is far away stays whole. Which
+// triangle is beside which is never found by places but carried along, so that the volumes of what comes of
+// it add up to what was there whatever is rounded: both caps have the same triangles, and a new point lies on
+// an edge. Tested in tests/engine/solid/decomposition/convex_decomposition_test.cpp.
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/solid/convex_polyhedron.h"
+#include "engine/solid/surface_mesh.h"
+
+namespace carom {
+
+/// A plane through the notch `half` (a side of a triangle, 3 * triangle + side).
+struct NotchPlane {
+  Plane plane;
+  int half = -1;
+  int along = -1;  ///< The facet whose plane it is, if any.
+};
+
+/// What a cut would do.
+struct CutEffect {
+  int notches_removed = 0;
+  int notches_crossed = 0;
+  double area_m2 = 0.0;
+};
+
+class CutSurface {
+ public:
+  /// Triangles that lie in one plane to within `tolerance_m` become one facet.
+  CutSurface(const ClosedSurface& surface, double tolerance_m);
+
+  const Vec3& point(int v) const { return points_[at(v)]; }
+  int tail(int half) const { return triangles_[at(half / 3)][at(half % 3)]; }
+  int head(int half) const { return triangles_[at(half / 3)][at((half + 1) % 3)]; }
+  int mate(int half) const { return mates_[at(half)]; }
+  const Triangle& triangle(int t) const { return triangles_[at(t)]; }
+  int facetOf(int half) const { return facets_of_[at(half / 3)]; }
+  const Plane& facet(int f) const { return facets_[at(f)].plane; }
+  int triangleCount() const { return static_cast<int>(triangles_.size()); }
+
+  /// Whether the solid's angle at the edge is more than 180 degrees.
+  bool isNotch(int half) const;
+  /// The notches of some triangles, once each.
+  std::vector<int> notches(std::span<const int> piece) const;
+  /// Whether the plane, which contains the edge, has its two facets on either side or on itself: cutting
+  /// along it leaves no notch there.
+  bool divides(const Plane& plane, int half) const;
+
+  CutEffect effect(std::span<const int> piece, std::span<const int> notches, const NotchPlane& by);
+  /// Cuts the part of the section that the notch lies on; adds the new triangles to `piece`. False, with
+  /// nothing but more points on edges, where rounding makes the section no polygon.
+  bool cut(std::vector<int>& piece, const NotchPlane& by);
+
+ private:
+  struct Facet {
+    Plane plane;
+    double normal_error = 0.0;  // radians
+  };
+  struct Section;
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static int next(int half) { return half % 3 == 2 ? half - 2 : half + 1; }
+  Vec3 triangleArea(int t) const;
+  void growFacet(int seed);
+  Section sectionOf(std::span<const int> piece, const NotchPlane& by);
+  Vec3 crossing(const Plane& plane, int half) const;
+  void splitEdge(int half, int point, std::vector<int>& piece);
+  int addTriangle(const Triangle& corners, int facet);
+  void pair(int half, int other);
+  int sideOf(int t, const Section& section) const;
+  bool isRim(int half, const Section& section) const;
+  std::vector<std::vector<int>> rims(std::span<const int> piece, const Section& section) const;
+  bool addCaps(const std::vector<std::vector<int>>& rims, const Section& section, const NotchPlane& by,
+               std::vector<int>& piece);
+
+  double tolerance_m_;
+  std::vector<Vec3> points_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> mates_;      // by half
+  std::vector<int> facets_of_;  // by triangle
+  std::vector<Facet> facets_;
+  // Scratch of one section.
+  std::vector<signed char> label_;  // by point: the side of the plane
+  std::vector<int> node_of_point_, node_of_half_;
+  std::map<int, int> moved_;  // sides of triangles that were divided, and which they are now
+};
+
+}  // namespace carom

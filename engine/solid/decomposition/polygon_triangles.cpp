@@ -1,0 +1,338 @@
+#include "engine/solid/decomposition/polygon_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "engine/foundation/index.h"
+
+namespace carom {
+namespace {
+
+/// Twice the area of a, b, c; positive where they run counter-clockwise.
+double turnOf(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// On which side of the line from a to b the point p is: 1 left, -1 right, 0 on it.
+int sideOf(const Vec2& a, const Vec2& b, const Vec2& p, double tolerance_m) {
+  const double turn = turnOf(a, b, p);
+  if (turn * turn <= tolerance_m * tolerance_m * (b - a).squaredNorm()) return 0;
+  return turn > 0.0 ? 1 : -1;
+}
+
+/// A corner on the way around what is left, with the side that begins there. `beyond` says what lies on the
+/// other side of that: a ring's or triangle's side, or a bridge.
+struct Node {
+  int corner = -1;
+  int beyond = 0;
+};
+
+// Bridges have two sides each; as what lies beyond a node's side they are numbered from here on.
+constexpr int kBridges = 1 << 30;
+
+/// One ring that runs along the sides of all.
+class JoinedRing {
+ public:
+  JoinedRing(const Rings& rings, const std::vector<Vec2>& corners, double tolerance_m)
+      : corners_(corners), tolerance_m_(tolerance_m), ring_(nodesOf(rings[0])) {
+    std::vector<std::vector<Node>> waiting;
+    for (std::size_t i = 1; i < rings.size(); ++i) waiting.push_back(nodesOf(rings[i]));
+    while (!waiting.empty() && bridgeShortest(waiting)) {
+    }
+    complete_ = waiting.empty();
+  }
+  bool complete() const { return complete_; }
+  const std::vector<Node>& ring() const { return ring_; }
+  int bridges() const { return bridges_; }
+
+ private:
+  struct Way {
+    double length = std::numeric_limits<double>::infinity();
+    std::size_t hole = 0, from = 0, to = 0;  // positions in the hole and in the ring
+  };
+
+  static std::vector<Node> nodesOf(const std::vector<int>& ring) {
+    std::vector<Node> nodes;
+    for (const int corner : ring) nodes.push_back({corner, ringSide(corner)});
+    return nodes;
+  }
+  const Vec2& p(const Node& node) const { return corners_[at(node.corner)]; }
+
+  /// Joins the waiting hole that has the shortest free way to the ring; false where there is none.
+  bool bridgeShortest(std::vector<std::vector<Node>>& waiting) {
+    std::vector<Way> ways;
+    for (std::size_t h = 0; h < waiting.size(); ++h)
+      for (std::size_t i = 0; i < waiting[h].size(); ++i)
+        for (std::size_t k = 0; k < ring_.size(); ++k)
+          ways.push_back({(p(waiting[h][i]) - p(ring_[k])).norm(), h, i, k});
+    std::sort(ways.begin(), ways.end(), [](const Way& x, const Way& y) {
+      return std::tuple(x.length, x.hole, x.from, x.to) < std::tuple(y.length, y.hole, y.from, y.to);
+    });
+    for (const Way& way : ways) {
+      if (!isFree(way, waiting)) continue;
+      join(waiting[way.hole], way);
+      waiting.erase(waiting.begin() + static_cast<std::ptrdiff_t>(way.hole));
+      return true;
+    }
+    return false;
+  }
+
+  // From the ring's corner over the bridge, around the hole, and back; where the two touch no bridge is
+  // needed.
+  void join(const std::vector<Node>& hole, const Way& way) {
+    const Node corner = ring_[way.to];
+    const bool touch = way.length == 0.0;
+    const int bridge = kBridges + 2 * bridges_;
+    if (!touch) ++bridges_;
+    std::vector<Node> joined(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(way.to));
+    if (!touch) joined.push_back({corner.corner, bridge});
+    for (std::size_t i = 0; i < hole.size(); ++i) joined.push_back(hole[(way.from + i) % hole.size()]);
+    if (!touch) joined.push_back({hole[way.from].corner, bridge + 1});
+    joined.push_back(corner);
+    joined.insert(joined.end(), ring_.begin() + static_cast<std::ptrdiff_t>(way.to) + 1, ring_.end());
+    ring_ = std::move(joined);
+  }
+
+  bool isFree(const Way& way, const std::vector<std::vector<Node>>& waiting) const {
+    const std::vector<Node>& hole = waiting[way.hole];
+    const Vec2 &a = p(hole[way.from]), &b = p(ring_[way.to]);
+    if (way.length == 0.0) return leadsInside(ring_, way.to, p(hole[(way.from + 1) % hole.size()]));
+    if (!leadsInside(ring_, way.to, a) || !leadsInside(hole, way.from, b) || touches(ring_, a, b))
+      return false;
+    return std::none_of(waiting.begin(), waiting.end(),
+                        [&](const std::vector<Node>& other) { return touches(other, a, b); });
+  }
+
+  /// Whether the way from a ring's corner towards `to` begins in the region on its left.
+  bool leadsInside(const std::vector<Node>& ring, std::size_t i, const Vec2& to) const {
+    const Vec2& before = p(ring[(i + ring.size() - 1) % ring.size()]);
+    const Vec2 &here = p(ring[i]), &after = p(ring[(i + 1) % ring.size()]);
+    const bool left_of_first = sideOf(before, here, to, tolerance_m_) > 0;
+    const bool left_of_second = sideOf(here, after, to, tolerance_m_) > 0;
+    return sideOf(before, here, after, tolerance_m_) < 0 ? left_of_first || left_of_second
+                                                         : left_of_first && left_of_second;
+  }
+
+  /// Whether a side of the ring meets the way from a to b anywhere but at corners that are a or b.
+  bool touches(const std::vector<Node>& ring, const Vec2& a, const Vec2& b) const {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 &c = p(ring[i]), &d = p(ring[(i + 1) % ring.size()]);
+      if (c == a || c == b || d == a || d == b) continue;
+      if (sideOf(a, b, c, tolerance_m_) * sideOf(a, b, d, tolerance_m_) <= 0 &&
+          sideOf(c, d, a, tolerance_m_) * sideOf(c, d, b, tolerance_m_) <= 0)
+        return true;
+    }
+    return false;
+  }
+
+  const std::vector<Vec2>& corners_;
+  double tolerance_m_;
+  std::vector<Node> ring_;
+  int bridges_ = 0;
+  bool complete_ = false;
+};
+
+/// Clips ears off a ring, and takes it apart where it touches itself.
+class EarClipping {
+ public:
+  EarClipping(const JoinedRing& joined, const std::vector<Vec2>& corners, double tolerance_m)
+      : nodes_(joined.ring()), corners_(corners), tolerance_m_(tolerance_m), bridges_(joined.bridges()) {
+    const int n = static_cast<int>(nodes_.size());
+    for (const Node& node : nodes_)
+      extent_ = std::max(extent_, (corners[at(node.corner)] - corners[at(nodes_[0].corner)]).norm());
+    for (int i = 0; i < n; ++i) {
+      before_.push_back((i + n - 1) % n);
+      after_.push_back((i + 1) % n);
+    }
+  }
+
+  std::optional<PolygonTriangles> run() {
+    std::vector<int> rings{0};
+    while (!rings.empty()) {
+      const int start = rings.back();
+      rings.pop_back();
+      if (!clip(start, rings)) return std::nullopt;
+    }
+    resolveBridges();
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr double kNoEar = -1.0;
+  const Vec2& p(int node) const { return corners_[at(nodes_[at(node)].corner)]; }
+
+  std::vector<int> ringFrom(int start) const {
+    std::vector<int> ring{start};
+    for (int i = after_[at(start)]; i != start; i = after_[at(i)]) ring.push_back(i);
+    return ring;
+  }
+
+  /// Until nothing is left of the ring; parts of it that remain are added to `rings`.
+  bool clip(int start, std::vector<int>& rings) {
+    std::vector<int> ring = ringFrom(start);
+    std::vector<double> quality;
+    for (const int i : ring) quality.push_back(qualityOf(i));
+    bool fresh = true;  // no quality is out of date: an ear clipped may free others
+    while (ring.size() > 2) {
+      auto best = std::max_element(quality.begin(), quality.end());
+      if (!(*best > 0.0) && !fresh) {
+        for (std::size_t k = 0; k < ring.size(); ++k) quality[k] = qualityOf(ring[k]);
+        best = std::max_element(quality.begin(), quality.end());
+        fresh = true;
+      }
+      if (!(*best > 0.0) && takeApart(ring, rings)) return true;
+      if (*best == kNoEar) return false;
+      const auto k = best - quality.begin();
+      const int ear = ring[static_cast<std::size_t>(k)], before = before_[at(ear)], after = after_[at(ear)];
+      cutOff(ear);
+      ring.erase(ring.begin() + k);
+      quality.erase(quality.begin() + k);
+      fresh = false;
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (ring[i] == before || ring[i] == after) quality[i] = qualityOf(ring[i]);
+    }
+    if (ring.size() < 2) return false;  // a side without length
+    join(nodes_[at(ring[0])].beyond, nodes_[at(ring[1])].beyond);
+    return true;
+  }
+
+  void cutOff(int ear) {
+    const int before = before_[at(ear)], after = after_[at(ear)];
+    const int first = 3 * static_cast<int>(found_.triangles.size());
+    found_.triangles.push_back({nodes_[at(before)].corner, nodes_[at(ear)].corner, nodes_[at(after)].corner});
+    join(first, nodes_[at(before)].beyond);
+    join(first + 1, nodes_[at(ear)].beyond);
+    nodes_[at(before)].beyond = first + 2;
+    after_[at(before)] = after;
+    before_[at(after)] = before;
+  }
+
+  void join(int side, int other) { raw_joins_.push_back({side, other}); }
+
+  /// The two sides of a bridge lie on each other: what lies on one lies on what lies on the other.
+  void resolveBridges() {
+    std::vector<int> on_bridge(at(2 * bridges_), 0);
+    for (const auto& [side, other] : raw_joins_) {
+      if (side >= kBridges) on_bridge[at(side - kBridges)] = other;
+      if (other >= kBridges) on_bridge[at(other - kBridges)] = side;
+    }
+    const auto across = [&](int side) {
+      while (side >= kBridges) side = on_bridge[at((side - kBridges) ^ 1)];
+      return side;
+    };
+    for (const auto& [side, other] : raw_joins_) {
+      const bool side_first = side < kBridges;
+      if (!side_first && other >= kBridges) continue;
+      const int own = side_first ? side : other, beyond = across(side_first ? other : side);
+      if (own < beyond || (side_first && other < kBridges)) found_.joins.push_back({own, beyond});
+    }
+  }
+
+  /// Parts the ring in two where it comes to one place twice, with area on the left of both or of none.
+  bool takeApart(const std::vector<int>& ring, std::vector<int>& rings) {
+    std::vector<double> area{0.0};  // from the first corner up to each
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = p(ring[0]), &b = p(ring[k]), &c = p(ring[(k + 1) % ring.size()]);
+      area.push_back(area.back() + turnOf(a, b, c));
+    }
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      for (std::size_t k = i + 1; k < ring.size(); ++k) {
+        if (p(ring[i]) != p(ring[k])) continue;
+        const double part = area[k] - area[i] + turnOf(p(ring[0]), p(ring[k]), p(ring[i])),
+                     rest = area.back() - part;
+        const double least = -tolerance_m_ * static_cast<double>(ring.size());
+        if (part < least * extent_ || rest < least * extent_) continue;
+        const int last = before_[at(ring[k])], first = before_[at(ring[i])];
+        after_[at(last)] = ring[i];
+        before_[at(ring[i])] = last;
+        after_[at(first)] = ring[k];
+        before_[at(ring[k])] = first;
+        rings.push_back(ring[i]);
+        rings.push_back(ring[k]);
+        return true;
+      }
+    return false;
+  }
+
+  /// Twice the area over the square of the longest side; kNoEar where the corner cannot be clipped.
+  double qualityOf(int i) const {
+    const int before = before_[at(i)], after = after_[at(i)];
+    const Vec2 &a = p(before), &b = p(i), &c = p(after);
+    if (a == c) return kNoEar;
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    const double turn = turnOf(a, b, c);
+    // A corner in the middle of a straight side has no area to clip.
+    const bool straight = std::abs(turn) <= tolerance_m_ * longest;
+    if (!straight && turn < 0.0) return kNoEar;
+    for (int k = after_[at(after)]; k != before && !straight; k = after_[at(k)])
+      if (holds(a, b, c, p(k))) return kNoEar;
+    if (isBlocked(before, after)) return kNoEar;
+    return straight ? 0.0 : turn / (longest * longest);
+  }
+
+  /// Whether q is inside the triangle or on the open side from a to c.
+  bool holds(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& q) const {
+    if (q == a || q == b || q == c) return false;
+    return sideOf(a, b, q, tolerance_m_) > 0 && sideOf(b, c, q, tolerance_m_) > 0 &&
+           sideOf(c, a, q, tolerance_m_) >= 0;
+  }
+
+  /// Whether a side of the ring crosses the way from `after` to `before`.
+  bool isBlocked(int before, int after) const {
+    const Vec2 &a = p(before), &c = p(after);
+    int side = 0;  // of the last corner that was not on the line
+    for (int k = after; k != before; k = after_[at(k)]) {
+      const Vec2 &d = p(k), &e = p(after_[at(k)]);
+      side = sideOf(a, c, d, tolerance_m_);
+      if (side * sideOf(a, c, e, tolerance_m_) < 0 &&
+          sideOf(d, e, a, tolerance_m_) * sideOf(d, e, c, tolerance_m_) < 0)
+        return true;
+    }
+    return false;
+  }
+
+  std::vector<Node> nodes_;
+  const std::vector<Vec2>& corners_;
+  double tolerance_m_;
+  std::vector<int> before_, after_;
+  int bridges_;
+  double extent_ = 0.0;
+  std::vector<std::pair<int, int>> raw_joins_;
+  PolygonTriangles found_;
+};
+
+}  // namespace
+
+double twiceArea(const std::vector<int>& ring, const std::vector<Vec2>& corners) {
+  double area = 0.0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    area += turnOf(corners[at(ring[0])], corners[at(ring[i])], corners[at(ring[i + 1])]);
+  return area;
+}
+
+std::optional<PolygonTriangles> polygonTriangles(const Rings& rings, const std::vector<Vec2>& corners,
+                                                 double tolerance_m) {
+  const JoinedRing joined(rings, corners, tolerance_m);
+  if (!joined.complete()) return std::nullopt;
+  std::optional<PolygonTriangles> found = EarClipping(joined, corners, tolerance_m).run();
+  if (!found) return std::nullopt;
+  // Triangles that overlap cover more than the region.
+  double covered = 0.0, area = 0.0, sides = 0.0;
+  for (const std::array<int, 3>& t : found->triangles)
+    covered += std::abs(turnOf(corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]));
+  for (const std::vector<int>& ring : rings) {
+    area += twiceArea(ring, corners);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      sides += (corners[at(ring[i])] - corners[at(ring[(i + 1) % ring.size()])]).norm();
+  }
+  // Each triangle is off by the tolerance times its longest side at most, which is no longer than half of all
+  // rings together.
+  if (covered - area > 2.0 * tolerance_m * sides * static_cast<double>(found->triangles.size()))
+    return std::nullopt;
+  return found;
+}
+
+}  // namespace carom

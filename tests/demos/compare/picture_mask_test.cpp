@@ -1,0 +1,63 @@
+#include "demos/compare/picture_mask.h"
+
+#include <gtest/gtest.h>
+
+#include "demos/system/exit_code.h"
+#include "engine/foundation/contract.h"
+#include "renderer/image/image_difference.h"
+#include "tests/demos/support/png_files.h"
+#include "tests/demos/support/temporary_folder.h"
+#include "tests/demos/support/thrown_message.h"
+
+namespace carom::demos {
+namespace {
+
+class Masked : public testing::Test {
+ protected:
+  /// How many pixels still differ where all do.
+  long long left(const std::vector<std::string>& masks) {
+    const PictureMask mask(masks, shelf_);
+    renderer::Raster actual = flatRaster(20, 10, 50);
+    const renderer::Raster golden = flatRaster(20, 10, 90);
+    mask.apply({"f.png", folder_.path() / "a/f.png", folder_.path() / "g/f.png", true, true}, actual, golden);
+    return renderer::differenceOf(actual, golden, 2).pixels_beyond;
+  }
+  void writeRecord() {
+    MotionRecord record;
+    for (const char* name : {"floor", "crate"}) record.bodies.push_back({name, {}, {}, {}, {}});
+    RecordedShot shot{"f.png", 0.0, 1, {}, {{}, {}}, 20, 10, std::vector<std::int32_t>(200, 0)};
+    shot.bodies[5 * 20 + 10] = 1;
+    record.shots = {shot};
+    std::filesystem::create_directories(folder_.path() / "a");
+    const std::vector<std::uint8_t> bytes = recordBytes(record);
+    folder_.file("a/states.carom", std::string(bytes.begin(), bytes.end()));
+  }
+  TemporaryFolder folder_;
+  RecordShelf shelf_;
+};
+
+TEST_F(Masked, RectanglesBodiesAndImagesAreNotLookedAt) {
+  writeRecord();
+  EXPECT_EQ(left({}), 200);
+  EXPECT_EQ(left({"rect:2,3,4,5"}), 180);
+  EXPECT_EQ(left({"rect:15,5,100,100"}), 175);
+  EXPECT_EQ(left({"body:crate"}), 175);  // the pixel and two around it
+  EXPECT_EQ(left({"body:crate", "rect:0,0,1,1"}), 174);
+  const auto png = writePng(folder_.path() / "mask.png", changed(flatRaster(20, 10, 0), 3, 3, 255));
+  EXPECT_EQ(left({"png:" + png.string()}), 199);
+}
+
+TEST_F(Masked, WhatCannotBeMaskedIsSaid) {
+  for (const char* text : {"", "crate", "rect:1,2,3", "rect:1,2,0,4", "rect:1,2,3,4,5", "body:", "png:"})
+    EXPECT_NE(thrownMessage<UsageError>([&] { left({text}); }).find("accepted: body:NAME"), std::string::npos)
+        << text;
+  EXPECT_NE(thrownMessage<InputError>([&] { left({"body:crate"}); }).find("--states"), std::string::npos);
+  writeRecord();
+  EXPECT_THROW(left({"body:barrel"}), InputError);
+  const auto png = writePng(folder_.path() / "mask.png", flatRaster(4, 4, 255));
+  EXPECT_NE(thrownMessage<InputError>([&] { left({"png:" + png.string()}); }).find("accepted: the size"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom::demos

@@ -1,0 +1,142 @@
+// What the scenes of mechanisms and hollow bodies promise (assets/make_mechanisms.py), by closed forms:
+// ratios of gears, the radius that friction holds on a turntable, energy in a bowl, and links that stay
+// linked. That nothing ever overlaps is tested for every shipped scene in scene_motion_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "demos/asset/asset_path.h"
+#include "demos/language/scene_file.h"
+#include "demos/scene/scene_world.h"
+
+namespace carom::demos {
+namespace {
+
+struct Played {
+  explicit Played(const std::string& name)
+      : scene(readSceneFile(findScene(name))), made(makeSceneWorld(scene, std::nullopt)) {}
+  const BodyState& state(const std::string& name) const {
+    const auto found = std::find(made.names.begin(), made.names.end(), name);
+    EXPECT_NE(found, made.names.end()) << name;
+    return made.world.states()[static_cast<std::size_t>(found - made.names.begin())];
+  }
+  void run(double until_s) {
+    while (made.world.time() < until_s) made.world.step();
+  }
+  double energy() const {
+    const Audit audit = made.world.audit();
+    return audit.kinetic_energy_J + audit.potential_energy_J;
+  }
+
+  Scene scene;
+  SceneWorld made;
+};
+
+TEST(TurntableScene, HoldsWhatIsWithinTheRadiusOfItsFriction) {
+  Played played("turntable");
+  const auto radius = [&](const char* name) { return played.state(name).X_WB.position.head<2>().norm(); };
+  const double held[] = {radius("stays"), radius("at 0.8 of the radius"), radius("at 0.97 of the radius")};
+  played.run(played.scene.duration_s);
+  EXPECT_NEAR(radius("stays"), held[0], 1e-4);
+  EXPECT_NEAR(radius("at 0.8 of the radius"), held[1], 1e-4);
+  EXPECT_NEAR(radius("at 0.97 of the radius"), held[2], 1e-4);
+  for (const char* name : {"at 1.03 of the radius", "at 1.2 of the radius", "at 1.4 of the radius"})
+    EXPECT_GT(radius(name), 1.0) << "on the floor beside it";
+}
+
+TEST(GearScene, TurnsAtTheRatiosOfItsTeeth) {
+  Played played("gears");
+  played.run(1.0);
+  Vec3 turned = Vec3::Zero();  // driver, idler, driven
+  const char* const names[] = {"driver", "idler", "driven"};
+  while (played.made.world.time() < played.scene.duration_s) {
+    played.made.world.step();
+    for (int i = 0; i < 3; ++i)
+      turned[i] += played.state(names[i]).angular_velocity.z() * played.made.world.settings().step_s;
+  }
+  EXPECT_NEAR(turned[1] / turned[0], -18.0 / 27.0, 0.01 * 18.0 / 27.0);
+  EXPECT_NEAR(turned[2] / turned[0], 1.0, 0.01);
+  const Audit audit = played.made.world.audit();
+  EXPECT_EQ(audit.kinematic_late_s, 0.0);
+  // What the others move with is the driver's work, less what impacts and friction of their teeth took.
+  EXPECT_LT(audit.kinetic_energy_J, audit.work_J);
+}
+
+TEST(BowlScene, KeepsTheEnergyOfItsBall) {
+  Played played("ball-in-a-bowl");
+  const double start = played.energy();
+  const double kinetic = played.made.world.audit().kinetic_energy_J;
+  double least = start, most = start;
+  while (played.made.world.time() < played.scene.duration_s) {
+    played.made.world.step();
+    least = std::min(least, played.energy());
+    most = std::max(most, played.energy());
+  }
+  EXPECT_LT((most - least) / kinetic, 1e-6);
+  EXPECT_LT(played.state("ball").X_WB.position.head<2>().norm(), 1.0);
+}
+
+TEST(FunnelScene, LetsEveryMarbleFallIntoTheCup) {
+  Played played("marble-in-a-funnel");
+  played.run(played.scene.duration_s);
+  for (const char* name : {"marble 1", "marble 2", "marble 3"}) {
+    const Vec3 p = played.state(name).X_WB.position - played.state("cup").X_WB.position;
+    EXPECT_LT(p.head<2>().norm(), 0.3) << name;
+    EXPECT_LT(p.z(), 0.3) << name;
+  }
+}
+
+// The linking number of two closed curves by Gauss' integral over their chords, rounded: +-1 where one goes
+// through the other once.
+double linking(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const Vec3 da = a[(i + 1) % a.size()] - a[i], db = b[(j + 1) % b.size()] - b[j];
+      const Vec3 r = 0.5 * (a[i] + a[(i + 1) % a.size()] - b[j] - b[(j + 1) % b.size()]);
+      sum += r.dot(da.cross(db)) / std::pow(r.norm(), 3);
+    }
+  return sum / (4.0 * 3.14159265358979323846);
+}
+
+// The middle line of a link: two half circles about y with straight pieces along x between them, in short
+// chords.
+std::vector<Vec3> middleLine(const BodyState& state, double half_length, double radius) {
+  std::vector<Vec3> line;
+  constexpr int kPoints = 120;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i < kPoints; ++i) {
+      const double angle = 3.14159265358979323846 * ((i + 0.5) / kPoints - 0.5);
+      line.push_back(state.X_WB *
+                     (side * Vec3(half_length + radius * std::cos(angle), radius * std::sin(angle), 0.0)));
+    }
+    for (int i = 0; i < kPoints && half_length > 0.0; ++i)
+      line.push_back(state.X_WB *
+                     (side * Vec3(half_length * (1.0 - 2.0 * (i + 0.5) / kPoints), radius, 0.0)));
+  }
+  return line;
+}
+
+TEST(RingScene, StaysLinked) {
+  Played played("linked-rings");
+  played.run(played.scene.duration_s);
+  EXPECT_NEAR(std::abs(linking(middleLine(played.state("upper ring"), 0.0, 0.4),
+                               middleLine(played.state("lower ring"), 0.0, 0.4))),
+              1.0, 0.05);
+}
+
+TEST(ChainScene, StaysLinkedFromTheHookToItsEnd) {
+  Played played("chain");
+  played.run(played.scene.duration_s);
+  for (int k = 1; k < 10; ++k)
+    EXPECT_NEAR(std::abs(linking(middleLine(played.state("link " + std::to_string(k)), 0.07, 0.08),
+                                 middleLine(played.state("link " + std::to_string(k + 1)), 0.07, 0.08))),
+                1.0, 0.05)
+        << k;
+  EXPECT_GT(played.state("link 1").X_WB.position.z(), 2.8) << "it hangs on the hook";
+}
+
+}  // namespace
+}  // namespace carom::demos

@@ -1,0 +1,170 @@
+// The pairs that a step's events add, against asking all shapes.
+
+#include "engine/simulation/contacts/pair_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/oracle/test_shapes.h"
+
+namespace carom {
+namespace {
+
+using oracle::Random;
+
+// Bodies of one or two parts, some of them static, thrown anew into a room for every step.
+class Crowd {
+ public:
+  Crowd(Random& random, int bodies) : random_(random), bodies_(static_cast<std::size_t>(bodies)) {
+    settings_.step_s = 0.1;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const int body = static_cast<int>(i);
+      all_.push_back(body);
+      bodies_[i].is_static = i % 10 == 9;
+      bodies_[i].X_WB = bodies_[i].path.X_WB = random_.pose(kRoom);
+      shapes_.push_back({body, &block_.parts()[0], block_.radius()});
+      if (i % 3 == 0) shapes_.push_back({body, &beam_.parts()[0], beam_.radius()});
+    }
+  }
+
+  void beginStep() {
+    for (Body& body : bodies_) {
+      if (body.is_static) continue;
+      body.path = Trajectory{0.0, random_.pose(kRoom), random_.direction()};
+      body.X_WB = body.path.X_WB;
+    }
+    table_.updateBounds(bodies_, shapes_, all_, settings_.step_s, crew_);
+    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+  }
+
+  // A body goes elsewhere; the pairs that this adds.
+  std::vector<IndexPair> turnOne(double time_s, int index) {
+    Body& body = bodies_[static_cast<std::size_t>(index)];
+    const Pose X_WB = body.path.at(time_s);
+    const double speed_mps = random_.logUniform(1.0, 100.0);
+    body.path = Trajectory{time_s, X_WB, speed_mps * random_.direction()};
+    const std::size_t before = table_.active().size();
+    table_.extend(index, time_s, bodies_, shapes_, settings_, counters_, nullptr);
+    std::vector<IndexPair> added;
+    for (const int place : std::span(table_.active()).subspan(before))
+      added.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
+    return added;
+  }
+
+  // The pairs of a body that are not known yet, by its shapes, and for each by the other one.
+  std::vector<IndexPair> missing(int body, const std::vector<IndexPair>& known) const {
+    std::vector<IndexPair> pairs;
+    const std::vector<Proxy>& proxies = table_.proxies();
+    for (std::size_t i = 0; i < proxies.size(); ++i)
+      for (std::size_t j = 0; j < proxies.size(); ++j) {
+        if (shapes_[i].body != body || !canPair(proxies[i], proxies[j])) continue;
+        const IndexPair pair{static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))};
+        if (std::find(known.begin(), known.end(), pair) == known.end()) pairs.push_back(pair);
+      }
+    return pairs;
+  }
+
+  std::vector<IndexPair> pairs() const {
+    std::vector<IndexPair> pairs;
+    for (const int place : table_.all())
+      pairs.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
+    return pairs;
+  }
+  // Every second body comes to rest where it is, and the pairs are collected again.
+  void restHalf() {
+    std::vector<int> active;
+    for (const int body : all_) {
+      Body& b = bodies_[static_cast<std::size_t>(body)];
+      b.active = body % 2 == 0;
+      b.resting = !b.active && !b.is_static;
+      if (b.active) active.push_back(body);
+    }
+    table_.updateBounds(bodies_, shapes_, active, settings_.step_s, crew_);
+    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+  }
+  void wake(int body) {
+    bodies_[static_cast<std::size_t>(body)].active = true;
+    bodies_[static_cast<std::size_t>(body)].resting = false;
+    table_.activate(body, bodies_, settings_);
+  }
+  bool hasActiveBody(const ShapePair& pair) const {
+    return bodies_[static_cast<std::size_t>(pair.body_a)].active ||
+           bodies_[static_cast<std::size_t>(pair.body_b)].active;
+  }
+  PairTable& table() { return table_; }
+  bool pathsLeaveBounds() { return table_.pathsLeaveBounds(bodies_, shapes_, all_, settings_.step_s, crew_); }
+  const PairTable& table() const { return table_; }
+
+ private:
+  static constexpr double kRoom = 8.0;
+
+  Random& random_;
+  Solid block_ = Solid::box({0.5, 0.6, 0.7});
+  Solid beam_ = Solid::box({3.0, 0.2, 0.2});
+  std::vector<Body> bodies_;
+  std::vector<int> all_;
+  std::vector<Shape> shapes_;
+  WorldSettings settings_;
+  StepCounters counters_;
+  PairTable table_;
+  Crew crew_;
+};
+
+TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
+  Random random(44);
+  Crowd crowd(random, 100);
+  std::size_t added_in_all = 0;
+  for (int step = 0; step < 10; ++step) {
+    crowd.beginStep();
+    for (int event = 0; event < 40; ++event) {
+      const int body = 10 * random.integer(0, 9) + random.integer(0, 8);  // not a static one
+      const std::vector<IndexPair> known = crowd.pairs();
+      const std::vector<IndexPair> added = crowd.turnOne(0.002 * event, body);
+      ASSERT_EQ(added, crowd.missing(body, known)) << "step " << step << " event " << event;
+      ASSERT_FALSE(crowd.pathsLeaveBounds());
+      added_in_all += added.size();
+    }
+    std::vector<IndexPair> pairs = crowd.pairs();
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(pairs, candidatePairs(crowd.table().proxies())) << "step " << step;
+  }
+  EXPECT_GT(added_in_all, 1000u);
+}
+
+// What rests keeps its pairs, at their places, with what they remember; nobody looks at them. When it wakes
+// they are in the order they were in, and their impulses are those of steps as long as they are now.
+TEST(PairTable, KeepsThePairsOfWhatRests_AndBringsThemBackWhenItWakes) {
+  Random random(45);
+  Crowd crowd(random, 100);
+  crowd.beginStep();
+  PairTable& table = crowd.table();
+  for (const int place : table.active())
+    table.pairs()[static_cast<std::size_t>(place)].remembered.push_back({.impulse_W = Vec3(0, 0, place + 1)});
+  const std::vector<int> before = table.all();
+  crowd.restHalf();
+  EXPECT_EQ(table.all(), before);
+  for (const int place : table.active())
+    EXPECT_TRUE(crowd.hasActiveBody(table.pairs()[static_cast<std::size_t>(place)]));
+  ASSERT_LT(table.active().size(), before.size()) << "some pairs rest";
+  table.scaleImpulses(0.5);
+  table.scaleImpulses(0.5);
+  for (int body = 1; body < 100; body += 2)
+    if (body % 10 != 9) crowd.wake(body);
+  EXPECT_EQ(table.active().size(), before.size());
+  for (const int place : table.active()) {
+    const ShapePair& pair = table.pairs()[static_cast<std::size_t>(place)];
+    ASSERT_EQ(pair.remembered.size(), 1u);
+    EXPECT_EQ(pair.remembered[0].impulse_W.z(), 0.25 * (place + 1));
+  }
+  for (int body = 0; body < 100; ++body) {
+    const std::vector<int>& of_body = table.pairsOf(body);
+    EXPECT_TRUE(std::is_sorted(of_body.begin(), of_body.end(), [&](int p, int q) {
+      return table.pairs()[static_cast<std::size_t>(p)].shapes <
+             table.pairs()[static_cast<std::size_t>(q)].shapes;
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace carom

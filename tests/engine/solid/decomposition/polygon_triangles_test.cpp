@@ -1,0 +1,115 @@
+#include "engine/solid/decomposition/polygon_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+
+namespace carom {
+namespace {
+
+// Corners of all rings one behind the other.
+struct Polygon {
+  Rings rings;
+  std::vector<Vec2> corners;
+
+  void add(const std::vector<Vec2>& ring) {
+    rings.emplace_back();
+    for (const Vec2& p : ring) {
+      rings.back().push_back(static_cast<int>(corners.size()));
+      corners.push_back(p);
+    }
+  }
+};
+
+double areaOf(const Polygon& polygon) {
+  double area = 0.0;
+  for (const std::vector<int>& ring : polygon.rings) area += 0.5 * twiceArea(ring, polygon.corners);
+  return area;
+}
+
+// Every side in one join, and those of a join at the same two places; no triangle clockwise; areas add up.
+void expectFilled(const Polygon& polygon) {
+  const std::optional<PolygonTriangles> made = polygonTriangles(polygon.rings, polygon.corners, 1e-14);
+  ASSERT_TRUE(made);
+  double area = 0.0;
+  std::map<SideNumber, std::pair<Vec2, Vec2>> sides;
+  for (const std::vector<int>& ring : polygon.rings)
+    for (std::size_t i = 0; i < ring.size(); ++i)  // seen from beyond
+      sides[ringSide(ring[i])] = {polygon.corners[static_cast<std::size_t>(ring[(i + 1) % ring.size()])],
+                                  polygon.corners[static_cast<std::size_t>(ring[i])]};
+  for (std::size_t t = 0; t < made->triangles.size(); ++t) {
+    std::vector<int> loop(made->triangles[t].begin(), made->triangles[t].end());
+    EXPECT_GE(twiceArea(loop, polygon.corners), -1e-14);
+    area += 0.5 * twiceArea(loop, polygon.corners);
+    for (std::size_t k = 0; k < 3; ++k)
+      sides[static_cast<int>(3 * t + k)] = {polygon.corners[static_cast<std::size_t>(loop[k])],
+                                            polygon.corners[static_cast<std::size_t>(loop[(k + 1) % 3])]};
+  }
+  EXPECT_NEAR(area, areaOf(polygon), 1e-13);
+  for (const auto& [side, other] : made->joins) {
+    ASSERT_TRUE(sides.contains(side) && sides.contains(other)) << side << ' ' << other;
+    EXPECT_EQ(sides[side].first, sides[other].second);
+    EXPECT_EQ(sides[side].second, sides[other].first);
+    sides.erase(side);
+    sides.erase(other);
+  }
+  EXPECT_TRUE(sides.empty()) << sides.size() << " sides are in no join";
+}
+
+TEST(PolygonTriangles, FillASquareWithCornersInItsSides) {
+  Polygon square;
+  square.add({{0, 0}, {0.5, 0}, {0.75, 0}, {1, 0}, {1, 1}, {0.3, 1}, {0, 1}, {0, 0.5}});
+  expectFilled(square);
+}
+
+TEST(PolygonTriangles, FillARingWithTwoHoles) {
+  Polygon plate;
+  plate.add({{0, 0}, {3, 0}, {3, 1}, {0, 1}});
+  plate.add({{0.5, 0.25}, {0.5, 0.75}, {1, 0.75}, {1, 0.25}});
+  plate.add({{2, 0.25}, {2.2, 0.75}, {2.5, 0.25}});
+  expectFilled(plate);
+}
+
+TEST(PolygonTriangles, FillARingThatTouchesItsHole) {
+  Polygon touching;
+  touching.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  touching.add({{0, 0}, {0.5, 1}, {1, 0.5}});
+  expectFilled(touching);
+}
+
+// Two lobes that meet in a corner, as one ring: a triangle across would join what is apart.
+TEST(PolygonTriangles, JoinNoLobesThatMeetInACorner) {
+  Polygon lobes;
+  lobes.add({{0, 0}, {1, -0.5}, {1, 0.5}, {0, 0}, {-1, 0.5}, {-1, -0.5}});
+  expectFilled(lobes);
+  const std::optional<PolygonTriangles> made = polygonTriangles(lobes.rings, lobes.corners, 1e-14);
+  EXPECT_EQ(made->triangles.size(), 2u);
+}
+
+// The section of a ring that was cut once: around outside, in along the slit, around inside, out again.
+TEST(PolygonTriangles, CloseASlit) {
+  Polygon slit;
+  slit.add({{2, 0},
+            {2, 2},
+            {-2, 2},
+            {-2, -2},
+            {2, -2},
+            {2, 0},
+            {1, 0},
+            {1, -1},
+            {-1, -1},
+            {-1, 1},
+            {1, 1},
+            {1, 0}});
+  expectFilled(slit);
+}
+
+TEST(PolygonTriangles, SayNothingOfARingThatCrossesItself) {
+  Polygon crossed;
+  crossed.add({{0, 0}, {2, 0}, {0.5, 1}, {2, 2}, {0, 2}, {1.5, 1}});
+  EXPECT_FALSE(polygonTriangles(crossed.rings, crossed.corners, 1e-14));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,105 @@
+// Ghost collisions (engine/simulation/contacts/internal_edges.h): over a floor of flush tiles bodies glide,
+// and stop, as over one floor. Without friction nothing changes their speed, and nothing lifts them; with it
+// they go v^2 / 2 mu g. `stress tiles` does the same for hundreds of floors of ten thousand tiles.
+
+#include "tests/physics/tiled_floor.h"
+
+#include "tests/physics/small_world.h"
+
+namespace carom::physics {
+namespace {
+
+// What the solver leaves over, a millionth of a step's gravity, may tilt a body that many tiles hold: of the
+// speed it is the more the slower the body is.
+constexpr double kLost = 1e-6;
+// A plate of eight parts on forty tiles has hundreds of contacts, which are solved to a thousandth.
+constexpr double kLostByPlates = 3e-4;
+
+class FlushTiles : public testing::TestWithParam<int> {};
+
+TEST_P(FlushTiles, NeitherBrakeNorLiftWhatGlides) {
+  const auto glider = static_cast<Glider>(GetParam());
+  const double allowed = glider == Glider::kPlateOfTiles ? kLostByPlates : kLost;
+  for (const double speed : {1.0, 5.0, 25.0})
+    for (const double rate : {60.0, 240.0, 1000.0}) {
+      SCOPED_TRACE(testing::Message() << gliderName(glider) << " at " << speed << " m/s, " << rate << " Hz");
+      const GlideResult result = glideOverTiles({.glider = glider,
+                                                 .size_m = 0.7,
+                                                 .speed_mps = speed,
+                                                 .rate_hz = rate,
+                                                 .seconds = 10.0 / speed,
+                                                 .length_m = 12.0,
+                                                 .half_width_m = 1.0,
+                                                 .seed = 7});
+      EXPECT_LT(std::abs(result.speed_lost), allowed);
+      EXPECT_LT(result.strayed, allowed);
+      EXPECT_LT(result.lift_m, glider == Glider::kPlateOfTiles ? 1e-4 : 1e-6);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gliders, FlushTiles, testing::Range(0, kGliders),
+                         [](const testing::TestParamInfo<int>& glider) {
+                           std::string name = gliderName(static_cast<Glider>(glider.param));
+                           std::erase(name, ' ');
+                           return name;
+                         });
+
+TEST(FlushTiles, LetAThingSlideAsFarAsOneFloor) {
+  for (const Glider glider : {Glider::kBox, Glider::kHull, Glider::kStool, Glider::kLyingCapsule}) {
+    SCOPED_TRACE(gliderName(glider));
+    const GlideResult result = glideOverTiles({.glider = glider,
+                                               .size_m = 0.7,
+                                               .speed_mps = 5.0,
+                                               .friction = 0.5,
+                                               .seconds = 2.0,
+                                               .length_m = 6.0,
+                                               .half_width_m = 1.0,
+                                               .seed = 3});
+    EXPECT_NEAR(result.travelled_m / result.coulomb_m, 1.0, 1e-4);
+  }
+}
+
+// Of a box that slides towards a tile that is higher by `height_m`, and past its edge.
+double speedPastAStep(double height_m, double speed_mps) {
+  SmallWorld world(240.0);
+  world.add({Solid::box({10, 4, 1}), {Quat::Identity(), {-5, 0, -0.5}}, {}, {}, rubbing(0.0), true});
+  world.add(
+      {Solid::box({10, 4, 1}), {Quat::Identity(), {5, 0, -0.5 + height_m}}, {}, {}, rubbing(0.0), true});
+  const Vec3 start(-0.4, 0, 0.25 + collisionWindow(0.5).rest);
+  const int box = world.add(
+      {Solid::box({0.5, 0.5, 0.5}), {Quat::Identity(), start}, {speed_mps, 0, 0}, {}, rubbing(0.0)});
+  world.start();
+  world.run(0.8 / speed_mps);
+  return world.state(box).linear_velocity.x();
+}
+
+TEST(StepInTheFloor, IsPassedBelowTheWindowAndHitAbove) {
+  const CollisionWindow window = collisionWindow(0.5);
+  const double low = 0.5 * (window.rest - window.floor);
+  const double high = 1.5 * (window.rest - window.floor);
+  for (const double speed : {0.2, 5.0}) {
+    const double past = speedPastAStep(low, speed);
+    EXPECT_LE(past, speed);  // at most what lifting it takes is lost
+    EXPECT_GE(past * past, speed * speed - 2.0 * kGravity * low) << speed;
+    EXPECT_LT(speedPastAStep(high, speed), 0.5 * speed) << speed;
+  }
+}
+
+TEST(PlateOfTiles, GoesOnSpinningOnAnother) {
+  SmallWorld world(240.0);
+  std::vector<ConvexPart> parts;
+  for (int i = 0; i < 8; ++i)
+    parts.push_back(
+        {boxPolyhedron({0.25, 0.5, 0.1}).translated({0.25 * (i % 4 - 1.5), 0.5 * (i / 4 - 0.5), 0}), 0.0});
+  const Solid plate{parts};
+  const double gap = collisionWindow(plate.width()).rest;
+  world.add({plate, {Quat::Identity(), {0, 0, -0.05}}, {}, {}, rubbing(0.0), true});
+  const int spinning =
+      world.add({plate, {Quat::Identity(), {0, 0, 0.05 + gap}}, {}, {0, 0, 3.0}, rubbing(0.0)});
+  world.start();
+  world.run(3.0);
+  EXPECT_NEAR(world.state(spinning).angular_velocity.z() / 3.0, 1.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace carom::physics
