@@ -20,9 +20,10 @@ constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an im
 // height of that point, and what is in the window already comes down to this share in one look.
 constexpr double kStruckShare = 0.9;
 constexpr double kNextShare = 0.25;
-constexpr double kFloorSlack = 0.02;  // of the floor: this near to it, an approach has come to it
-constexpr long kQueryWork = 4;        // a query of closest features takes as long as so many poses
-constexpr int kFollowed = 16;         // of Newton's steps to the floor: one that converges takes five or six
+constexpr double kFloorSlack = 0.02;    // of the floor: this near to it, an approach has come to it
+constexpr long kQueryWork = 4;          // a query of closest features takes as long as so many poses
+constexpr double kCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
+constexpr int kFollowed = 16;  // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
 // derivative is at most M: the chord less K tau (1 - tau), K = M dt^2 / 2, tau = t / dt.
@@ -38,10 +39,20 @@ double highestImpact(const ImpactSearch& search) {
   return search.lands ? (1.0 + kLandingSlack) * search.window.landing : search.window.ceiling;
 }
 
-// A unit direction that turns with one of the parts, or with none.
+// Two edges that cross, each in its part's axes, and the direction across them: e_A x e_B, of length `sine`.
+struct CrossingEdges {
+  Vec3 edge_A;
+  Vec3 edge_B;
+  double sine = 0.0;   // when the interval begins
+  double gap_m = 0.0;  // along them, then
+};
+
+// A unit direction that turns with one of the parts, or with none; or the one across two edges, which turns
+// with both.
 struct Direction {
   const MovingPart* frame = nullptr;
-  Vec3 n_F;  // in the frame's axes, or the world's
+  Vec3 n_F = Vec3::Zero();  // in the frame's axes, or the world's
+  const CrossingEdges* across = nullptr;
 };
 
 class Look {
@@ -105,6 +116,12 @@ class Look {
     if (gap + (slowestSpeed(begin, c.n_W) - 0.5 * curvature * whole) * whole >= clear) return whole;
     const double sure = sureInterval(gap - clear, slowestSpeed(begin, c.n_W), curvature, whole);
     Chord chord = bestChord(begin, c, whole, floor);
+    CrossingEdges edges;
+    Direction held;
+    if (chord.lower_bound < floor) {
+      held = heldDirection(begin, c, edges);
+      chord = betterAlong(held, begin, gap, chord, floor);
+    }
     for (int i = 0; i < kProposals && chord.interval > sure; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
@@ -113,19 +130,23 @@ class Look {
         if (end_speed >= -search_.collision_speed_mps) return chord.interval;
         ++newton_steps;
         const double back = std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
-        chord = chordAlong(chord.direction, begin, gap, chord.interval - back);
+        chord = chordAlong(chord.direction, begin, gap, chord.interval - back, floor);
         continue;
       }
       ++newton_steps;
       double proposal = kLinearShrink * chord.interval;
-      if (chord.end_gap < aim)
-        proposal =
-            std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));  // down the chord
-      if (speed < 0.0)
-        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));  // Newton
-      else
+      if (speed < 0.0) {
+        if (chord.end_gap < aim)
+          proposal =
+              std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));  // down the chord
+        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));    // Newton
+      } else {
         proposal *= 0.5;
-      chord = chordAlong(chord.direction, begin, gap, proposal);
+        if (chord.end_gap < aim)
+          proposal = std::min(proposal, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
+      }
+      chord = chordAlong(chord.direction, begin, gap, proposal, floor);
+      chord = betterAlong(held, begin, gap, chord, floor);
     }
     return sure;
   }
@@ -134,6 +155,12 @@ class Look {
   long work() const { return work_; }
 
  private:
+  // When what rises first, at this speed, and is `end` after `interval`, is nought again: of a parabola.
+  static double backDown(double begin, double speed, double end, double interval) {
+    const double bend = 2.0 * (begin + speed * interval - end) / (interval * interval);
+    return (speed + std::sqrt(speed * speed + 2.0 * bend * begin)) / bend;
+  }
+
   // The gap along a direction at the end of an interval, and the least that it can be within it.
   struct Chord {
     Direction direction;
@@ -161,8 +188,38 @@ class Look {
 
   // With the parts in these poses, world frame.
   Vec3 directionAt(const Direction& direction, const Pose& X_WA, const Pose& X_WB) const {
+    if (direction.across != nullptr) return acrossEdges(*direction.across, X_WA, X_WB).normalized();
     if (direction.frame == nullptr) return direction.n_F;
     return (direction.frame == &a_ ? X_WA : X_WB).rotation * direction.n_F;
+  }
+
+  static Vec3 acrossEdges(const CrossingEdges& edges, const Pose& X_WA, const Pose& X_WB) {
+    return (X_WA.rotation * edges.edge_A).cross(X_WB.rotation * edges.edge_B);
+  }
+  double sineAt(const CrossingEdges& edges, double t) const {
+    return acrossEdges(edges, poseOf(a_, t), poseOf(b_, t)).norm();
+  }
+
+  // The direction that stays across the closest features as they turn: with the part that has the face, or
+  // the edge beside a vertex; across two edges. Along every other one some corner dips at once, so that only
+  // this one proves anything where nothing is left above the floor.
+  Direction heldDirection(double begin, const ClosestFeatures& c, CrossingEdges& edges) {
+    const FeatureKind a = c.features.a.kind, b = c.features.b.kind;
+    if (a == FeatureKind::kEdge && b == FeatureKind::kEdge) return directionAcross(begin, c, edges);
+    if (a == b) return {nullptr, c.n_W};
+    return turningWith(a > b ? &a_ : &b_, begin, c.n_W);
+  }
+
+  Direction directionAcross(double begin, const ClosestFeatures& c, CrossingEdges& edges) {
+    edges.edge_A = a_.part->core.edge(c.features.a.index).direction;
+    edges.edge_B = b_.part->core.edge(c.features.b.index).direction;
+    const Vec3 w = acrossEdges(edges, poseOf(a_, begin), poseOf(b_, begin));
+    edges.sine = w.norm();
+    if (edges.sine < kCrossingSine) return {nullptr, c.n_W};
+    if (w.dot(c.n_W) < 0.0) edges.edge_A = -edges.edge_A;
+    const Direction across{.across = &edges};
+    edges.gap_m = gapAlong(across, begin);
+    return across;
   }
 
   // The gap between the parts along a direction; at most their distance.
@@ -176,6 +233,20 @@ class Look {
            a_.part->radius_m - b_.part->radius_m;
   }
 
+  // (w . x)'' = w'' . x + 2 w' . x' + w . x'' with |w| <= 1, and that of floor |w|.
+  double curvatureAcross(double begin, double interval, double floor) const {
+    const Trajectory &a = *a_.path, &b = *b_.path;
+    const double acceleration = (b.acceleration - a.acceleration).norm();
+    const double fastest = (b.velocityAt(begin) - a.velocityAt(begin)).norm() + acceleration * interval;
+    const double farthest = (b.positionAt(begin) - a.positionAt(begin)).norm() + fastest * interval;
+    const double spin = a.fastestSpin() + b.fastestSpin();
+    const double turning =
+        a.turningAcceleration() + b.turningAcceleration() + 2.0 * a.fastestSpin() * b.fastestSpin();
+    return turning * (farthest + a_.reach_m + b_.reach_m + a_.part->radius_m + b_.part->radius_m + floor) +
+           2.0 * spin * (fastest + a.fastestSpin() * a_.reach_m + b.fastestSpin() * b_.reach_m) +
+           acceleration + a.turningAcceleration() * a_.reach_m + b.turningAcceleration() * b_.reach_m;
+  }
+
   // How fast the gap between the two vertices that `gapAlong` found last opens.
   double supportSpeed(const Direction& direction, double t) const {
     const Pose X_WA = poseOf(a_, t);
@@ -185,6 +256,13 @@ class Look {
     const Vec3 v_B = X_WB * b_.part->core.vertex(support_b_);
     const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};
     const Velocity vb{b_.path->velocityAt(t), b_.path->angularVelocityAt(t)};
+    if (direction.across != nullptr) {
+      const Vec3 e_a = X_WA.rotation * direction.across->edge_A;
+      const Vec3 e_b = X_WB.rotation * direction.across->edge_B;
+      const Vec3 w_rate = va.angular.cross(e_a).cross(e_b) + e_a.cross(vb.angular.cross(e_b));
+      const Vec3 n_rate = (w_rate - n.dot(w_rate) * n) / e_a.cross(e_b).norm();
+      return n.dot(vb.at(v_B - X_WB.position) - va.at(v_A - X_WA.position)) + n_rate.dot(v_B - v_A);
+    }
     // In a frame that turns, its body's plane passes the other's vertex.
     const Vec3& at_a = direction.frame == &a_ ? v_B : v_A;
     const Vec3& at_b = direction.frame == &b_ ? v_A : v_B;
@@ -224,7 +302,26 @@ class Look {
     return {frame, frame->path->at(begin).rotation.conjugate() * n};
   }
 
-  Chord chordAlong(const Direction& direction, double begin, double gap, double interval) {
+  // Across two edges, of length w = e_A x e_B, a vertex of B is h = w . (x_B - x_A) from one of A. That h
+  // stays above floor |w| follows as for other directions, as |w|'' >= -|w''|.
+  Chord chordAcross(const CrossingEdges& edges, double begin, double interval, double floor) {
+    const Direction direction{.across = &edges};
+    const double end_gap = gapAlong(direction, begin + interval);
+    const double end = sineAt(edges, begin + interval) * (end_gap - floor);
+    const double k = 0.5 * curvatureAcross(begin, interval, floor) * interval * interval;
+    return {direction, interval, end_gap, floor + lowerBound(edges.sine * (edges.gap_m - floor), end, k)};
+  }
+
+  // The chord, or one as long along the other direction where that proves more.
+  Chord betterAlong(const Direction& other, double begin, double gap, const Chord& chord, double floor) {
+    const Direction& own = chord.direction;
+    if (chord.lower_bound >= floor || (other.frame == own.frame && other.across == own.across)) return chord;
+    const Chord along = chordAlong(other, begin, gap, chord.interval, floor);
+    return along.lower_bound > chord.lower_bound ? along : chord;
+  }
+
+  Chord chordAlong(const Direction& direction, double begin, double gap, double interval, double floor) {
+    if (direction.across != nullptr) return chordAcross(*direction.across, begin, interval, floor);
     const double end_gap = gapAlong(direction, begin + interval);
     const double k = 0.5 * curvatureBound(direction, begin, interval) * interval * interval;
     return {direction, interval, end_gap, lowerBound(gap, end_gap, k)};
@@ -240,7 +337,7 @@ class Look {
     const std::array<const MovingPart*, 3> frames{a_first ? &a_ : &b_, a_first ? &b_ : &a_, nullptr};
     Chord best;
     for (const MovingPart* frame : frames) {
-      const Chord chord = chordAlong(turningWith(frame, begin, c.n_W), begin, c.distance_m, interval);
+      const Chord chord = chordAlong(turningWith(frame, begin, c.n_W), begin, c.distance_m, interval, floor);
       if (chord.lower_bound > best.lower_bound) best = chord;
       if (best.lower_bound >= floor) break;
     }

@@ -9,6 +9,7 @@
 // less M t (dt - t) / 2, so from the gap at the two ends of an interval follows a lower bound for all of it.
 // What slides over a face that turns stays near it, but not along a direction that stands still, in which the
 // face's far corners dip at once: there n turns with the face's part, and M holds what a turning frame adds.
+// Between two edges that cross, n stays across both.
 // Newton's step towards the landing gap (with the paper's linear correction as its guard) only proposes the
 // interval. Invariant: up to the returned time the distance is >= the floor. Valid for any speed and any
 // rotation.

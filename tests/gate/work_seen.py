@@ -21,7 +21,7 @@ ANY_TIME = ["--budget", "100000", "--percentile", "50"]
 
 
 def budget(program, options, words):
-    return subprocess.run([program, "budget", options.scene, "-q", "--size", "320x180", "--duration", "1", "--replays", "2",
+    return subprocess.run([program, "budget", options.scene, "-q", "--size", "640x360", "--duration", "1", "--replays", "2",
                            *ANY_TIME, *words], capture_output=True, text=True)
 
 
@@ -47,7 +47,7 @@ def main():
                 not more and "the same work in every frame" in "".join(lines)
             missed += not right
             print("%-20s %s (exit %d): %s" % (name, "seen" if counter and right else "right" if right else "MISSED",
-                                              end.returncode, "; ".join(lines)), flush=True)
+                                              end.returncode, "; ".join(line.split(": ", 1)[-1] for line in more)), flush=True)
     return 1 if missed else 0
 
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/approach.h"
 #include "engine/contact/contact_id.h"
 #include "engine/foundation/index.h"
 
@@ -54,13 +55,9 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
                     StepCounters& counters) {
   const Shape& a = shapes[at(pair.shapes.a)];
   const Shape& b = shapes[at(pair.shapes.b)];
-  const double spin_a = travel.a.angular.norm();
-  const double spin_b = travel.b.angular.norm();
-  const double slide = (travel.b.linear - travel.a.linear).norm();
-  const double acceleration =
-      spin_a * (spin_a * a.reach_m + 2.0 * slide) + spin_b * (spin_b * b.reach_m + 2.0 * slide);
   const double dt = travel.dt_s;
-  if (0.5 * acceleration * dt * dt <= kTurningShare * pair.window.rest) return 0.0;
+  const double closing = mostClosing({travel.a, a.reach_m}, {travel.b, b.reach_m}, dt);
+  if (closing <= kTurningShare * pair.window.rest) return 0.0;
   const Trajectory path_a{0.0, travel.X_WA, travel.a.linear, Vec3::Zero(), travel.a.angular};
   const Trajectory path_b{0.0, travel.X_WB, travel.b.linear, Vec3::Zero(), travel.b.angular};
   FeaturePair tracked = pair.tracked;

@@ -18,12 +18,11 @@ namespace {
 
 // Of solving landings: what the last leaves over are events.
 constexpr int kLandingRounds = 2;
-// Of leading a body's path clear in one step: so often apart from another, by a bit more than is missing, so
-// that what is wedged converges; then so often its motion is halved; then it is held.
+// Of leading a body's path clear in one step: so often apart from others; up to the next number without what
+// turning brings back; then so often its motion is halved; then it is held.
+constexpr int kTurningClearings = 8;
 constexpr int kMostClearings = 20;
 constexpr int kMostHalvings = 2;
-constexpr double kOverRelaxed = 1.3;
-constexpr double kOpened = 0.5;       // of what is missing to the rest gap
 constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
 
 // The time up to which a pair's gap is proven: there it must be looked at again, if its bodies still travel
@@ -62,12 +61,17 @@ class EventLoop {
         clock_(clock),
         watchers_(watchers),
         cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
+        clearing_(memory.clearing),
         predictions_(memory.predictions),
+        struck_(memory.struck),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
                                    tolerance::kSearchWorkPerBody * static_cast<long>(bodies_.size()))) {}
 
   bool run(const LandingSolver& solve_landings) {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
+    clearing_.beginStep();
+    for (const int i : struck_) predictions_[at(i)].impacts = 0;
+    struck_.clear();
     const std::span<const int> active = active_.list();
     crew_.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -356,6 +360,7 @@ class EventLoop {
       return;
     }
     ++counters_.events;
+    if (++predictions_[at(index)].impacts == 1) struck_.push_back(index);
     counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     resolve(index, found);
   }
@@ -376,74 +381,70 @@ class EventLoop {
     return closest;
   }
 
-  // Whether what a look has found is no collision: paths that are at the floor, while the momenta, which
-  // impulses act on, do not bring the bodies together fast.
+  // Whether what a look has found is no collision: paths meet, while the momenta, which impulses act on, do
+  // not bring the bodies together fast.
   bool isSlow(int index) const {
     const TimeOfImpact& found = predictions_[at(index)].found;
-    if (found.outcome != TimeOfImpact::Outcome::kStopped) return false;
     const ShapePair& pair = table_.pairs()[at(index)];
     const auto velocityOf = [&](const Body& body, const Vec3& p_W) {
       return body.velocityAt(found.time_s).at(p_W - body.path.positionAt(found.time_s));
     };
     const Vec3 parting = velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
                          velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W);
-    return found.closest.n_W.dot(parting) >= -pair.collision_speed_mps;
+    return found.closest.n_W.dot(parting) >= -slowestImpact(index);
   }
 
-  // Leads two bodies apart that come slowly to the floor: solvers left that over, or turning. Only their
-  // paths change, by as little as lets their gap open; their momentum is what it was, and the next step
-  // solves it.
+  // What turning brings back again and again lasts: a body that grinds past another would spend thousands of
+  // events of a step on impacts of a speed that its turning gives it anew.
+  double slowestImpact(int index) const {
+    const ShapePair& pair = table_.pairs()[at(index)];
+    const Prediction& prediction = predictions_[at(index)];
+    if (prediction.impacts <= tolerance::kPairEvents) return pair.collision_speed_mps;
+    const double time_s = prediction.found.time_s;
+    return std::max(pair.collision_speed_mps,
+                    PathClearing::turningSpeed(pair, time_s, settings_.step_s - time_s, bodies_, shapes_));
+  }
+
+  // Leads two bodies' paths apart, and with them those that hang together with theirs.
   void clearPaths(int index, const TimeOfImpact& found) {
     const double time_s = found.time_s;
     const double rest = settings_.step_s - time_s;
     const ShapePair& pair = table_.pairs()[at(index)];
-    const std::array<int, 2> both{pair.body_a, pair.body_b};
     ++counters_.cleared_paths;
     changed_.clear();
-    std::array<ImpulseBody, 2> paths;
     int spent = 0;
-    for (std::size_t k = 0; k < 2; ++k) {
-      Body& body = bodies_[at(both[k])];
-      const bool gives_way = body.moves() && body.travel != Travel::kHeld;
-      if (gives_way) {
-        bring(both[k], time_s);
-        changed_.push_back(both[k]);
-        spent = std::max(spent, ++body.cleared);
-      }
-      paths[k] = body.impulseBody(body.path.at(time_s),
-                                  {body.path.velocityAt(time_s) + 0.5 * rest * body.path.acceleration,
-                                   body.path.angularVelocityAt(time_s)});
-      if (gives_way) continue;
-      paths[k].inverse_mass = 0.0;
-      paths[k].inverse_tensor.setZero();
+    for (const int i : {pair.body_a, pair.body_b}) {
+      if (!PathClearing::canBeLed(bodies_[at(i)])) continue;
+      changed_.push_back(i);
+      spent = std::max(spent, ++bodies_[at(i)].cleared);
     }
-    if (spent > kMostClearings + kMostHalvings) {
-      for (const int i : changed_) hold(i);
-    } else if (spent > kMostClearings) {
-      for (std::size_t k = 0; k < 2; ++k)
-        lead(both[k], {0.5 * paths[k].velocity.linear, 0.5 * paths[k].velocity.angular}, rest);
+    const bool leads = spent <= kMostClearings;
+    if (leads) {
+      clearing_.add(index, found, rest, spent > kTurningClearings, table_, bodies_);
+      clearing_.gather(changed_, time_s, table_, bodies_);
+    }
+    for (const int i : changed_) bring(i, time_s);
+    if (leads) {
+      const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, table_, bodies_);
+      for (std::size_t k = 0; k < changed_.size(); ++k) lead(changed_[k], paths[k].velocity, rest);
+    } else if (spent <= kMostClearings + kMostHalvings) {
+      for (const int i : changed_) halve(i, rest);
     } else {
-      const Vec3& n = found.closest.n_W;
-      const Vec3 r_a = found.closest.p_A_W - paths[0].center;
-      const Vec3 r_b = found.closest.p_B_W - paths[1].center;
-      const double separating = n.dot(paths[1].velocity.at(r_b) - paths[0].velocity.at(r_a));
-      const double wanted =
-          std::min(tolerance::kGapSpeed, kOpened * (pair.window.rest - found.closest.distance_m) / rest);
-      const double response = n.dot(collisionMatrix(paths[0], paths[1], r_a, r_b) * n);
-      const double impulse = kOverRelaxed * (wanted - separating) / response;
-      paths[0].apply(-impulse * n, r_a);
-      paths[1].apply(impulse * n, r_b);
-      for (std::size_t k = 0; k < 2; ++k) lead(both[k], paths[k].velocity, rest);
+      for (const int i : changed_) hold(i);
     }
     searchAgain(time_s);
   }
 
   // Straight on, at this mean velocity.
   void lead(int index, const Velocity& mean, double rest_of_step_s) {
-    Body& body = bodies_[at(index)];
-    if (!body.moves() || body.travel == Travel::kHeld) return;
-    body.travel = Travel::kCarried;
-    carryAlong(body, mean, rest_of_step_s, false);
+    bodies_[at(index)].travel = Travel::kCarried;
+    carryAlong(bodies_[at(index)], mean, rest_of_step_s, false);
+  }
+
+  void halve(int index, double rest_of_step_s) {
+    const Trajectory& path = bodies_[at(index)].path;
+    const Vec3 mean = path.velocity + 0.5 * rest_of_step_s * path.acceleration;
+    lead(index, {0.5 * mean, 0.5 * path.angularVelocityAt(path.start_s)}, rest_of_step_s);
   }
 
   // The impulses of one event, the paths that follow, and the searches that these make out of date.
@@ -658,7 +659,9 @@ class EventLoop {
   PhaseClock* clock_;
   StepWatchers watchers_;
   ContactCluster cluster_;
+  PathClearing& clearing_;
   std::vector<Prediction>& predictions_;  ///< By place of the pair.
+  std::vector<int>& struck_;              ///< Pairs that have had impacts in this step.
   long search_work_ = 0;                  ///< Of all searches in this step: see TimeOfImpact::work.
   long most_search_work_ = 0;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.

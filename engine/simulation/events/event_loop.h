@@ -3,10 +3,11 @@
 // collisions of all bodies to the world's first): an event brings only the bodies that its impulses reach to
 // its time and gives them new paths from there; only their pairs are searched anew, and every search only as
 // far as events come. The others wait on their own paths. What will not bounce and would come down in a crowd
-// is handed to the lasting contacts before anything moves. A slow approach at the floor is no event: the two
-// paths are led apart, and no impulse acts. A body that has had its budget of either is held at its last safe
-// time: accuracy is lost and counted, the gap is not. Internal to the simulation floor. Tested in
-// tests/physics/piles/pile_test.cpp and through tests/engine/simulation/.
+// is handed to the lasting contacts before anything moves. Where only paths meet, and momenta do not bring
+// the bodies together fast, is no event: the paths are led apart (path_clearing.h), and no impulse acts. A
+// body that has had its budget of either is held at its last safe time: accuracy is lost and counted, the gap
+// is not. Internal to the simulation floor. Tested in tests/physics/piles/pile_test.cpp and through
+// tests/engine/simulation/.
 
 #include <functional>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "engine/simulation/bodies/step_view.h"
 #include "engine/simulation/contacts/lasting_contact.h"
 #include "engine/simulation/events/contact_cluster.h"
+#include "engine/simulation/events/path_clearing.h"
 
 namespace carom {
 
@@ -32,6 +34,7 @@ struct StepWatchers {
 /// because another event gives one of the bodies a new path.
 struct Prediction {
   int version = 0;
+  int impacts = 0;        ///< In this step.
   bool searched = false;  ///< Its bodies may meet.
   bool looked = false;    ///< At least once.
   ImpactSearch search;
@@ -41,7 +44,9 @@ struct Prediction {
 /// Kept from step to step for its room: nothing of it says what happens in a step.
 struct EventMemory {
   std::vector<Prediction> predictions;  ///< By place of the pair.
+  std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
   ClusterMemory cluster;
+  PathClearing clearing;
 };
 
 /// Solves the landings of these pairs (ShapePair::landing), or of some of them, with the step's lasting

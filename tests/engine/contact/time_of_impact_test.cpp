@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include "tests/oracle/brute_force_distance.h"
 #include "tests/oracle/test_shapes.h"
@@ -293,6 +294,57 @@ TEST(TimeOfImpact, BelowTheFloor_MayLeaveButNotComeCloser) {
   const TimeOfImpact fast = find(ground, Mover::of(Solid::box({1, 1, 1}), X, Vec3(0, 0, -3)), 1.0);
   EXPECT_EQ(fast.outcome, Outcome::kImpact);
   EXPECT_EQ(fast.time_s, 0.0);
+}
+
+// Looks at d(t) a thousand times up to where the search says that it is proven.
+void expectProven(const Mover& a, const Mover& b, const TimeOfImpact& found) {
+  for (int i = 0; i <= 1000; ++i)
+    ASSERT_GE(closestAt(a, b, found.time_s * i / 1000).distance_m, found.floor) << i;
+}
+
+// Two edges that cross at the floor. One turns about the other, so that along every direction that stands
+// still or turns with one body some end of an edge comes down at once, though the edges part.
+TEST(TimeOfImpact, OfEdgesThatCrossAtTheFloorAndPart_IsClear) {
+  const double half_diagonal = std::sqrt(0.5);
+  for (const double spin : {0.1, 1.0, 10.0}) {
+    const Mover a =
+        Mover::of(Solid::box({1, 1, 1}), {turned(Vec3::UnitX(), 0.25 * std::numbers::pi), Vec3::Zero()},
+                  Vec3::Zero(), spin * Vec3::UnitY());
+    Mover b =
+        Mover::of(Solid::box({1, 1, 1}), {turned(Vec3::UnitY(), 0.25 * std::numbers::pi), Vec3::Zero()});
+    const ImpactSearch search = searchOf(a, b, 1.0 / 240);
+    b.path.X_WB.position.z() = 2.0 * half_diagonal + search.window.floor;
+    // The ridge rises by h (1 / cos(w t) - 1) below the other edge.
+    b.path.velocity.z() = half_diagonal * spin * spin * search.end_s;
+    const TimeOfImpact found = find(a, b, search);
+    EXPECT_EQ(found.outcome, Outcome::kClear) << spin;
+    EXPECT_LT(found.looks, 20) << spin;
+    expectProven(a, b, found);
+  }
+}
+
+// A box just past standing on its edge turns away from the ground, and comes down on the next edge 89 degrees
+// later: that it parts at first must not be taken for nothing because it ends below.
+TEST(TimeOfImpact, OfWhatPartsAndComesBack_IsFoundWhereItComesBack) {
+  const Mover ground = floorBox();
+  const auto extent = [](double angle) {
+    return 0.5 * (std::abs(std::cos(angle)) + std::abs(std::sin(angle)));
+  };
+  const double begin = 46.0 * std::numbers::pi / 180, spin = 20.0, sinking = 0.1;
+  Mover box = Mover::of(Solid::box({1, 1, 1}), {turned(Vec3::UnitY(), begin), Vec3::Zero()},
+                        Vec3(0, 0, -sinking), spin * Vec3::UnitY());
+  const ImpactSearch search = searchOf(ground, box, 0.1);
+  box.path.X_WB.position.z() = extent(begin) + search.window.floor;
+  const auto gap = [&](double t) { return box.path.at(t).position.z() - extent(begin + spin * t); };
+  double back = 0.02;  // when it is at the floor again
+  while (gap(back) > search.window.floor) back += 1e-6;
+  const TimeOfImpact found = find(ground, box, search);
+  EXPECT_EQ(found.outcome, Outcome::kImpact);
+  EXPECT_LE(found.time_s, back);
+  EXPECT_GE(gap(found.time_s), search.window.floor);
+  EXPECT_LE(gap(found.time_s), search.window.ceiling);
+  EXPECT_GT(found.time_s, 0.9 * back);
+  expectProven(ground, box, found);
 }
 
 TEST(TimeOfImpact, OfASlowApproach_StopsAtTheFloor) {

@@ -1,0 +1,226 @@
+#include "engine/simulation/events/path_clearing.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/contact/approach.h"
+#include "engine/foundation/index.h"
+#include "engine/foundation/tolerances.h"
+#include "engine/response/one_point/impulse.h"
+#include "engine/response/sweeps/principal_pivoting.h"
+
+namespace carom {
+namespace {
+
+constexpr double kOverRelaxed = 1.3;  // of what is missing, so that what is wedged converges
+constexpr double kOpened = 0.5;       // of what a gap misses to the rest gap
+constexpr double kSlowShare = 0.5;    // of the collision speed: the fastest closing left to a wider one
+constexpr double kSlack = 0.05;       // of the rest gap: a place that misses less has been led apart
+constexpr double kMuch = 0.25;  // rad: of what turns by less, the rows have seen the end of the arc to 1 %
+constexpr Eigen::Index kPivoted = 32;  // rows: more are not solved at once
+constexpr int kVisits = 2000;          // of rows in one solve, 0.1 ms
+
+// What a body's path does in the mean over the rest of the step.
+Velocity meanOf(const Body& body, double time_s, double rest_s) {
+  return {body.path.velocityAt(time_s) + 0.5 * rest_s * body.path.acceleration,
+          body.path.angularVelocityAt(time_s)};
+}
+
+}  // namespace
+
+double PathClearing::turningSpeed(const ShapePair& pair, double time_s, double rest_s,
+                                  const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
+  const auto motionOf = [&](int body) { return meanOf(bodies[at(body)], time_s, rest_s); };
+  return mostClosing({motionOf(pair.body_a), shapes[at(pair.shapes.a)].reach_m},
+                     {motionOf(pair.body_b), shapes[at(pair.shapes.b)].reach_m}, rest_s) /
+         rest_s;
+}
+
+void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool holds_turning,
+                       const PairTable& table, const std::vector<Body>& bodies) {
+  const ShapePair& pair = table.pairs()[at(index)];
+  const double missing_m = pair.window.rest - found.closest.distance_m;
+  Place place;
+  place.pair = index;
+  place.n_W = found.closest.n_W;
+  place.p_A_W = found.closest.p_A_W;
+  place.p_B_W = found.closest.p_B_W;
+  place.wanted_mps =
+      std::clamp(kOpened * missing_m / rest_s, -kSlowShare * pair.collision_speed_mps, tolerance::kGapSpeed);
+  place.slack_mps = kSlack * pair.window.rest / rest_s;
+  const double fastest =
+      std::max(bodies[at(pair.body_a)].path.fastestSpin(), bodies[at(pair.body_b)].path.fastestSpin());
+  const bool turns_by_much = rest_s * fastest > kMuch;
+  place.turned = (turns_by_much || holds_turning) &&
+                 std::any_of(places_.begin(), places_.end(), [&](const Place& former) {
+                   return former.pair == index && cameBack(former, found.time_s, table, bodies);
+                 });
+  place.features = found.closest.features;
+  const auto same = std::find_if(places_.begin(), places_.end(), [&](const Place& former) {
+    return former.pair == index && former.features == place.features;
+  });
+  last_added_ = static_cast<std::size_t>(same - places_.begin());
+  if (same == places_.end())
+    places_.push_back(place);
+  else
+    *same = place;
+}
+
+// Whether nothing else has led the bodies of a place since they were led apart there.
+bool PathClearing::cameBack(const Place& place, double time_s, const PairTable& table,
+                            const std::vector<Body>& bodies) const {
+  const ShapePair& pair = table.pairs()[at(place.pair)];
+  for (const int body : {pair.body_a, pair.body_b})
+    if (canBeLed(bodies[at(body)]) && bodies[at(body)].path.start_s != place.led_s) return false;
+  return place.led_s < time_s;
+}
+
+void PathClearing::gather(std::vector<int>& members, double time_s, const PairTable& table,
+                          const std::vector<Body>& bodies) {
+  for (Place& place : places_) place.gathered = false;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    for (Place& place : places_) {
+      const ShapePair& pair = table.pairs()[at(place.pair)];
+      if (place.gathered || (pair.body_a != members[k] && pair.body_b != members[k])) continue;
+      place.gathered = true;
+      const int other = pair.body_a == members[k] ? pair.body_b : pair.body_a;
+      // Of one instant, events come in the order of their ranks: another's path may begin a rounding later.
+      if (canBeLed(bodies[at(other)]) && bodies[at(other)].path.start_s <= time_s &&
+          std::find(members.begin(), members.end(), other) == members.end())
+        members.push_back(other);
+    }
+}
+
+void PathClearing::setPaths(const std::vector<int>& members, double time_s, double rest_s,
+                            const std::vector<Body>& bodies) {
+  paths_.clear();
+  path_of_.resize(bodies.size(), -1);
+  for (const int i : touched_) path_of_[at(i)] = -1;
+  touched_.clear();
+  for (const int i : members) addPath(i, time_s, rest_s, bodies);
+}
+
+int PathClearing::addPath(int index, double time_s, double rest_s, const std::vector<Body>& bodies) {
+  const Body& body = bodies[at(index)];
+  path_of_[at(index)] = static_cast<int>(paths_.size());
+  touched_.push_back(index);
+  paths_.push_back(body.impulseBody(body.path.at(time_s), meanOf(body, time_s, rest_s)));
+  return path_of_[at(index)];
+}
+
+// The path of a member, or of who goes on as it does.
+int PathClearing::pathOf(int index, double time_s, double rest_s, const std::vector<Body>& bodies) {
+  if (path_of_[at(index)] >= 0) return path_of_[at(index)];
+  ImpulseBody& path = paths_[at(addPath(index, time_s, rest_s, bodies))];
+  path.inverse_mass = 0.0;
+  path.inverse_tensor.setZero();
+  return path_of_[at(index)];
+}
+
+// Of two that turning brought back together, the one that turns faster does not.
+void PathClearing::holdTurning(const Row& row) {
+  const double spin_a = paths_[at(row.a)].velocity.angular.norm();
+  const double spin_b = paths_[at(row.b)].velocity.angular.norm();
+  const auto hold = [&](ImpulseBody& path) {
+    if (path.inverse_mass == 0.0) return;
+    path.velocity.angular.setZero();
+    path.inverse_tensor.setZero();
+  };
+  if (spin_a >= spin_b) hold(paths_[at(row.a)]);
+  if (spin_b >= spin_a) hold(paths_[at(row.b)]);
+}
+
+void PathClearing::setRows(double time_s, double rest_s, const PairTable& table,
+                           const std::vector<Body>& bodies) {
+  rows_.clear();
+  for (Place& place : places_) {
+    if (!place.gathered) continue;
+    const ShapePair& pair = table.pairs()[at(place.pair)];
+    Row& row = rows_.emplace_back();
+    row.place = &place;
+    row.a = pathOf(pair.body_a, time_s, rest_s, bodies);
+    row.b = pathOf(pair.body_b, time_s, rest_s, bodies);
+    row.r_a = place.p_A_W - paths_[at(row.a)].center;
+    row.r_b = place.p_B_W - paths_[at(row.b)].center;
+    if (place.turned) holdTurning(row);
+  }
+  for (Row& row : rows_)
+    row.response = row.place->n_W.dot(
+        collisionMatrix(paths_[at(row.a)], paths_[at(row.b)], row.r_a, row.r_b) * row.place->n_W);
+}
+
+double PathClearing::partingOf(const Row& row) const {
+  return row.place->n_W.dot(paths_[at(row.b)].velocity.at(row.r_b) - paths_[at(row.a)].velocity.at(row.r_a));
+}
+
+bool PathClearing::sweepRows() {
+  const int most = 1 + (rows_.size() > 1 ? kVisits / static_cast<int>(rows_.size()) : 0);
+  bool apart = false;
+  for (int sweep = 0; sweep < most && !apart; ++sweep) {
+    apart = true;
+    for (Row& row : rows_) {
+      if (!(row.response > 0.0)) continue;
+      const double missing = row.place->wanted_mps - partingOf(row);
+      apart = apart && missing <= row.place->slack_mps;
+      const double impulse = std::max(-row.impulse, kOverRelaxed * missing / row.response);
+      row.impulse += impulse;
+      push(row, impulse);
+    }
+  }
+  return apart || rows_.size() == 1;
+}
+
+bool PathClearing::pivotRows() {
+  const auto size = static_cast<Eigen::Index>(rows_.size());
+  if (size > kPivoted) return false;
+  const auto partings = [&] {
+    Eigen::VectorXd speeds(size);
+    for (Eigen::Index i = 0; i < size; ++i) speeds[i] = partingOf(rows_[static_cast<std::size_t>(i)]);
+    return speeds;
+  };
+  Eigen::MatrixXd response(size, size);
+  Eigen::VectorXd missing = -partings(), slack(size);
+  const std::vector<ImpulseBody> moving = paths_;
+  for (ImpulseBody& path : paths_) path.velocity = {};
+  const std::vector<ImpulseBody> still = paths_;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    missing[i] += row.place->wanted_mps;
+    slack[i] = row.place->slack_mps;
+    push(row, 1.0);
+    response.col(i) = partings();
+    paths_ = still;
+  }
+  paths_ = moving;
+  const std::optional<Eigen::VectorXd> impulses = pivotImpulses(response, missing, slack);
+  if (!impulses) return false;
+  for (Eigen::Index i = 0; i < size; ++i) push(rows_[static_cast<std::size_t>(i)], (*impulses)[i]);
+  return true;
+}
+
+void PathClearing::push(const Row& row, double impulse) {
+  paths_[at(row.a)].apply(-impulse * row.place->n_W, row.r_a);
+  paths_[at(row.b)].apply(impulse * row.place->n_W, row.r_b);
+}
+
+std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members, double time_s,
+                                                 double rest_s, const PairTable& table,
+                                                 const std::vector<Body>& bodies) {
+  const auto begin = [&] {
+    setPaths(members, time_s, rest_s, bodies);
+    setRows(time_s, rest_s, table, bodies);
+  };
+  begin();
+  if (!sweepRows()) {
+    begin();
+    if (!pivotRows()) {  // nothing keeps all of them apart: at least the one that was added last
+      for (std::size_t i = 0; i < places_.size(); ++i) places_[i].gathered = i == last_added_;
+      begin();
+      sweepRows();
+    }
+  }
+  for (const Row& row : rows_) row.place->led_s = time_s;
+  return {paths_.data(), members.size()};
+}
+
+}  // namespace carom

@@ -1,0 +1,72 @@
+// Rows at once against the conditions that they must meet.
+
+#include "engine/response/sweeps/principal_pivoting.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/oracle/test_shapes.h"
+
+namespace carom {
+namespace {
+
+using oracle::Random;
+
+// Rows between bodies of masses from 1e-4 to 1e4 kg: each row changes the velocities of two of them.
+Eigen::MatrixXd randomRows(Random& random, Eigen::Index rows, Eigen::Index bodies) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, bodies);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto a = static_cast<Eigen::Index>(random.uniform(0.0, static_cast<double>(bodies) - 1e-9));
+    jacobian(i, a) = 1.0;
+    if (a + 1 < bodies) jacobian(i, a + 1) = -random.uniform(0.2, 1.0);
+  }
+  return jacobian;
+}
+
+TEST(PivotImpulses, PressOnlyWhereRowsAreNotFasterApartThanWanted) {
+  Random random(5);
+  int found = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto rows = static_cast<Eigen::Index>(random.uniform(1.0, 12.99));
+    const Eigen::MatrixXd jacobian = randomRows(random, rows, 8);
+    Eigen::VectorXd inverse_mass(8);
+    for (Eigen::Index i = 0; i < 8; ++i) inverse_mass[i] = std::pow(10.0, random.uniform(-4.0, 4.0));
+    const Eigen::MatrixXd response = jacobian * inverse_mass.asDiagonal() * jacobian.transpose();
+    Eigen::VectorXd missing(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) missing[i] = random.uniform(-1.0, 1.0);
+    const Eigen::VectorXd slack = Eigen::VectorXd::Constant(rows, 1e-3);
+    const auto impulses = pivotImpulses(response, missing, slack);
+    if (!impulses) continue;
+    ++found;
+    const Eigen::VectorXd short_of = missing - response * *impulses;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      EXPECT_GE((*impulses)[i], 0.0) << trial;
+      EXPECT_LE(short_of[i], slack[i]) << trial;
+      if ((*impulses)[i] > 0.0) {
+        EXPECT_NEAR(short_of[i], 0.0, slack[i]) << trial;
+      }
+    }
+  }
+  EXPECT_GE(found, 490);
+}
+
+// A plate of 1 g between the ground and a ton that comes down: sweeps would take a million to hold both.
+TEST(PivotImpulses, HoldALightBodyUnderAHeavyOne) {
+  const double light = 1e3, heavy = 1e-3;  // 1 / kg
+  Eigen::MatrixXd response(2, 2);
+  response << light, -light, -light, light + heavy;
+  const auto impulses = pivotImpulses(response, Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d::Constant(1e-6));
+  ASSERT_TRUE(impulses.has_value());
+  EXPECT_NEAR((*impulses)[0], 1000.0, 2.0);
+  EXPECT_NEAR((*impulses)[1], 1000.0, 2.0);
+}
+
+TEST(PivotImpulses, OfRowsThatContradictEachOther_AreNone) {
+  // The same two bodies, to be parted and to be brought together.
+  Eigen::MatrixXd response(2, 2);
+  response << 1.0, -1.0, -1.0, 1.0;
+  EXPECT_FALSE(
+      pivotImpulses(response, Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d::Constant(1e-3)).has_value());
+}
+
+}  // namespace
+}  // namespace carom
