@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/contact/approach.h"
 
@@ -11,7 +12,7 @@ namespace carom {
 namespace {
 
 constexpr int kAdvances = 1000;        // proven intervals per search
-constexpr int kProposals = 16;         // tries per interval, each shorter than the last; then the sure one
+constexpr int kProposals = 30;         // tries per interval, most half as long as the last; then the sure one
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
     1e-10;                              // of the searched interval: less progress than this is standing still
@@ -115,13 +116,17 @@ class Look {
     const double curvature = curvatureBound({nullptr, c.n_W}, begin, whole);
     if (gap + (slowestSpeed(begin, c.n_W) - 0.5 * curvature * whole) * whole >= clear) return whole;
     const double sure = sureInterval(gap - clear, slowestSpeed(begin, c.n_W), curvature, whole);
-    Chord chord = bestChord(begin, c, whole, floor);
     CrossingEdges edges;
-    Direction held;
-    if (chord.lower_bound < floor) {
-      held = heldDirection(begin, c, edges);
-      chord = betterAlong(held, begin, gap, chord, floor);
-    }
+    std::optional<Direction> held;
+    // Or one as long along the direction that is held, where that proves more.
+    const auto better = [&](const Chord& chord) {
+      if (chord.lower_bound >= floor) return chord;
+      if (!held) held = heldDirection(begin, c, edges);
+      if (held->frame == chord.direction.frame && held->across == chord.direction.across) return chord;
+      const Chord along = chordAlong(*held, begin, gap, chord.interval, floor);
+      return along.lower_bound > chord.lower_bound ? along : chord;
+    };
+    Chord chord = better(bestChord(begin, c, whole, floor));
     for (int i = 0; i < kProposals && chord.interval > sure; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
@@ -130,7 +135,7 @@ class Look {
         if (end_speed >= -search_.collision_speed_mps) return chord.interval;
         ++newton_steps;
         const double back = std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
-        chord = chordAlong(chord.direction, begin, gap, chord.interval - back, floor);
+        chord = better(chordAlong(chord.direction, begin, gap, chord.interval - back, floor));
         continue;
       }
       ++newton_steps;
@@ -145,8 +150,7 @@ class Look {
         if (chord.end_gap < aim)
           proposal = std::min(proposal, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
       }
-      chord = chordAlong(chord.direction, begin, gap, proposal, floor);
-      chord = betterAlong(held, begin, gap, chord, floor);
+      chord = better(chordAlong(chord.direction, begin, gap, proposal, floor));
     }
     return sure;
   }
@@ -310,14 +314,6 @@ class Look {
     const double end = sineAt(edges, begin + interval) * (end_gap - floor);
     const double k = 0.5 * curvatureAcross(begin, interval, floor) * interval * interval;
     return {direction, interval, end_gap, floor + lowerBound(edges.sine * (edges.gap_m - floor), end, k)};
-  }
-
-  // The chord, or one as long along the other direction where that proves more.
-  Chord betterAlong(const Direction& other, double begin, double gap, const Chord& chord, double floor) {
-    const Direction& own = chord.direction;
-    if (chord.lower_bound >= floor || (other.frame == own.frame && other.across == own.across)) return chord;
-    const Chord along = chordAlong(other, begin, gap, chord.interval, floor);
-    return along.lower_bound > chord.lower_bound ? along : chord;
   }
 
   Chord chordAlong(const Direction& direction, double begin, double gap, double interval, double floor) {
