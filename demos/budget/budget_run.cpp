@@ -34,16 +34,21 @@ void addWork(FrameCost& cost, const StepCounters& step) {
   cost.worked(Work::kNewtonSteps) += step.newton_steps;
 }
 
+struct DrawnFrame {
+  std::span<const renderer::Instance> instances;
+  renderer::Camera camera;
+  std::span<const renderer::WaterVolume> water;
+};
+
 /// Adds what there was to draw and to pack.
-void drawAndEncode(PhaseStopwatch& watch, renderer::FrameRenderer& pictures, renderer::PngSequence& files,
-                   std::span<const renderer::Instance> instances, const renderer::Camera& camera,
-                   std::span<const renderer::WaterVolume> water, FrameCost& cost) {
+void drawAndEncode(const DrawnFrame& frame, PhaseStopwatch& watch, renderer::FrameRenderer& pictures,
+                   renderer::PngSequence& files, FrameCost& cost) {
   watch.begin(FramePhase::kDraw);
   const auto drawn = [&watch] {
     watch.end();
     watch.begin(FramePhase::kReadback);
   };
-  const renderer::Image& image = pictures.draw(instances, camera, drawn, water);
+  const renderer::Image& image = pictures.draw(frame.instances, frame.camera, drawn, frame.water);
   watch.end();
   const FramePhaseScope phase(watch, FramePhase::kEncode);
   cost.worked(Work::kBytes) = static_cast<std::int64_t>(files.encode(image, {}).size());
@@ -103,8 +108,8 @@ FrameCost FrameLoop::next() {
   const std::span<const BodyState> bodies = p.states.advanceTo(p.frame);
   const std::vector<renderer::Instance> instances = drawnInstances(p.scene, bodies);
   const double time_s = p.plan.clock.time(p.frame);
-  drawAndEncode(p.watch, p.pictures, p.files, instances, p.plan.camera.at(time_s, bodies),
-                drawnWater(p.plan.scene, time_s), p.cost);
+  const auto water = drawnWater(p.plan.scene, time_s);
+  drawAndEncode({instances, p.plan.camera.at(time_s, bodies), water}, p.watch, p.pictures, p.files, p.cost);
   p.watch.endFrame(p.cost);
   p.cost.time_s = time_s;
   p.cost.state_hash = p.scene.world.stateHash();

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/closest_features/separated/level_axes.h"
+#include "engine/foundation/index.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
@@ -19,6 +22,9 @@ constexpr double kParallelSine = 1e-9;
 constexpr double kEqual = 0.125;
 // Witnesses this many times the noise beside an axis still are its witnesses.
 constexpr double kOffAxis = 32.0;
+
+// Room for what touches two support planes: faces of some hundreds of corners, and the axes level with them.
+constexpr std::size_t kSupportBytes = std::size_t{32} << 10;
 
 // Relative poses that differ by less than this, relative to the bodies' size, are the same.
 constexpr double kSamePose = 1e-9;
@@ -54,12 +60,17 @@ bool firstIsA(const PolyhedronPair& pair) {
 // Everything of a polyhedron that touches its support plane along a direction, within a tolerance.
 class SupportSet {
  public:
-  void gather(const ConvexPolyhedron& polyhedron, const Vec3& n, int start, double level_m, double shift_m) {
-    polyhedron_ = &polyhedron;
+  SupportSet(const ConvexPolyhedron& polyhedron, std::pmr::memory_resource* memory)
+      : polyhedron_(&polyhedron), vertices_(memory), edges_(memory), faces_(memory), seen_(memory) {
+    vertices_.reserve(kExpected);
+    edges_.reserve(kExpected);
+  }
+
+  void gather(const Vec3& n, int start, double level_m, double shift_m) {
+    const ConvexPolyhedron& polyhedron = *polyhedron_;
     n_ = n;
     shift_m_ = shift_m;
-    if (seen_.size() < polyhedron.vertices().size()) seen_.resize(polyhedron.vertices().size(), 0);
-    ++gathering_;
+    seen_.assign(polyhedron.vertices().size() / kWordBits + 1, 0);
     const int top = polyhedron.support(n, start);
     vertices_.clear();
     add(top);
@@ -72,7 +83,7 @@ class SupportSet {
     gatherFaces();
   }
 
-  const std::vector<int>& vertices() const { return vertices_; }
+  std::span<const int> vertices() const { return vertices_; }
   const Vec3& top() const { return polyhedron_->vertex(vertices_[0]); }
 
   // The lowest feature of the set over or under p.
@@ -92,14 +103,14 @@ class SupportSet {
     return std::nullopt;
   }
 
-  const std::vector<int>& edges() const { return edges_; }
+  std::span<const int> edges() const { return edges_; }
 
  private:
   void add(int v) {
-    seen_[static_cast<std::size_t>(v)] = gathering_;
+    seen_[at(v) / kWordBits] |= std::uint64_t{1} << at(v) % kWordBits;
     vertices_.push_back(v);
   }
-  bool contains(int v) const { return seen_[static_cast<std::size_t>(v)] == gathering_; }
+  bool contains(int v) const { return (seen_[at(v) / kWordBits] >> at(v) % kWordBits & 1) != 0; }
 
   void gatherEdges() {
     edges_.clear();
@@ -149,37 +160,40 @@ class SupportSet {
     return least;
   }
 
-  const ConvexPolyhedron* polyhedron_ = nullptr;
+  static constexpr std::size_t kExpected = 16;  // of a list, before it has to grow
+  static constexpr std::size_t kWordBits = 64;
+
+  const ConvexPolyhedron* polyhedron_;
   Vec3 n_ = Vec3::Zero();
   double shift_m_ = 0.0;
-  std::vector<int> vertices_, edges_, faces_;
-  std::vector<int> seen_;  // by vertex: the gathering that last added it
-  int gathering_ = 0;
+  std::pmr::vector<int> vertices_, edges_, faces_;
+  std::pmr::vector<std::uint64_t> seen_;  // a bit a vertex
 };
 
-// Kept between queries, so that a warm query allocates nothing.
 struct SupportSets {
+  SupportSets(const PolyhedronPair& pair, std::pmr::memory_resource* memory)
+      : a(pair.a, memory), b(pair.b, memory) {}
+
+  void gather(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n, double noise_m,
+              double shift_m) {
+    a.gather(n, vertexOf(pair.a, start.a), noise_m, shift_m);
+    b.gather(-pair.directionToB(n), vertexOf(pair.b, start.b), noise_m, shift_m);
+  }
+
   SupportSet a, b;
 };
-thread_local SupportSets support_sets;
-
-void gatherAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n, double noise_m,
-                 double shift_m) {
-  support_sets.a.gather(pair.a, n, vertexOf(pair.a, start.a), noise_m, shift_m);
-  support_sets.b.gather(pair.b, -pair.directionToB(n), vertexOf(pair.b, start.b), noise_m, shift_m);
-}
 
 // A vertex of one set over the other: the corner with the lowest vertex index.
-bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
-  const std::vector<int>& on_a = support_sets.a.vertices();
-  const std::vector<int>& on_b = support_sets.b.vertices();
-  const auto past_end = [](const std::vector<int>& list, std::size_t i) { return i == list.size(); };
+bool takeLowestVertex(const PolyhedronPair& pair, const SupportSets& sets, CoreAnswer& answer) {
+  const std::span<const int> on_a = sets.a.vertices();
+  const std::span<const int> on_b = sets.b.vertices();
+  const auto past_end = [](std::span<const int> list, std::size_t i) { return i == list.size(); };
   for (std::size_t i = 0, j = 0; !past_end(on_a, i) || !past_end(on_b, j);) {
     const bool try_a = !past_end(on_a, i) && (past_end(on_b, j) || on_a[i] <= on_b[j]);
     const bool try_b = !past_end(on_b, j) && (past_end(on_a, i) || on_b[j] <= on_a[i]);
     std::optional<Feature> holds_a, holds_b;
-    if (try_a) holds_a = support_sets.b.holding(pair.toB(pair.a.vertex(on_a[i])));
-    if (try_b) holds_b = support_sets.a.holding(pair.toA(pair.b.vertex(on_b[j])));
+    if (try_a) holds_a = sets.b.holding(pair.toB(pair.a.vertex(on_a[i])));
+    if (try_b) holds_b = sets.a.holding(pair.toA(pair.b.vertex(on_b[j])));
     const auto order = [](Feature f) { return std::pair{f.kind, f.index}; };
     const bool a_holds_lower = holds_a && (!holds_b || order(*holds_a) < order(*holds_b) ||
                                            (order(*holds_a) == order(*holds_b) && firstIsA(pair)));
@@ -202,10 +216,10 @@ bool takeLowestVertex(const PolyhedronPair& pair, CoreAnswer& answer) {
 }
 
 // No vertex of one set lies over the other: edges of the sets cross, and the lowest indices count.
-bool takeLowestCrossing(const PolyhedronPair& pair, CoreAnswer& answer) {
+bool takeLowestCrossing(const PolyhedronPair& pair, const SupportSets& sets, CoreAnswer& answer) {
   std::optional<std::pair<int, int>> lowest;
-  for (const int i : support_sets.a.edges())
-    for (const int j : support_sets.b.edges()) {
+  for (const int i : sets.a.edges())
+    for (const int j : sets.b.edges()) {
       const std::pair<int, int> key = std::minmax(i, j);
       if (lowest && key >= *lowest && !(key == *lowest && i != j && (i < j) == firstIsA(pair))) continue;
       const Edge& e1 = pair.a.edge(i);
@@ -248,13 +262,15 @@ bool comesBefore(const PolyhedronPair& pair, const FeaturePair& x, const Feature
 
 bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
   const CoreAnswer given = answer;
+  StackArena<kSupportBytes> arena;
+  SupportSets sets(pair, arena.resource());
   const auto takeLowest = [&] {
-    gatherAlong(pair, given.features, answer.normal, noise_m, shift_m);
-    return takeLowestVertex(pair, answer) || takeLowestCrossing(pair, answer);
+    sets.gather(pair, given.features, answer.normal, noise_m, shift_m);
+    return takeLowestVertex(pair, sets, answer) || takeLowestCrossing(pair, sets, answer);
   };
   const double slab = slabAlong(pair, given.features, given.normal);
   if (definesNormal(given.features) && std::abs(slab - given.gap_m) <= kEqual * noise_m) return takeLowest();
-  thread_local std::vector<MinimumTranslation> axes;
+  MinimumTranslations axes(arena.resource());
   gatherLevelAxes(pair, given, noise_m, axes);
   const MinimumTranslation* widest = nullptr;
   for (const double tolerance_m : {kEqual * noise_m, noise_m})

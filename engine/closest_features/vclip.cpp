@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "engine/closest_features/canonical_features.h"
 #include "engine/closest_features/certificate.h"
@@ -15,6 +14,7 @@
 #include "engine/closest_features/separated/level_axes.h"
 #include "engine/closest_features/separated/warm_pair.h"
 #include "engine/foundation/contract.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
@@ -34,13 +34,17 @@ constexpr int kLongWalk = 12;
 constexpr double kRoom = 0x1p-41;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
+// Room for facets in exact ties, and for the polytope of a pair that has no memory of its own.
+constexpr std::size_t kFacetsBytes = 64 * sizeof(MinimumTranslation);
+constexpr std::size_t kPolytopeBytes = std::size_t{256} << 10;
 
 // What lengths are compared with, metres.
 struct Scale {
-  Scale(const ConvexPolyhedron& a, const Pose& X_WA, const ConvexPolyhedron& b, const Pose& X_WB)
-      : size_m((X_WB.position - X_WA.position).lpNorm<1>() + a.reach() + b.reach()),
+  explicit Scale(const PosedParts& parts)
+      : size_m((parts.X_WB.position - parts.X_WA.position).lpNorm<1>() + parts.a.core.reach() +
+               parts.b.core.reach()),
         noise_m(std::max(kNoise * size_m, kShortest)),
-        shift_m(noise_m + kShift * (X_WA.position.lpNorm<1>() + X_WB.position.lpNorm<1>())) {}
+        shift_m(noise_m + kShift * (parts.X_WA.position.lpNorm<1>() + parts.X_WB.position.lpNorm<1>())) {}
 
   double size_m;
   double noise_m;  // how far rounding within the query may move a point
@@ -65,7 +69,8 @@ MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m
 // features that hold the witnesses, they lie between vertices.
 void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPolytope& polytope, bool tracked,
                         CoreAnswer& answer) {
-  thread_local std::vector<MinimumTranslation> facets;
+  StackArena<kFacetsBytes> arena;
+  MinimumTranslations facets(arena.resource());
   facets.assign(1, {answer.gap_m, answer.normal, answer.features, answer.p_a, answer.p_b});
   if (!tracked && polytope.triangleCount() > 0) polytope.equalFacets(pair, facets);
   std::optional<CoreAnswer> lowest;
@@ -83,22 +88,28 @@ void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPol
 }
 
 // The end of a walk that left doubt: the features are not unique, or too close for the witnesses to have a
-// direction. `axes`: the minimum translation, if it has been asked for; the bodies do not intersect.
-void settle(const PolyhedronPair& pair, const FeatureWalk& walk, bool inside,
-            const std::optional<MinimumTranslation>& axes, const Scale& scale, InnerPolytope& polytope,
+// direction; the bodies do not intersect.
+struct WalkEnd {
+  const FeatureWalk& walk;
+  bool inside;                                    // a point of both bodies was found
+  const std::optional<MinimumTranslation>& axes;  // the minimum translation, if it has been asked for
+};
+
+void settle(const PolyhedronPair& pair, const WalkEnd& end, const Scale& scale, InnerPolytope& polytope,
             CoreAnswer& answer) {
+  const FeatureWalk& walk = end.walk;
   const FeatureDistance& found = walk.here();
-  const bool directed = !inside && (found.distance() > kNoDirection * scale.size_m ||
-                                    (found.distance() > scale.noise_m && acrossOf(pair, found).exact));
+  const bool directed = !end.inside && (found.distance() > kNoDirection * scale.size_m ||
+                                        (found.distance() > scale.noise_m && acrossOf(pair, found).exact));
   if (directed) {
     answer = answerFrom(pair, found);
     makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
     return;
   }
-  const MinimumTranslation m = axes ? *axes : minimumTranslation(pair, scale.noise_m, polytope);
+  const MinimumTranslation m = end.axes ? *end.axes : minimumTranslation(pair, scale.noise_m, polytope);
   answer = answerFrom(m);
   if (m.gap_m < -scale.noise_m) return makeDepthCanonical(pair, scale, polytope, false, answer);
-  if (inside) {  // they touch, to rounding
+  if (end.inside) {  // they touch, to rounding
     answer.p_a = walk.commonPoint();
     answer.p_b = walk.commonPoint() + m.gap_m * m.normal;
     makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
@@ -186,30 +197,30 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     restarted = true;
     walk.restart(axes->features);
   }
-  settle(pair, walk, move == Move::kInside, axes, scale, polytope, answer);
+  settle(pair, {walk, move == Move::kInside, axes}, scale, polytope, answer);
   // The support planes leave no room for a shorter way, or a longer search has to find it.
   visits.reached_limit =
       std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kRoom * scale.size_m;
   if (!visits.reached_limit) return answer;
   walk.startFrom(exhaustiveSearch(pair));
-  settle(pair, walk, walk.here().crossing, std::nullopt, scale, polytope, answer);
+  settle(pair, {walk, walk.here().crossing, std::nullopt}, scale, polytope, answer);
   return answer;
 }
 
 // Whether what was closest last time, or what it leads on to, clearly is; places are seen from A's origin.
-PairsInPlace findInPlace(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
-                         double noise_m, PairMemory& memory, PlacedGap& gap) {
-  const PlacedPolyhedron placed_a(a.core, X_WA.rotation, Vec3::Zero());
-  const PlacedPolyhedron placed_b(b.core, X_WB.rotation, X_WB.position - X_WA.position);
-  return findClearlyClosest(placed_a, placed_b, noise_m, memory.features, gap);
+PairsInPlace findInPlace(const PosedParts& parts, double noise_m, FeaturePair& features, PlacedGap& gap) {
+  const PlacedPolyhedron placed_a(parts.a.core, parts.X_WA.rotation, Vec3::Zero());
+  const PlacedPolyhedron placed_b(parts.b.core, parts.X_WB.rotation,
+                                  parts.X_WB.position - parts.X_WA.position);
+  return findClearlyClosest(placed_a, placed_b, noise_m, features, gap);
 }
 
 // The answer of a query whose cores have this gap, seen from A's origin.
-ClosestFeatures answerOf(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const PlacedGap& gap,
-                         const Scale& scale, FeaturePair features, const Visits& visits) {
-  const double distance_m = gap.length_m - a.radius_m - b.radius_m;
+ClosestFeatures answerOf(const PosedParts& parts, const PlacedGap& gap, const Scale& scale,
+                         FeaturePair features, const Visits& visits) {
+  const double distance_m = gap.length_m - parts.a.radius_m - parts.b.radius_m;
   const double touching = kTouching * scale.size_m;
-  const Vec3 p_A_W = gap.p_a + a.radius_m * gap.normal + X_WA.position;
+  const Vec3 p_A_W = gap.p_a + parts.a.radius_m * gap.normal + parts.X_WA.position;
   return {.status = distance_m > touching     ? Separation::kSeparated
                     : distance_m >= -touching ? Separation::kTouching
                                               : Separation::kPenetrating,
@@ -229,44 +240,70 @@ PlacedGap keepFeatures(const CoreAnswer& core, const Pose& X_WA, PairMemory& mem
   return {core.gap_m, R_WA * core.normal, R_WA * core.p_a};
 }
 
-ClosestFeatures query(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
-                      PairMemory& memory) {
-  const Scale scale(a.core, X_WA, b.core, X_WB);
-  PlacedGap gap;
+// What is not clear in place: from the features that led there on.
+ClosestFeatures search(const PosedParts& parts, const Scale& scale, int visited, PairMemory& memory) {
   Visits visits;
+  const PolyhedronPair pair(parts.a.core, parts.X_WA, parts.b.core, parts.X_WB);
+  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
+  visits.states += visited;
+  return answerOf(parts, keepFeatures(core, parts.X_WA, memory), scale, core.features, visits);
+}
+
+ClosestFeatures query(const PosedParts& parts, PairMemory& memory) {
+  const Scale scale(parts);
+  PlacedGap gap;
   if (memory.penetration.triangleCount() > 0) {
-    const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
+    const PolyhedronPair pair(parts.a.core, parts.X_WA, parts.b.core, parts.X_WB);
     CoreAnswer core;
     if (followDepth(pair, scale, memory, core))
-      return answerOf(a, X_WA, b, keepFeatures(core, X_WA, memory), scale, core.features, visits);
+      return answerOf(parts, keepFeatures(core, parts.X_WA, memory), scale, core.features, {});
   }
-  const PairsInPlace in_place = findInPlace(a, X_WA, b, X_WB, scale.shift_m, memory, gap);
-  if (in_place.found) return answerOf(a, X_WA, b, gap, scale, memory.features, {in_place.visited, false});
-  const PolyhedronPair pair(a.core, X_WA, b.core, X_WB);
-  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
-  visits.states += in_place.visited;
-  return answerOf(a, X_WA, b, keepFeatures(core, X_WA, memory), scale, core.features, visits);
+  const PairsInPlace in_place = findInPlace(parts, scale.shift_m, memory.features, gap);
+  if (in_place.found) return answerOf(parts, gap, scale, memory.features, {in_place.visited, false});
+  return search(parts, scale, in_place.visited, memory);
+}
+
+// Debug builds hold every answer against its proof.
+void holdAgainstItsProof([[maybe_unused]] const ClosestFeatures& answer,
+                         [[maybe_unused]] const PosedParts& parts,
+                         [[maybe_unused]] const PairMemory* memory) {
+#ifndef NDEBUG
+  const Certificate proof = certify(answer, parts.a, parts.X_WA, parts.b, parts.X_WB, memory);
+  REQUIRE(proof.error_m <= certifiedError(parts.a, parts.X_WA, parts.b, parts.X_WB), proof.error_m,
+          answer.distance_m);
+#endif
+}
+
+// The rest of a query by features alone: what it may need to prove a depth is its own.
+ClosestFeatures searchByFeatures(const PosedParts& parts, const Scale& scale, int visited,
+                                 FeaturePair& tracked) {
+  StackArena<kPolytopeBytes> arena;
+  PairMemory memory{tracked, InnerPolytope(arena.resource())};
+  const ClosestFeatures result = search(parts, scale, visited, memory);
+  holdAgainstItsProof(result, parts, &memory);
+  tracked = memory.features;
+  return result;
 }
 
 }  // namespace
 
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 PairMemory& memory) {
-  const ClosestFeatures result = query(a, X_WA, b, X_WB, memory);
-#ifndef NDEBUG
-  const Certificate certificate = certify(result, a, X_WA, b, X_WB, &memory);
-  REQUIRE(certificate.error_m <= certifiedError(a, X_WA, b, X_WB), certificate.error_m, result.distance_m);
-#endif
+  const PosedParts parts{a, X_WA, b, X_WB};
+  const ClosestFeatures result = query(parts, memory);
+  holdAgainstItsProof(result, parts, &memory);
   return result;
 }
 
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 FeaturePair& tracked) {
-  thread_local PairMemory memory;  // only its room is kept
-  memory.features = tracked;
-  memory.penetration.forget();
-  const ClosestFeatures result = closestFeatures(a, X_WA, b, X_WB, memory);
-  tracked = memory.features;
+  const PosedParts parts{a, X_WA, b, X_WB};
+  const Scale scale(parts);
+  PlacedGap gap;
+  const PairsInPlace in_place = findInPlace(parts, scale.shift_m, tracked, gap);
+  if (!in_place.found) return searchByFeatures(parts, scale, in_place.visited, tracked);
+  const ClosestFeatures result = answerOf(parts, gap, scale, tracked, {in_place.visited, false});
+  holdAgainstItsProof(result, parts, nullptr);
   return result;
 }
 

@@ -33,12 +33,21 @@ struct PairMemory {
   InnerPolytope penetration;
 };
 
+/// Two parts where they are.
+struct PosedParts {
+  const ConvexPart& a;
+  const Pose& X_WA;
+  const ConvexPart& b;
+  const Pose& X_WB;
+};
+
 /// The closest features of two parts. The work is done from `memory` on, and left there for the next query
 /// of the same pair; what is found does not depend on it. Allocates nothing once the pair's memory has grown.
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 PairMemory& memory);
 
-/// The same for pairs that stay apart: a penetrating one pays for its depth anew.
+/// The same for pairs that stay apart: a penetrating one pays for its depth anew. Allocates nothing but for
+/// the depth of solids of hundreds of vertices.
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 FeaturePair& tracked);
 

@@ -5,12 +5,15 @@
 #include "engine/contact/contact_id.h"
 #include "engine/contact/contact_polygon.h"
 #include "engine/contact/manifold_reduction.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
 
 constexpr double kSameCosine = 1e-9;  // normals this close are one direction
 constexpr double kSameGap = 1e-3;     // of the window's floor: gaps this close are one gap
+// Room for a polygon of some hundred corners.
+constexpr std::size_t kPolygonBytes = std::size_t{16} << 10;
 
 void append(ContactManifold& manifold, const ManifoldPoint& point) {
   manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
@@ -28,13 +31,13 @@ KeptCorners formerCorners(const ContactPolygon& polygon, FormerPoints former) {
 
 }  // namespace
 
-ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                                const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
-                                FormerPoints former) {
-  static thread_local ContactPolygon polygon;
-  contactPolygon(closest, a, X_WA, b, X_WB, window, polygon);
+ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts& parts,
+                                const CollisionWindow& window, FormerPoints former) {
+  StackArena<kPolygonBytes> arena;
+  ContactPolygon polygon{Vec3::UnitZ(), std::pmr::vector<PolygonCorner>(arena.resource())};
+  contactPolygon(closest, parts, window, polygon);
   const KeptCorners kept =
-      reducePolygon(polygon, sameCorner_m(X_WA, X_WB, window),
+      reducePolygon(polygon, sameCorner_m(parts.X_WA, parts.X_WB, window),
                     {formerCorners(polygon, former), tolerance::kRestBand * window.rest});
   ContactManifold manifold;
   double least = window.manifold;
@@ -46,7 +49,7 @@ ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart
   }
   // A polygon turned away from the contact's normal, or that lost the closest point beyond its rim, does not
   // hold that point's motion; the point itself does.
-  const ContactPoint single = contactPoint(closest, a, X_WA, b, X_WB);
+  const ContactPoint single = contactPoint(closest, parts.a, parts.X_WA, parts.b, parts.X_WB);
   const bool holds_closest = manifold.count > 0 && polygon.n_W.dot(single.n_W) > 1.0 - kSameCosine &&
                              least <= closest.distance_m + kSameGap * window.floor;
   if (!holds_closest)

@@ -6,6 +6,7 @@
 
 #include "engine/contact/contact_id.h"
 #include "engine/contact/polygon_clip.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
@@ -17,6 +18,9 @@ constexpr double kSameSine = 1e-6;    // the same for the sines of edges
 constexpr double kSameArea = 1e-9;    // relative: faces this close in area are equally large
 constexpr double kSameCorner = 1e-5;  // of the window's floor
 constexpr double kPoseRounding = 16.0 * std::numeric_limits<double>::epsilon();  // relative to the positions
+
+// Room for the corners of a clipped face: those of two faces of some hundred sides, twice.
+constexpr std::size_t kClipBytes = std::size_t{32} << 10;
 
 // The frame of one contact: its origin near the contact, so that far from the world's origin no more is lost
 // than the poses have lost; its third axis the polygon's normal.
@@ -189,7 +193,7 @@ void loadSubject(const Placed& subject, const Lying& lying, ClipPolygon& polygon
 
 // B's face looks against the normal: its loop is clockwise here. Turned round, each corner's way on is the
 // way that led to it.
-void turnRound(std::vector<ClipCorner>& corners) {
+void turnRound(std::pmr::vector<ClipCorner>& corners) {
   std::reverse(corners.begin(), corners.end());
   const int first = corners.front().subject_edge;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) corners[i].subject_edge = corners[i + 1].subject_edge;
@@ -225,42 +229,58 @@ void clipBySides(const Placed& clip, int f, bool seen_from_outside, Feature subj
   }
 }
 
+// Two parts seen from their contact, what of them counts as one point there, and up to which distance k they
+// are in contact.
+struct PlacedPair {
+  PlacedPair(const PosedParts& parts, const ContactFrame& frame, const CollisionWindow& window)
+      : C(frame),
+        a(parts.a, parts.X_WA, frame),
+        b(parts.b, parts.X_WB, frame),
+        k_m(window.manifold),
+        same_m(sameCorner_m(parts.X_WA, parts.X_WB, window)) {}
+
+  const ContactFrame& C;
+  Placed a, b;
+  double k_m, same_m;
+
+  double radii() const { return a.radius_m + b.radius_m; }
+  Vec3 inWorld(const Vec3& p_C) const { return C.origin_W + C.R_CW.transpose() * p_C; }
+};
+
 // From the clipped subject to corners in the world, halfway between the two parts' surfaces.
-void writeCorners(const ClipPolygon& clipped, const Lying& lying, const PlaneHeight& clip_height, double r_a,
-                  double r_b, const ContactFrame& C, ContactPolygon& polygon) {
+void writeCorners(const PlacedPair& pair, const ClipPolygon& clipped, const Lying& lying,
+                  const PlaneHeight& clip_height, ContactPolygon& polygon) {
+  polygon.corners.reserve(clipped.corners.size());
   for (const ClipCorner& c : clipped.corners) {
     const double on_clip = clip_height(c.p);
-    const double top_of_a = (lying.subject_is_b ? on_clip : c.height_m) + r_a;
-    const double bottom_of_b = (lying.subject_is_b ? c.height_m : on_clip) - r_b;
+    const double top_of_a = (lying.subject_is_b ? on_clip : c.height_m) + pair.a.radius_m;
+    const double bottom_of_b = (lying.subject_is_b ? c.height_m : on_clip) - pair.b.radius_m;
     const Vec3 p_C(c.p.x(), c.p.y(), 0.5 * (top_of_a + bottom_of_b));
     polygon.corners.push_back(
-        {C.origin_W + C.R_CW.transpose() * p_C, bottom_of_b - top_of_a,
+        {pair.inWorld(p_C), bottom_of_b - top_of_a,
          lying.subject_is_b ? FeaturePair{c.on_clip, c.on_subject} : FeaturePair{c.on_subject, c.on_clip}});
   }
 }
 
-void clippedPolygon(const Lying& lying, const Placed& a, const Placed& b, const ContactFrame& C, double k,
-                    double same_m, ContactPolygon& polygon) {
-  static thread_local ClipPolygon clipped;
-  const Placed& subject = lying.subject_is_b ? b : a;
-  const Placed& clip = lying.subject_is_b ? a : b;
+void clippedPolygon(const PlacedPair& pair, const Lying& lying, ContactPolygon& polygon) {
+  const Placed& subject = lying.subject_is_b ? pair.b : pair.a;
+  const Placed& clip = lying.subject_is_b ? pair.a : pair.b;
   const Feature subject_face = faceFeature(lying.subject_face);
   const std::size_t most = cornersOfSubject(subject.core, lying) +
                            clip.core.faceEdges(lying.clip_face).size() + 2;  // a cut adds one corner at most
-  clipped.corners.reserve(most);
-  clipped.scratch.reserve(most);
+  StackArena<kClipBytes> arena;
+  ClipPolygon clipped(most, arena.resource());
   loadSubject(subject, lying, clipped);
   if (lying.subject_face >= 0 && lying.subject_is_b) turnRound(clipped.corners);
-  clipBySides(clip, lying.clip_face, lying.subject_is_b, subject_face, same_m, clipped);
+  clipBySides(clip, lying.clip_face, lying.subject_is_b, subject_face, pair.same_m, clipped);
   if (clipped.corners.empty()) return;
   const PlaneHeight clip_height = heightOf(clip, lying.clip_face);
-  const double radii = a.radius_m + b.radius_m;
   for (ClipCorner& c : clipped.corners) {
     const double apart = lying.subject_is_b ? c.height_m - clip_height(c.p) : clip_height(c.p) - c.height_m;
-    c.inside_m = k - (apart - radii);
+    c.inside_m = pair.k_m - (apart - pair.radii());
   }
-  clipByHeight(clipped, subject_face, faceFeature(lying.clip_face), same_m);
-  writeCorners(clipped, lying, clip_height, a.radius_m, b.radius_m, C, polygon);
+  clipByHeight(clipped, subject_face, faceFeature(lying.clip_face), pair.same_m);
+  writeCorners(pair, clipped, lying, clip_height, polygon);
 }
 
 // An edge as a line over the stations along the common direction: its low and high end.
@@ -287,11 +307,19 @@ struct StretchEnd {
   FeaturePair features;
 };
 
-StretchEnd endOf(double t_a, int v_a, int e_a, double t_b, int v_b, int e_b, double inwards, double same_m) {
-  const double a_beyond = inwards * (t_a - t_b);
-  if (std::abs(a_beyond) <= same_m) return {0.5 * (t_a + t_b), {vertexFeature(v_a), vertexFeature(v_b)}};
-  if (a_beyond > 0.0) return {t_a, {vertexFeature(v_a), edgeFeature(e_b)}};
-  return {t_b, {edgeFeature(e_a), vertexFeature(v_b)}};
+// An end of an edge, at its station along the common direction.
+struct EdgeEnd {
+  double t_m;
+  int vertex, edge;
+};
+
+// `inwards`: the way along that direction from this end into the stretch, 1 or -1.
+StretchEnd endOf(const EdgeEnd& a, const EdgeEnd& b, double inwards, double same_m) {
+  const double a_beyond = inwards * (a.t_m - b.t_m);
+  if (std::abs(a_beyond) <= same_m)
+    return {0.5 * (a.t_m + b.t_m), {vertexFeature(a.vertex), vertexFeature(b.vertex)}};
+  if (a_beyond > 0.0) return {a.t_m, {vertexFeature(a.vertex), edgeFeature(b.edge)}};
+  return {b.t_m, {edgeFeature(a.edge), vertexFeature(b.vertex)}};
 }
 
 // Shortens the stretch to where the two lines are no farther apart than `reach_m`; false if nothing, or only
@@ -316,8 +344,8 @@ bool withinReach(const Line& a, const Line& b, const FeaturePair& edges, double 
 
 // Two edges that run alongside each other without a face to lie on (capsules, roof ridges): the ends of the
 // stretch they share, as far as they are within the distance k of each other.
-void sharedStretch(const Placed& a, int e_a, const Placed& b, int e_b, const ContactFrame& C, double k,
-                   double same_m, ContactPolygon& polygon) {
+void sharedStretch(const PlacedPair& pair, int e_a, int e_b, ContactPolygon& polygon) {
+  const Placed &a = pair.a, &b = pair.b;
   const Vec3 d_a = a.R_CP * a.core.edge(e_a).direction;
   const Vec3 d_b = b.R_CP * b.core.edge(e_b).direction;
   if (d_a.cross(d_b).norm() > kLyingSine) return;
@@ -325,22 +353,21 @@ void sharedStretch(const Placed& a, int e_a, const Placed& b, int e_b, const Con
   const Line line_a = lineOf(a, e_a, along);
   const Line line_b = lineOf(b, e_b, along);
   StretchEnd low =
-      endOf(line_a.low_m, line_a.low_vertex, e_a, line_b.low_m, line_b.low_vertex, e_b, 1.0, same_m);
-  StretchEnd high =
-      endOf(line_a.high_m, line_a.high_vertex, e_a, line_b.high_m, line_b.high_vertex, e_b, -1.0, same_m);
-  if (!(high.t_m - low.t_m > same_m)) return;
-  const double radii = a.radius_m + b.radius_m;
-  if (!withinReach(line_a, line_b, {edgeFeature(e_a), edgeFeature(e_b)}, k + radii, low, high)) return;
+      endOf({line_a.low_m, line_a.low_vertex, e_a}, {line_b.low_m, line_b.low_vertex, e_b}, 1.0, pair.same_m);
+  StretchEnd high = endOf({line_a.high_m, line_a.high_vertex, e_a}, {line_b.high_m, line_b.high_vertex, e_b},
+                          -1.0, pair.same_m);
+  if (!(high.t_m - low.t_m > pair.same_m)) return;
+  const FeaturePair edges{edgeFeature(e_a), edgeFeature(e_b)};
+  if (!withinReach(line_a, line_b, edges, pair.k_m + pair.radii(), low, high)) return;
   for (const StretchEnd& end : {low, high}) {
     const Vec3 p_a = line_a.at(end.t_m) + a.radius_m * Vec3::UnitZ();
     const Vec3 p_b = line_b.at(end.t_m) - b.radius_m * Vec3::UnitZ();
-    polygon.corners.push_back(
-        {C.origin_W + C.R_CW.transpose() * (0.5 * (p_a + p_b)), p_b.z() - p_a.z(), end.features});
+    polygon.corners.push_back({pair.inWorld(0.5 * (p_a + p_b)), p_b.z() - p_a.z(), end.features});
   }
 }
 
 // The polygon begins with the corner whose name is lowest.
-void beginWithLowestName(std::vector<PolygonCorner>& corners) {
+void beginWithLowestName(std::pmr::vector<PolygonCorner>& corners) {
   const auto lowest =
       std::min_element(corners.begin(), corners.end(), [](const PolygonCorner& x, const PolygonCorner& y) {
         return symmetricKey(x.features) < symmetricKey(y.features);
@@ -355,26 +382,24 @@ double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& w
          kPoseRounding * (X_WA.position.lpNorm<Eigen::Infinity>() + X_WB.position.lpNorm<Eigen::Infinity>());
 }
 
-void contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                    const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
+void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
                     ContactPolygon& polygon) {
-  const ContactPoint single = contactPoint(closest, a, X_WA, b, X_WB);
-  const PartAtPose at_a{a, X_WA, closest.features.a};
-  const PartAtPose at_b{b, X_WB, closest.features.b};
+  const ContactPoint single = contactPoint(closest, parts.a, parts.X_WA, parts.b, parts.X_WB);
+  const PartAtPose at_a{parts.a, parts.X_WA, closest.features.a};
+  const PartAtPose at_b{parts.b, parts.X_WB, closest.features.b};
   polygon.corners.clear();
   polygon.n_W = single.n_W;
-  const double same_m = sameCorner_m(X_WA, X_WB, window);
   const Lying lying = whatLies(at_a, at_b, single.n_W);
   if (lying.any()) {
     polygon.n_W = lying.n_W;
     const ContactFrame C(single.p_W, polygon.n_W);
-    clippedPolygon(lying, {a, X_WA, C}, {b, X_WB, C}, C, window.manifold, same_m, polygon);
-  } else if (lying.clip_face < 0 && a.core.edgeCount() > 0 && b.core.edgeCount() > 0) {
+    clippedPolygon({parts, C, window}, lying, polygon);
+  } else if (lying.clip_face < 0 && parts.a.core.edgeCount() > 0 && parts.b.core.edgeCount() > 0) {
     const int e_a = at_a.edgeAcrossTo(single.n_W);
     const int e_b = at_b.edgeAcrossTo(single.n_W);
     if (e_a < 0 || e_b < 0) return;
     const ContactFrame C(single.p_W, polygon.n_W);
-    sharedStretch({a, X_WA, C}, e_a, {b, X_WB, C}, e_b, C, window.manifold, same_m, polygon);
+    sharedStretch({parts, C, window}, e_a, e_b, polygon);
   }
   if (!polygon.corners.empty()) beginWithLowestName(polygon.corners);
 }
@@ -382,7 +407,7 @@ void contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const P
 ContactPolygon contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
                               const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window) {
   ContactPolygon polygon;
-  contactPolygon(closest, a, X_WA, b, X_WB, window, polygon);
+  contactPolygon(closest, {a, X_WA, b, X_WB}, window, polygon);
   return polygon;
 }
 

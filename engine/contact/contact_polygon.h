@@ -6,6 +6,7 @@
 // two are, or on motion well below the tolerance `sameCorner_m`. Tested in
 // tests/engine/contact/contact_polygon_test.cpp.
 
+#include <memory_resource>
 #include <vector>
 
 #include "engine/contact/collision_window.h"
@@ -26,19 +27,17 @@ struct ContactPolygon {
   Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
   /// Counter-clockwise seen from the tip of `n_W`. Two corners are a stretch, one is a point; none: nothing
   /// of the two parts lies flat, and the closest points are all the contact there is.
-  std::vector<PolygonCorner> corners;
+  std::pmr::vector<PolygonCorner> corners;
 };
 
 /// Corners closer than this are one corner, metres: far below every gap of the window, above the rounding of
 /// the poses.
 double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& window);
 
-/// The complete polygon of two parts whose closest features are known, written to `polygon`, which allocates
-/// nothing once it has held as many corners. The normal is the reference face's: of the faces at the closest
-/// features the one clearly more parallel to the contact; else the larger; else, for equals, the mean of
-/// both. Proportional to corners times sides.
-void contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                    const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
+/// The complete polygon of two parts whose closest features are known, written to `polygon`. The normal is
+/// the reference face's: of the faces at the closest features the one clearly more parallel to the contact;
+/// else the larger; else, for equals, the mean of both. Proportional to corners times sides.
+void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
                     ContactPolygon& polygon);
 ContactPolygon contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
                               const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window);

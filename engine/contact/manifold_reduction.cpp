@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "engine/contact/contact_id.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
+
+// Room for a polygon of some hundred corners and what thinning needs.
+constexpr std::size_t kReductionBytes = std::size_t{32} << 10;
 
 constexpr int kExactCorners = 24;    // up to here no thinning
 constexpr double kSameScore = 1e-7;  // relative: equal lengths, heights and areas, chosen between by name
@@ -28,6 +32,8 @@ struct FlatCorner {
   int index = -1;
   bool deepest = false;
 };
+
+using FlatCorners = std::pmr::vector<FlatCorner>;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -157,7 +163,7 @@ Four largestFour(std::span<const FlatCorner> corners) {
 // Moves the corners to the unit frame: from p along q, p and q as far apart as the search from p finds, so
 // that every corner is within 1 of p along the first axis; the polygon's height across is 1 too. Areas keep
 // their ratios. False if the corners lie in a line.
-bool toUnitFrame(std::vector<FlatCorner>& corners, const FlatCorner& p, const FlatCorner& q) {
+bool toUnitFrame(FlatCorners& corners, const FlatCorner& p, const FlatCorner& q) {
   const double length = (q.p - p.p).norm();
   if (!(length > 0.0)) return false;
   const Vec2 axis = (q.p - p.p) / length;
@@ -174,13 +180,13 @@ bool toUnitFrame(std::vector<FlatCorner>& corners, const FlatCorner& p, const Fl
 }
 
 // The thinning of one chain, ends included in `stands` already: what stands out farthest from the chord
-// stays, and so on in both halves.
+// stays, and so on in both halves. `open`: the memory of its stack.
+using Halves = std::pmr::vector<std::pair<std::size_t, std::size_t>>;
 void thinChain(std::span<const FlatCorner> corners, std::size_t begin, std::size_t end,
-               std::vector<char>& stands) {
+               std::pmr::vector<char>& stands, Halves& open) {
   const auto at = [&](std::size_t i) -> const FlatCorner& {
     return corners[i < corners.size() ? i : i - corners.size()];
   };
-  static thread_local std::vector<std::pair<std::size_t, std::size_t>> open;
   open.assign(1, {begin, end});
   while (!open.empty()) {
     const auto [from, to] = open.back();
@@ -208,22 +214,22 @@ void thinChain(std::span<const FlatCorner> corners, std::size_t begin, std::size
 
 // Leaves only the corners that stand out; the ends of the deepest stretch stay, so that thinning of that
 // stretch is by corners of its own.
-void thin(std::vector<FlatCorner>& corners, const FlatCorner& p, const FlatCorner& q) {
-  static thread_local std::vector<char> stands;
-  static thread_local std::vector<std::size_t> fixed;
+void thin(FlatCorners& corners, const FlatCorner& p, const FlatCorner& q) {
   const std::size_t n = corners.size();
-  stands.assign(n, 0);
+  std::pmr::memory_resource* memory = corners.get_allocator().resource();
+  std::pmr::vector<char> stands(n, 0, memory);
+  std::pmr::vector<std::size_t> fixed(memory);
+  Halves open(memory);
   stands[static_cast<std::size_t>(p.index)] = stands[static_cast<std::size_t>(q.index)] = 1;
   for (std::size_t i = 0; i < n; ++i)
     if (corners[i].deepest && !(corners[(i + 1) % n].deepest && corners[(i + n - 1) % n].deepest))
       stands[i] = 1;
   // The chains between the fixed corners, once round from p.
   std::size_t from = static_cast<std::size_t>(p.index);
-  fixed.clear();
   for (std::size_t i = from + 1; i <= static_cast<std::size_t>(p.index) + n; ++i)
     if (stands[i % n] != 0) fixed.push_back(i);
   for (const std::size_t to : fixed) {
-    thinChain(corners, from, to, stands);
+    thinChain(corners, from, to, stands, open);
     from = to;
   }
   std::size_t kept = 0;
@@ -232,12 +238,12 @@ void thin(std::vector<FlatCorner>& corners, const FlatCorner& p, const FlatCorne
   corners.resize(kept);
 }
 
-void flatten(const ContactPolygon& polygon, double same_gap_m, std::vector<FlatCorner>& corners) {
+void flatten(const ContactPolygon& polygon, double same_gap_m, FlatCorners& corners) {
   const TangentBasis t = tangentBasis(polygon.n_W);
   const Vec3& base = polygon.corners[0].p_W;
   double least = polygon.corners[0].gap_m;
   for (const PolygonCorner& c : polygon.corners) least = std::min(least, c.gap_m);
-  corners.clear();
+  corners.reserve(polygon.corners.size());
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     const PolygonCorner& c = polygon.corners[i];
     const Vec3 r = c.p_W - base;
@@ -285,7 +291,8 @@ KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m, cons
     for (int i = 0; i < n; ++i) kept.index[static_cast<std::size_t>(kept.count++)] = i;
     return kept;
   }
-  static thread_local std::vector<FlatCorner> corners;
+  StackArena<kReductionBytes> arena;
+  FlatCorners corners(arena.resource());
   flatten(polygon, same_gap_m, corners);
   const FlatCorner deepest =
       *std::min_element(corners.begin(), corners.end(), [](const FlatCorner& x, const FlatCorner& y) {

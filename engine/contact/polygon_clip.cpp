@@ -1,6 +1,7 @@
 #include "engine/contact/polygon_clip.h"
 
 #include <algorithm>
+#include <span>
 
 namespace carom {
 namespace {
@@ -38,7 +39,7 @@ struct Touched {
   std::size_t end = 0;
 };
 
-Touched touchedBy(const std::vector<ClipCorner>& corners, double same_m) {
+Touched touchedBy(std::span<const ClipCorner> corners, double same_m) {
   const std::size_t n = corners.size();
   const auto inside = [&](std::size_t i) { return corners[i < n ? i : 0].inside_m > same_m; };
   Touched touched{0, n};
@@ -49,7 +50,8 @@ Touched touchedBy(const std::vector<ClipCorner>& corners, double same_m) {
 }
 
 // Puts `fresh` in the place of the touched corners; the others stay where they are.
-void splice(std::vector<ClipCorner>& corners, const Touched& touched, std::vector<ClipCorner>& fresh) {
+void splice(std::pmr::vector<ClipCorner>& corners, const Touched& touched,
+            std::pmr::vector<ClipCorner>& fresh) {
   if (touched.begin == 0 && touched.end == corners.size()) return std::swap(corners, fresh);
   const auto at = [&](std::size_t i) { return corners.begin() + static_cast<std::ptrdiff_t>(i); };
   const std::size_t common = std::min(fresh.size(), touched.end - touched.begin);
@@ -61,12 +63,19 @@ void splice(std::vector<ClipCorner>& corners, const Touched& touched, std::vecto
   }
 }
 
+// What is left of a polygon may be a segment: both ways along it are one then.
+void joinWays(std::span<ClipCorner> corners) {
+  if (corners.size() != 2) return;
+  corners[0].subject_edge = std::max(corners[0].subject_edge, corners[1].subject_edge);
+  corners[0].clip_edge = std::max(corners[0].clip_edge, corners[1].clip_edge);
+}
+
 // The cut itself. `name` gives a new corner its features from the stretch that it lies on; `rename` adds the
 // cut to the features of a corner that lies on it; `cut_edge` is the clipping edge that the cut runs along.
 template <typename Name, typename Rename>
 void cut(ClipPolygon& polygon, int cut_edge, double same_m, Name&& name, Rename&& rename) {
-  std::vector<ClipCorner>& corners = polygon.corners;
-  std::vector<ClipCorner>& fresh = polygon.scratch;
+  std::pmr::vector<ClipCorner>& corners = polygon.corners;
+  std::pmr::vector<ClipCorner>& fresh = polygon.scratch;
   fresh.clear();
   const std::size_t n = corners.size();
   const auto alongTheCut = [&](ClipCorner& corner) {
@@ -94,10 +103,7 @@ void cut(ClipPolygon& polygon, int cut_edge, double same_m, Name&& name, Rename&
     if (leaves && n > 2) alongTheCut(fresh.back());
   }
   splice(corners, touched, fresh);
-  if (n > 2 && corners.size() == 2) {  // what was a polygon is a segment: both ways along it are one
-    corners[0].subject_edge = std::max(corners[0].subject_edge, corners[1].subject_edge);
-    corners[0].clip_edge = std::max(corners[0].clip_edge, corners[1].clip_edge);
-  }
+  if (n > 2) joinWays(corners);
 }
 
 }  // namespace

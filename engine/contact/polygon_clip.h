@@ -5,6 +5,7 @@
 // meet within `same_m` of it, so that a corner exactly on a side has one name however rounding falls.
 // Tested in tests/engine/contact/contact_polygon_test.cpp.
 
+#include <memory_resource>
 #include <vector>
 
 #include "engine/closest_features/pair/feature.h"
@@ -22,10 +23,16 @@ struct ClipCorner {
   double inside_m = 0.0;  ///< Scratch of one cut: how far inside it the corner is.
 };
 
-/// Corners in order; two are a segment, one is a point. Reused from query to query it allocates no more.
+/// Corners in order; two are a segment, one is a point.
 struct ClipPolygon {
-  std::vector<ClipCorner> corners;
-  std::vector<ClipCorner> scratch;
+  /// With memory for as many corners.
+  ClipPolygon(std::size_t most, std::pmr::memory_resource* memory) : corners(memory), scratch(memory) {
+    corners.reserve(most);
+    scratch.reserve(most);
+  }
+
+  std::pmr::vector<ClipCorner> corners;
+  std::pmr::vector<ClipCorner> scratch;
 };
 
 /// The inner side of a line: `into` is unit, inside where into . p > offset_m.

@@ -139,18 +139,7 @@ class Look {
         continue;
       }
       ++newton_steps;
-      double proposal = kLinearShrink * chord.interval;
-      if (speed < 0.0) {
-        if (chord.end_gap < aim)
-          proposal =
-              std::min(proposal, chord.interval * (gap - aim) / (gap - chord.end_gap));  // down the chord
-        proposal = std::min(proposal, std::max((aim - gap) / speed, 0.5 * proposal));    // Newton
-      } else {
-        proposal *= 0.5;
-        if (chord.end_gap < aim)
-          proposal = std::min(proposal, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
-      }
-      chord = better(chordAlong(chord.direction, begin, gap, proposal, floor));
+      chord = better(chordAlong(chord.direction, begin, gap, shorterThan(chord, gap, speed, aim), floor));
     }
     return sure;
   }
@@ -172,6 +161,21 @@ class Look {
     double end_gap = 0.0;
     double lower_bound = -std::numeric_limits<double>::infinity();
   };
+
+  // What to try after a chord that proves too little, from a gap that changes at `speed`: where Newton's step
+  // and the chord itself come down to `aim`.
+  static double shorterThan(const Chord& chord, double gap, double speed, double aim) {
+    const bool passes_aim = chord.end_gap < aim;
+    const double shrunk = kLinearShrink * chord.interval;
+    if (speed < 0.0) {
+      const double down_the_chord =
+          passes_aim ? std::min(shrunk, chord.interval * (gap - aim) / (gap - chord.end_gap)) : shrunk;
+      return std::min(down_the_chord, std::max((aim - gap) / speed, 0.5 * down_the_chord));
+    }
+    const double half = 0.5 * shrunk;
+    if (!passes_aim) return half;
+    return std::min(half, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
+  }
 
   // So long a gap cannot lose `room` m whatever the parts do: it closes at most at this speed and
   // acceleration.

@@ -83,16 +83,22 @@ double implicitShare(const Mat6& linear, const Mat6& mass, double dt_s) {
   return stiffness > 2.0 ? 1.0 - 1.0 / stiffness : 0.5;
 }
 
-void kick(const Environment& environment, const EnvironmentBody& body, const ContactLoad& contacts,
-          double t_s, double dt_s, ForceScratch& scratch, State& state) {
-  const Inertia& inertia = *body.inertia;
+// Who pushes whom.
+struct Pushed {
+  const Environment& environment;
+  const EnvironmentBody& body;
+  const ContactLoad& contacts;
+};
+
+void kick(const Pushed& pushed, double t_s, double dt_s, ForceScratch& scratch, State& state) {
+  const Inertia& inertia = *pushed.body.inertia;
   const Quat& R_WB = state.X_WB.rotation;
   Vec6 v;
   v.head<3>() = R_WB.conjugate() * state.velocity;
   v.tail<3>() = inertia.inverse_tensor_B * (R_WB.conjugate() * state.angular_momentum);
-  BodyForces forces = bodyForces(environment, body, state.X_WB, v, t_s, scratch);
-  forces.load.head<3>() += R_WB.conjugate() * contacts.force_N;
-  forces.load.tail<3>() += R_WB.conjugate() * contacts.torque_Nm;
+  BodyForces forces = bodyForces(pushed.environment, pushed.body, state.X_WB, v, t_s, scratch);
+  forces.load.head<3>() += R_WB.conjugate() * pushed.contacts.force_N;
+  forces.load.tail<3>() += R_WB.conjugate() * pushed.contacts.torque_Nm;
   Vec6 momentum;  // gained
   if (forces.quadratic.isZero(0.0) && forces.linear.isZero(0.0) && forces.added_mass.isZero(0.0)) {
     momentum = dt_s * forces.load;
@@ -132,7 +138,7 @@ EnvironmentFlight flyThroughEnvironment(const Environment& environment, const En
   const double k = dt_s / strokes;
   drift(inertia, 0.5 * k, state);
   for (int i = 0; i < strokes; ++i) {
-    kick(environment, body, contacts, t_s + (i + 0.5) * k, k, scratch, state);
+    kick({environment, body, contacts}, t_s + (i + 0.5) * k, k, scratch, state);
     drift(inertia, i + 1 < strokes ? k : 0.5 * k, state);
   }
   return {state.X_WB, state.velocity, state.angular_momentum,

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <istream>
 #include <optional>
+#include <span>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
@@ -131,12 +132,12 @@ bool writeRows(png_structp png, png_infop info, const Rows& rows, png_textp text
 constexpr std::size_t kChunkBytes = 1u << 20;
 
 bool writePacked(png_structp png, png_infop info, const Rows& rows, png_textp text, int text_count,
-                 const std::uint8_t* packed, std::size_t size) {
+                 std::span<const std::uint8_t> packed) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   constexpr std::array<png_byte, 5> kData = {'I', 'D', 'A', 'T', 0}, kEnd = {'I', 'E', 'N', 'D', 0};
   writeHead(png, info, rows, text, text_count);
-  for (std::size_t at = 0; at < size; at += kChunkBytes)
-    png_write_chunk(png, kData.data(), packed + at, std::min(kChunkBytes, size - at));
+  for (std::size_t at = 0; at < packed.size(); at += kChunkBytes)
+    png_write_chunk(png, kData.data(), packed.data() + at, std::min(kChunkBytes, packed.size() - at));
   png_write_chunk(png, kEnd.data(), nullptr, 0);
   return true;
 }
@@ -382,8 +383,7 @@ std::vector<std::uint8_t> packedFile(const Rows& rows, const std::vector<std::ui
   ErrorText error;
   const Writer writer(error);
   png_set_write_fn(writer.png, &bytes, appendBytes, nullptr);
-  if (!writePacked(writer.png, writer.info, rows, chunks.data(), static_cast<int>(chunks.size()),
-                   packed.data(), packed.size()))
+  if (!writePacked(writer.png, writer.info, rows, chunks.data(), static_cast<int>(chunks.size()), packed))
     throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
   return bytes;
 }

@@ -83,22 +83,31 @@ Hit meetPart(const Ray& ray, const ConvexPart& part) {
   return hit;
 }
 
+struct PixelRange {
+  int begin = 0, end = 0;
+};
 struct PixelRect {
-  int x_begin = 0, x_end = 0, y_begin = 0, y_end = 0;
+  PixelRange x, y;
 };
 
-// Pixels [begin, end) of `size` whose middle may lie within the ball's shadow on one axis of the image.
-// `across` is its centre's coordinate on that axis, `depth` the one along the view.
-void boundOnAxis(double across, double depth, double radius, double focal, int size, int& begin, int& end) {
-  begin = 0, end = size;
-  if (depth <= radius) return;
+// One axis of the image: what a coordinate of size 1 at depth 1 measures there, and its pixels.
+struct ImageAxis {
+  double focal_px;
+  int size;
+};
+
+// The pixels whose middle may lie within the ball's shadow on one axis of the image. `across` is its centre's
+// coordinate on that axis, `depth` the one along the view.
+PixelRange shadowOnAxis(double across, double depth, double radius, const ImageAxis& axis) {
+  const int size = axis.size;
+  if (depth <= radius) return {0, size};
   const auto slope = [&](double edge) { return std::pair(edge / (depth - radius), edge / (depth + radius)); };
   const auto [low_a, low_b] = slope(across - radius);
   const auto [high_a, high_b] = slope(across + radius);
-  const double low = 0.5 * size + focal * std::min(low_a, low_b) - 1.0;
-  const double high = 0.5 * size + focal * std::max(high_a, high_b) + 1.0;
-  begin = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(size)));
-  end = static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(size)));
+  const double low = 0.5 * size + axis.focal_px * std::min(low_a, low_b) - 1.0;
+  const double high = 0.5 * size + axis.focal_px * std::max(high_a, high_b) + 1.0;
+  return {static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(size))),
+          static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(size)))};
 }
 
 struct View {
@@ -110,13 +119,9 @@ struct View {
 PixelRect rectOf(const View& view, const Pose& X_WB, const ConvexPart& part, const DepthImage& image) {
   const Vec3 center_E = X_WB * part.core.center() - view.camera.eye;
   const double radius = part.core.radius() + part.radius_m, depth = center_E.dot(view.axes.forward);
-  PixelRect rect;
-  if (depth < -radius) return rect;
-  boundOnAxis(center_E.dot(view.axes.right), depth, radius, view.focal_px, image.width, rect.x_begin,
-              rect.x_end);
-  boundOnAxis(-center_E.dot(view.axes.up), depth, radius, view.focal_px, image.height, rect.y_begin,
-              rect.y_end);
-  return rect;
+  if (depth < -radius) return {};
+  return {shadowOnAxis(center_E.dot(view.axes.right), depth, radius, {view.focal_px, image.width}),
+          shadowOnAxis(-center_E.dot(view.axes.up), depth, radius, {view.focal_px, image.height})};
 }
 
 void addPart(const View& view, const Pose& X_WB, const ConvexPart& part, int instance,
@@ -127,8 +132,8 @@ void addPart(const View& view, const Pose& X_WB, const ConvexPart& part, int ins
   const Vec3 origin = to_B * (view.camera.eye - X_WB.position);
   const Vec3 forward = to_B * view.axes.forward;
   const Vec3 right = to_B * (view.axes.right / view.focal_px), up = to_B * (view.axes.up / view.focal_px);
-  for (int y = rect.y_begin; y < rect.y_end; ++y)
-    for (int x = rect.x_begin; x < rect.x_end; ++x) {
+  for (int y = rect.y.begin; y < rect.y.end; ++y)
+    for (int x = rect.x.begin; x < rect.x.end; ++x) {
       // Its component along the view is one: t is the depth.
       const Vec3 direction =
           forward + (x + 0.5 - 0.5 * image.width) * right - (y + 0.5 - 0.5 * image.height) * up;

@@ -2,34 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string_view>
 
 #include "tests/architecture/include_rules.h"
+#include "tests/architecture/source_tree.h"
 
 namespace carom::architecture {
 namespace {
-
-std::vector<Source> sourcesOfTheTree(const std::vector<std::string>& folders = {"engine", "renderer",
-                                                                                "demos"}) {
-  namespace fs = std::filesystem;
-  const fs::path root = CAROM_SOURCE_DIR;
-  std::vector<Source> sources;
-  for (const std::string& folder : folders)
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::string extension = entry.path().extension().string();
-      if (!entry.is_regular_file() || (extension != ".h" && extension != ".cpp")) continue;
-      std::ifstream in(entry.path());
-      std::ostringstream text;
-      text << in.rdbuf();
-      sources.push_back({fs::relative(entry.path(), root).generic_string(), text.str()});
-    }
-  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.path < b.path; });
-  return sources;
-}
 
 TEST(Tree, NoIncludePointsUpOrSideways) {
   const std::vector<Source> sources = sourcesOfTheTree();

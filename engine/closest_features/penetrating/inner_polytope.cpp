@@ -258,7 +258,7 @@ void InnerPolytope::nameFacet(const PolyhedronPair& pair, const Corner& corner, 
              pair.toA(pair.b.vertex(corner.b))};
 }
 
-void InnerPolytope::equalFacets(const PolyhedronPair& pair, std::vector<MinimumTranslation>& facets) {
+void InnerPolytope::equalFacets(const PolyhedronPair& pair, MinimumTranslations& facets) {
   const MinimumTranslation best = best_;
   facets.assign(1, best);
   for (std::size_t i = 0; i < reach_.size(); ++i) {

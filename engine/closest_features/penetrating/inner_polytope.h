@@ -23,6 +23,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "engine/closest_features/penetrating/penetration.h"
@@ -31,6 +32,16 @@ namespace carom {
 
 class InnerPolytope {
  public:
+  /// Its memory comes from `memory`, that of a copy from the heap.
+  explicit InnerPolytope(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : corners_(memory),
+        triangles_(memory),
+        reach_(memory),
+        free_(memory),
+        visible_(memory),
+        low_(memory),
+        horizon_(memory) {}
+
   /// The minimum translation of `pair`; what was built for the last query is used if it still holds. At least
   /// one of the two must have faces. `known`: the gap along some axis, from which on to search; else the last
   /// answer's. `gap_m` > 0: a separating axis was found. Nothing is kept of a pair that does not intersect.
@@ -49,7 +60,7 @@ class InnerPolytope {
   /// Triangles of the surface that proves the last answer.
   int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }
   /// The facets that are as near as the last answer's, to rounding: that one, and others in exact ties.
-  void equalFacets(const PolyhedronPair& pair, std::vector<MinimumTranslation>& facets);
+  void equalFacets(const PolyhedronPair& pair, MinimumTranslations& facets);
   /// Witnesses of the last answer as weighted means of vertices, where no feature pair holds them clearly.
   void placeWitnesses(const PolyhedronPair& pair, MinimumTranslation& answer);
 
@@ -124,13 +135,13 @@ class InnerPolytope {
   void connect(int triangle, int from, int neighbour);
   double boundNow(std::size_t triangle) const { return reach_[triangle] - odometer_m_; }
 
-  std::vector<Corner> corners_;
-  std::vector<Triangle> triangles_;
-  std::vector<double> reach_;  // by triangle: the odometer at which it may have come to the origin
-  std::vector<int> free_;      // places of removed triangles
-  std::vector<int> visible_;
-  std::vector<int> low_;
-  std::vector<HorizonEdge> horizon_;
+  std::pmr::vector<Corner> corners_;
+  std::pmr::vector<Triangle> triangles_;
+  std::pmr::vector<double> reach_;  // by triangle: the odometer at which it may have come to the origin
+  std::pmr::vector<int> free_;      // places of removed triangles
+  std::pmr::vector<int> visible_;
+  std::pmr::vector<int> low_;
+  std::pmr::vector<HorizonEdge> horizon_;
   std::size_t corners_when_built_ = 0;
   int query_ = 0;
   int expansions_ = 0;

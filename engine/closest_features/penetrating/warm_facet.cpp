@@ -56,7 +56,7 @@ class Descent {
     for (int i = 0; i < kMostFacets; ++i) {
       std::optional<MinimumTranslation> next;
       Sides sides;
-      if (-facet->gap_m > noise_m_ && findSides(*facet, sides)) {
+      if (findSides(*facet, sides)) {
         const Side& nearest = sides.nearest();
         if (nearest.inside_m < 0.0) {
           next = facetAcross(*facet, nearest);
@@ -131,8 +131,9 @@ class Descent {
     return gapOverFaceOfA(pair_, face, pair_.b.support(-pair_.directionToB(direction), start_b));
   }
 
-  // The facet's sides as seen from the foot of the origin; false if there are too many.
+  // The facet's sides as seen from the foot of the origin; false if there are too many, or it has no depth.
   bool findSides(const MinimumTranslation& facet, Sides& sides) const {
+    if (!(-facet.gap_m > noise_m_)) return false;
     const auto& [a, b] = facet.features;
     const Vec3 foot = -facet.gap_m * facet.normal;
     if (a.kind == FeatureKind::kFace) {

@@ -9,31 +9,53 @@ bool holds(const ConvexPolyhedron& polyhedron, const Vec3& p) {
   return polyhedron.faceCount() > 0;
 }
 
+// The least distance so far.
+class Nearest {
+ public:
+  explicit Nearest(const PolyhedronPair& pair)
+      : pair_(pair), best_(featureDistance(pair, {vertexFeature(0), vertexFeature(0)})) {}
+
+  // A feature of A with all of one kind of B's, and the other way round.
+  void withAllOfB(Feature a, FeatureKind kind, int count) {
+    for (int j = 0; j < count; ++j) consider({a, {kind, j}});
+  }
+  void withAllOfA(FeatureKind kind, int count, Feature b) {
+    for (int i = 0; i < count; ++i) consider({{kind, i}, b});
+  }
+  const FeatureDistance& best() const { return best_; }
+
+ private:
+  void consider(FeaturePair features) {
+    const FeatureDistance d = featureDistance(pair_, features);
+    if (d.crossing || (!d.behind && !best_.crossing && d.squared_m2 < best_.squared_m2)) best_ = d;
+  }
+
+  const PolyhedronPair& pair_;
+  FeatureDistance best_;
+};
+
 }  // namespace
 
 FeatureDistance exhaustiveSearch(const PolyhedronPair& pair) {
-  FeatureDistance best = featureDistance(pair, {vertexFeature(0), vertexFeature(0)});
-  const auto consider = [&](FeaturePair features) {
-    const FeatureDistance d = featureDistance(pair, features);
-    if (d.crossing || (!d.behind && !best.crossing && d.squared_m2 < best.squared_m2)) best = d;
-  };
-  for (int i = 0; i < pair.a.vertexCount(); ++i)
-    for (int j = 0; j < pair.b.vertexCount(); ++j) consider({vertexFeature(i), vertexFeature(j)});
-  for (int i = 0; i < pair.a.edgeCount(); ++i) {
-    for (int j = 0; j < pair.b.vertexCount(); ++j) consider({edgeFeature(i), vertexFeature(j)});
-    for (int j = 0; j < pair.b.edgeCount(); ++j) consider({edgeFeature(i), edgeFeature(j)});
-    for (int j = 0; j < pair.b.faceCount(); ++j) consider({edgeFeature(i), faceFeature(j)});
+  const ConvexPolyhedron &a = pair.a, &b = pair.b;
+  Nearest nearest(pair);
+  for (int i = 0; i < a.vertexCount(); ++i)
+    nearest.withAllOfB(vertexFeature(i), FeatureKind::kVertex, b.vertexCount());
+  for (int i = 0; i < a.edgeCount(); ++i) {
+    nearest.withAllOfB(edgeFeature(i), FeatureKind::kVertex, b.vertexCount());
+    nearest.withAllOfB(edgeFeature(i), FeatureKind::kEdge, b.edgeCount());
+    nearest.withAllOfB(edgeFeature(i), FeatureKind::kFace, b.faceCount());
   }
-  for (int j = 0; j < pair.b.edgeCount(); ++j) {
-    for (int i = 0; i < pair.a.vertexCount(); ++i) consider({vertexFeature(i), edgeFeature(j)});
-    for (int i = 0; i < pair.a.faceCount(); ++i) consider({faceFeature(i), edgeFeature(j)});
+  for (int j = 0; j < b.edgeCount(); ++j) {
+    nearest.withAllOfA(FeatureKind::kVertex, a.vertexCount(), edgeFeature(j));
+    nearest.withAllOfA(FeatureKind::kFace, a.faceCount(), edgeFeature(j));
   }
-  for (int i = 0; i < pair.a.faceCount(); ++i)
-    for (int j = 0; j < pair.b.vertexCount(); ++j) consider({faceFeature(i), vertexFeature(j)});
-  for (int j = 0; j < pair.b.faceCount(); ++j)
-    for (int i = 0; i < pair.a.vertexCount(); ++i) consider({vertexFeature(i), faceFeature(j)});
-  if (holds(pair.a, pair.toA(pair.b.vertex(0))) || holds(pair.b, pair.toB(pair.a.vertex(0))))
-    best.crossing = true;
+  for (int i = 0; i < a.faceCount(); ++i)
+    nearest.withAllOfB(faceFeature(i), FeatureKind::kVertex, b.vertexCount());
+  for (int j = 0; j < b.faceCount(); ++j)
+    nearest.withAllOfA(FeatureKind::kVertex, a.vertexCount(), faceFeature(j));
+  FeatureDistance best = nearest.best();
+  if (holds(a, pair.toA(b.vertex(0))) || holds(b, pair.toB(a.vertex(0)))) best.crossing = true;
   return best;
 }
 

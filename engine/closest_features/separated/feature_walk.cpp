@@ -4,10 +4,10 @@
 #include <cmath>
 #include <new>
 #include <span>
-#include <vector>
 
 #include "engine/closest_features/pair/v_region.h"
 #include "engine/closest_features/separated/level_axes.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 namespace {
@@ -24,6 +24,8 @@ constexpr double kLost = 0x1p-41;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
 // this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
+// Room for the axes that are level with a pair, of which there are rarely more than four.
+constexpr std::size_t kAxesBytes = 64 * sizeof(MinimumTranslation);
 
 // The vertices that face each other along a direction from A to B.
 FeaturePair facingVertices(const PolyhedronPair& pair, const Vec3& toward_b) {
@@ -203,7 +205,8 @@ Move FeatureWalk::moveToEntry(int face, bool entered_a) {
 
 // The features of a slab wider than the present one are closer than the present ones, if they hold it.
 bool FeatureWalk::moveToLevelAxis() {
-  thread_local std::vector<MinimumTranslation> axes;
+  StackArena<kAxesBytes> arena;
+  MinimumTranslations axes(arena.resource());
   gatherLevelAxes(pair_, answerFrom(pair_, here()), noise_m_, axes);
   bool moved = false;
   for (const MinimumTranslation& axis : axes) moved = moveTo(axis.features) || moved;

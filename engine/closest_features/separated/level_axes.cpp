@@ -68,7 +68,7 @@ double slabAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec
 }
 
 void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m,
-                     std::vector<MinimumTranslation>& axes) {
+                     MinimumTranslations& axes) {
   axes.clear();
   const double sine = std::min(kMostBlur, 4.0 * std::sqrt(noise_m / std::abs(answer.gap_m)));
   const Feature a = answer.features.a, b = answer.features.b;

@@ -5,8 +5,6 @@
 // slab that is free of both bodies is wider than their distance, so the widest one tells. Tested in
 // tests/engine/closest_features/canonical_features_test.cpp.
 
-#include <vector>
-
 #include "engine/closest_features/pair/core_answer.h"
 #include "engine/closest_features/penetrating/penetration.h"
 
@@ -20,6 +18,6 @@ double slabAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec
 
 /// The axes at the features of an answer that are level with it, each with its slab.
 void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m,
-                     std::vector<MinimumTranslation>& axes);
+                     MinimumTranslations& axes);
 
 }  // namespace carom

@@ -95,7 +95,7 @@ class WarmPair {
  private:
   bool faceVertex(int face, int v, PlacedGap& gap) const {
     const Vec3 p_b = b_.point(b_.polyhedron.vertex(v));
-    if (!overFace(a_, face, p_b, b_, v, gap.normal, gap.length_m)) return false;
+    if (!overFace({a_, face}, p_b, {b_, v}, gap.normal, gap.length_m)) return false;
     gap.p_a = p_b - gap.length_m * gap.normal;
     return true;
   }
@@ -103,7 +103,7 @@ class WarmPair {
   bool vertexFace(int v, int face, PlacedGap& gap) const {
     Vec3 n;
     gap.p_a = a_.point(a_.polyhedron.vertex(v));
-    if (!overFace(b_, face, gap.p_a, a_, v, n, gap.length_m)) return false;
+    if (!overFace({b_, face}, gap.p_a, {a_, v}, n, gap.length_m)) return false;
     gap.normal = -n;
     return true;
   }
@@ -257,18 +257,22 @@ class WarmPair {
     return next;
   }
 
-  // A vertex of `b`, at `p`, over a face of `a` with normal `n`.
-  bool overFace(const PlacedPolyhedron& a, int face, const Vec3& p, const PlacedPolyhedron& b, int v, Vec3& n,
-                double& height) const {
-    const Plane& plane = a.polyhedron.plane(face);
+  // A vertex, at `p`, over a face with normal `n`.
+  struct PlacedFeature {
+    const PlacedPolyhedron& body;
+    int index;
+  };
+  bool overFace(PlacedFeature face, const Vec3& p, PlacedFeature vertex, Vec3& n, double& height) const {
+    const PlacedPolyhedron& a = face.body;
+    const Plane& plane = a.polyhedron.plane(face.index);
     const Vec3 p_A = a.pointBack(p);
     height = plane.signedDistance(p_A);
     double inside = height;
-    for (const Plane& side : a.polyhedron.faceSides(face))
+    for (const Plane& side : a.polyhedron.faceSides(face.index))
       inside = std::min(inside, side.signedDistance(p_A));
     if (!(inside > noise_m_)) return false;
     n = a.direction(plane.normal);
-    return steepestSpoke(b.polyhedron, v, -b.directionBack(n)) < -noise_slope_;
+    return steepestSpoke(vertex.body.polyhedron, vertex.index, -vertex.body.directionBack(n)) < -noise_slope_;
   }
 
   // The foot of `p` on an edge of `a`, inside its ends: the way from there to `p`, in the frame of `a`.

@@ -387,7 +387,7 @@ TEST(LevelAxes, HaveNoWiderSlabThanTheDistance) {
     ASSERT_NEAR(slabAlong(pair, c.features, n_A), c.distance_m, 2.0 * p.tolerance()) << i;
     const CoreAnswer answer{c.distance_m, n_A, p.X_WA.inverse() * c.p_A_W, p.X_WA.inverse() * c.p_B_W,
                             c.features};
-    std::vector<MinimumTranslation> axes;
+    MinimumTranslations axes;
     gatherLevelAxes(pair, answer, p.tolerance(), axes);
     for (const MinimumTranslation& axis : axes) {
       ++axes_seen;

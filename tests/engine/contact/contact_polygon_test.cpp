@@ -48,13 +48,19 @@ ConvexPart wheel(int n, double radius_m, double height_m) {
   return {oracle::prism(n, radius_m, height_m), 0.0};
 }
 
-// B with its bottom at this gap over A's top, both seen along z of frame F: A's height is h_a, and so on.
-Pair stacked(const ConvexPart& a, double h_a, const ConvexPart& b, double h_b, double gap, const Vec2& shift,
-             const Quat& turn, const Pose& X_WF) {
-  const Pose X_FA{Quat::Identity(), Vec3(0, 0, -0.5 * h_a - a.radius_m)};
+// B with its bottom at this gap over A's top, both seen along z of frame F.
+struct Layer {
+  const ConvexPart& part;
+  double height_m;
+};
+
+Pair stacked(const Layer& below, const Layer& above, double gap, const Vec2& shift, const Quat& turn,
+             const Pose& X_WF) {
+  const ConvexPart &a = below.part, &b = above.part;
+  const Pose X_FA{Quat::Identity(), Vec3(0, 0, -0.5 * below.height_m - a.radius_m)};
   double lowest = 0.0;
   for (const Vec3& v : b.core.vertices()) lowest = std::min(lowest, (turn * v).z());
-  if (turn.vec().head<2>().isZero(0.0)) lowest = -0.5 * h_b;  // upright: exactly
+  if (turn.vec().head<2>().isZero(0.0)) lowest = -0.5 * above.height_m;  // upright: exactly
   return {a, X_WF * X_FA, b, X_WF * Pose{turn, Vec3(shift.x(), shift.y(), gap - lowest + b.radius_m)}};
 }
 
@@ -237,7 +243,7 @@ TEST(ContactPolygon, OfBoxes_IsWhatAllPairsOfBoundaryLinesLeave) {
     const ConvexPart b = box(random.uniform(0.5, 2), random.uniform(0.5, 2), h_b, i % 4 == 2 ? 0.1 : 0.0);
     const Quat turn = smallTilt(random, i % 2 ? 6e-3 : 0.0) * turned(Vec3::UnitZ(), random.uniform(-3, 3));
     const Vec2 shift(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6));
-    const Pair pair = stacked(a, h_a, b, h_b, 3e-4, shift, turn, random.pose(5));
+    const Pair pair = stacked({a, h_a}, {b, h_b}, 3e-4, shift, turn, random.pose(5));
     if (pair.polygon().corners.size() < 2) continue;  // an edge or a corner beyond the rim is nearest
     expectAsByBruteForce(pair);
     if (HasFailure()) return;
@@ -253,7 +259,7 @@ TEST(ContactPolygon, OfPrisms_IsWhatAllPairsOfBoundaryLinesLeave) {
     const ConvexPart b = wheel(random.integer(3, 30), random.uniform(0.4, 1), 0.5);
     const Quat turn = smallTilt(random, i % 2 ? 3e-3 : 0.0) * turned(Vec3::UnitZ(), random.uniform(-3, 3));
     const Vec2 shift(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
-    expectAsByBruteForce(stacked(a, 0.7, b, 0.5, 3e-4, shift, turn, random.pose(5)));
+    expectAsByBruteForce(stacked({a, 0.7}, {b, 0.5}, 3e-4, shift, turn, random.pose(5)));
     if (HasFailure()) return;
   }
 }
@@ -262,7 +268,7 @@ TEST(ContactPolygon, Of200GonsHasUpTo400Corners) {
   const std::uint64_t seed = 403;
   Random random(seed);
   const ConvexPart gon = wheel(200, 0.5, 0.4);
-  const Pair centred = stacked(gon, 0.4, gon, 0.4, 3e-4, Vec2::Zero(),
+  const Pair centred = stacked({gon, 0.4}, {gon, 0.4}, 3e-4, Vec2::Zero(),
                                turned(Vec3::UnitZ(), std::numbers::pi / 200 + 1e-3), Pose{});
   EXPECT_EQ(centred.polygon().corners.size(), 400u);
   expectAsByBruteForce(centred);
@@ -270,7 +276,7 @@ TEST(ContactPolygon, Of200GonsHasUpTo400Corners) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << " case " << i);
     const Quat turn = smallTilt(random, i % 2 ? 2e-3 : 0.0) * turned(Vec3::UnitZ(), random.uniform(-3, 3));
     const Vec2 shift(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
-    expectAsByBruteForce(stacked(gon, 0.4, gon, 0.4, 3e-4, shift, turn, random.pose(5)));
+    expectAsByBruteForce(stacked({gon, 0.4}, {gon, 0.4}, 3e-4, shift, turn, random.pose(5)));
   }
 }
 
@@ -307,38 +313,38 @@ std::vector<Case> cases() {
   const auto turnedBy = [](double angle) { return turned(Vec3::UnitZ(), angle); };
   const auto add = [&](const std::string& name, const Pair& pair) { all.push_back({name, pair}); };
   const ConvexPart cube = box(1, 1, 1), slab = box(3, 2, 0.5), wheel24 = wheel(24, 0.5, 1);
-  add("cube stacked exactly on a cube", stacked(cube, 1, cube, 1, 1e-3, {0, 0}, none, {}));
-  add("cube on a cube, shifted along one axis", stacked(cube, 1, cube, 1, 1e-3, {0.3, 0}, none, {}));
-  add("cube on a cube, shifted along both", stacked(cube, 1, cube, 1, 1e-3, {0.3, -0.2}, none, {}));
+  add("cube stacked exactly on a cube", stacked({cube, 1}, {cube, 1}, 1e-3, {0, 0}, none, {}));
+  add("cube on a cube, shifted along one axis", stacked({cube, 1}, {cube, 1}, 1e-3, {0.3, 0}, none, {}));
+  add("cube on a cube, shifted along both", stacked({cube, 1}, {cube, 1}, 1e-3, {0.3, -0.2}, none, {}));
   add("cube on a cube, turned by 45 degrees",
-      stacked(cube, 1, cube, 1, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 4), {}));
+      stacked({cube, 1}, {cube, 1}, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 4), {}));
   add("cube on a cube, turned by 90 degrees",
-      stacked(cube, 1, cube, 1, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 2), {}));
+      stacked({cube, 1}, {cube, 1}, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 2), {}));
   // B's corner on A's rim, an edge of B leading outwards from it, A's corner under B.
   const Quat thirty = turnedBy(std::numbers::pi / 6);
   const Vec3 on_rim = Vec3(0.5, -0.2, 0) - thirty * Vec3(-0.5, -0.5, 0);
   add("cube with a corner on the rim of a cube",
-      stacked(cube, 1, cube, 1, 1e-3, on_rim.head<2>(), thirty, {}));
+      stacked({cube, 1}, {cube, 1}, 1e-3, on_rim.head<2>(), thirty, {}));
   for (const double s : {-1.0, 1.0})
     for (const double t : {-0.25, 0.25}) {
-      add("cube sharing a side with a cube, along x", stacked(cube, 1, cube, 1, 1e-3, {t, s}, none, {}));
-      add("cube sharing a side with a cube, along y", stacked(cube, 1, cube, 1, 1e-3, {s, t}, none, {}));
+      add("cube sharing a side with a cube, along x", stacked({cube, 1}, {cube, 1}, 1e-3, {t, s}, none, {}));
+      add("cube sharing a side with a cube, along y", stacked({cube, 1}, {cube, 1}, 1e-3, {s, t}, none, {}));
     }
-  add("cube on a slab", stacked(slab, 0.5, cube, 1, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
-  add("slab on a cube", stacked(cube, 1, slab, 0.5, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
-  add("cube flush with a slab's corner", stacked(slab, 0.5, cube, 1, 1e-3, {1, 0.5}, none, {}));
+  add("cube on a slab", stacked({slab, 0.5}, {cube, 1}, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
+  add("slab on a cube", stacked({cube, 1}, {slab, 0.5}, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
+  add("cube flush with a slab's corner", stacked({slab, 0.5}, {cube, 1}, 1e-3, {1, 0.5}, none, {}));
   add("cube tilted on a slab",
-      stacked(slab, 0.5, cube, 1, 3e-4, {0.4, 0.1}, turned({1, 2, 0}, 1e-3) * turnedBy(0.3), {}));
+      stacked({slab, 0.5}, {cube, 1}, 3e-4, {0.4, 0.1}, turned({1, 2, 0}, 1e-3) * turnedBy(0.3), {}));
   add("cube tilted on a cube, reaching k",
-      stacked(cube, 1, cube, 1, 3e-4, {0.2, 0.1}, turned({1, 2, 0}, 8e-3) * turnedBy(0.3), {}));
-  add("wheel on a wheel, corner on corner", stacked(wheel24, 1, wheel24, 1, 1e-3, {0, 0}, none, {}));
+      stacked({cube, 1}, {cube, 1}, 3e-4, {0.2, 0.1}, turned({1, 2, 0}, 8e-3) * turnedBy(0.3), {}));
+  add("wheel on a wheel, corner on corner", stacked({wheel24, 1}, {wheel24, 1}, 1e-3, {0, 0}, none, {}));
   add("wheel on a wheel, half a corner on",
-      stacked(wheel24, 1, wheel24, 1, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 24), {}));
-  add("wheel on a wheel", stacked(wheel24, 1, wheel24, 1, 1e-3, {0.2, 0.1}, turnedBy(0.1), {}));
+      stacked({wheel24, 1}, {wheel24, 1}, 1e-3, {0, 0}, turnedBy(std::numbers::pi / 24), {}));
+  add("wheel on a wheel", stacked({wheel24, 1}, {wheel24, 1}, 1e-3, {0.2, 0.1}, turnedBy(0.1), {}));
   add("rounded box on a slab",
-      stacked(slab, 0.5, box(0.8, 0.6, 0.4, 0.1), 0.4, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
+      stacked({slab, 0.5}, {box(0.8, 0.6, 0.4, 0.1), 0.4}, 1e-3, {0.4, 0.1}, turnedBy(0.3), {}));
   add("rounded box on a rounded box",
-      stacked(box(0.8, 0.6, 0.4, 0.1), 0.4, box(0.8, 0.6, 0.4, 0.1), 0.4, 1e-3, {0, 0}, none, {}));
+      stacked({box(0.8, 0.6, 0.4, 0.1), 0.4}, {box(0.8, 0.6, 0.4, 0.1), 0.4}, 1e-3, {0, 0}, none, {}));
   add("edge on a slab", {slab, Pose{none, Vec3(0, 0, -0.25)}, cube,
                          Pose{turnedBy(0.2) * turned(Vec3::UnitY(), std::numbers::pi / 4),
                               Vec3(0.2, 0.1, std::sqrt(0.5) + 1e-3)}});
@@ -505,7 +511,7 @@ std::size_t cornersOf(const Pair& pair) {
 
 TEST(ContactPolygon, OfExactlyStackedCubes_IsTheirFourCornersAndHalfwayBetweenTheirNormals) {
   const ConvexPart cube = box(1, 1, 1);
-  Pair pair = stacked(cube, 1, cube, 1, 1e-3, {0, 0}, Quat::Identity(), {});
+  Pair pair = stacked({cube, 1}, {cube, 1}, 1e-3, {0, 0}, Quat::Identity(), {});
   pair.X_WB.rotation = turned(Vec3::UnitX(), 1e-5);
   const ContactPolygon polygon = pair.polygon();
   ASSERT_EQ(polygon.corners.size(), 4u);
@@ -519,14 +525,14 @@ TEST(ContactPolygon, OfExactlyStackedCubes_IsTheirFourCornersAndHalfwayBetweenTh
 
 TEST(ContactPolygon, OfFacesThatShareOnlyASideOrACorner_IsThatSideOrCorner) {
   const ConvexPart cube = box(1, 1, 1);
-  const ContactPolygon side = stacked(cube, 1, cube, 1, 1e-3, {1, 0.25}, Quat::Identity(), {}).polygon();
+  const ContactPolygon side = stacked({cube, 1}, {cube, 1}, 1e-3, {1, 0.25}, Quat::Identity(), {}).polygon();
   ASSERT_EQ(side.corners.size(), 2u);
   for (const PolygonCorner& c : side.corners) {
     EXPECT_NEAR(c.p_W.x(), 0.5, 1e-12);
     EXPECT_EQ(std::set({c.features.a.kind, c.features.b.kind}),
               std::set({FeatureKind::kVertex, FeatureKind::kEdge}));
   }
-  const ContactPolygon corner = stacked(cube, 1, cube, 1, 1e-3, {1, 1}, Quat::Identity(), {}).polygon();
+  const ContactPolygon corner = stacked({cube, 1}, {cube, 1}, 1e-3, {1, 1}, Quat::Identity(), {}).polygon();
   ASSERT_EQ(corner.corners.size(), 1u);
   EXPECT_LT((corner.corners[0].p_W - Vec3(0.5, 0.5, 0.5e-3)).norm(), 1e-12);
 }
@@ -539,7 +545,7 @@ TEST(ContactPolygon, OfSlivers_IsWhatAllPairsOfBoundaryLinesLeave) {
     const double breadth = random.logUniform(1e-4, 1e-2);
     const ConvexPart sliver = box(breadth, random.uniform(0.5, 2), 0.5);
     const Pair pair =
-        stacked(box(1, 1, 0.5), 0.5, sliver, 0.5, 1e-3 * breadth, {random.uniform(-0.4, 0.4), 0},
+        stacked({box(1, 1, 0.5), 0.5}, {sliver, 0.5}, 1e-3 * breadth, {random.uniform(-0.4, 0.4), 0},
                 turned(Vec3::UnitZ(), random.uniform(-3, 3)), random.pose(2));
     ASSERT_GE(cornersOf(pair), 4u);
     expectAsByBruteForce(pair);
@@ -576,7 +582,7 @@ TEST(ContactPolygon, WithSidesShorterThanTheTolerance_StillNamesEachCornerOnce) 
     SCOPED_TRACE(testing::Message() << "seed " << seed << " case " << i);
     const Quat turn = turned(Vec3::UnitZ(), i % 2 ? 0.0 : random.uniform(-3, 3));
     const Vec2 shift(random.uniform(-0.4, 0.4), i % 4 == 1 ? 0.0 : random.uniform(-0.4, 0.4));
-    const ContactPolygon polygon = stacked(a, 0.5, a, 0.5, 1e-4, shift, turn, random.pose(2)).polygon();
+    const ContactPolygon polygon = stacked({a, 0.5}, {a, 0.5}, 1e-4, shift, turn, random.pose(2)).polygon();
     ASSERT_GE(polygon.corners.size(), 3u);
     EXPECT_EQ(names(polygon).size(), polygon.corners.size());
   }
@@ -586,7 +592,7 @@ TEST(ContactPolygon, OfARoundedBoxOnAFace_IsTheCoresCornersMovedDownByTheRadius)
   const double radius = 0.1;
   const ConvexPart rounded = box(0.8, 0.6, 0.4, radius);
   const ContactPolygon polygon =
-      stacked(box(3, 2, 0.5), 0.5, rounded, 0.4, 1e-3, {0.2, 0.1}, Quat::Identity(), {}).polygon();
+      stacked({box(3, 2, 0.5), 0.5}, {rounded, 0.4}, 1e-3, {0.2, 0.1}, Quat::Identity(), {}).polygon();
   ASSERT_EQ(polygon.corners.size(), 4u);
   for (const PolygonCorner& c : polygon.corners) {
     EXPECT_NEAR(std::abs(c.p_W.x() - 0.2), 0.4, 1e-14);

@@ -17,8 +17,15 @@ struct Descent {
   double turned = 0.0;
 };
 
-Descent downTheIncline(const Solid& solid, double height, const Quat& tilt, const Quat& turn, double friction,
-                       double rate, double seconds) {
+struct OnIncline {
+  Solid solid;
+  double height_m = 0.0;  ///< Of its centre over the plane.
+  Quat turn = Quat::Identity();
+};
+
+Descent downTheIncline(const OnIncline& body_there, const Quat& tilt, double friction, double rate,
+                       double seconds) {
+  const auto& [solid, height, turn] = body_there;
   SmallWorld w(rate);
   w.addPlane(rubbing(friction), tilt);
   const Pose X{tilt * turn, tilt * Vec3(-3.0, 0.5, height)};
@@ -39,8 +46,9 @@ TEST_P(Incline, SlidingBlockAcceleratesByGTimesSineLessFriction) {
       for (double turn : {0.0, 0.6}) {
         const double angle = radians(30.0);
         const double expected = kGravity * (std::sin(angle) - friction * std::cos(angle));
-        const Descent run = downTheIncline(Solid::box(size), 0.1 + restGap(0.2), inclineTilt(angle, heading),
-                                           oracle::turned(Vec3::UnitZ(), turn), friction, GetParam(), 1.0);
+        const Descent run =
+            downTheIncline({Solid::box(size), 0.1 + restGap(0.2), oracle::turned(Vec3::UnitZ(), turn)},
+                           inclineTilt(angle, heading), friction, GetParam(), 1.0);
         SCOPED_TRACE(testing::Message() << "mu " << friction << " heading " << heading << " turn " << turn);
         EXPECT_NEAR(run.acceleration_mps2 / expected, 1.0, 1e-4);
         EXPECT_LT(run.aside_mps2, 1e-4 * expected);
@@ -53,8 +61,9 @@ TEST_P(Incline, RollingBallAcceleratesByFiveSeventhsOfGTimesSine) {
     const double angle = radians(angle_deg), radius = 0.25;
     const double expected = 5.0 / 7.0 * kGravity * std::sin(angle);
     for (double friction : {1.02 * 2.0 / 7.0 * std::tan(angle), 0.8}) {
-      const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.7),
-                                         oracle::turned({1, 2, 3}, 1.0), friction, GetParam(), 1.0);
+      const Descent run =
+          downTheIncline({Solid::ball(radius), radius + restGap(0.5), oracle::turned({1, 2, 3}, 1.0)},
+                         inclineTilt(angle, 0.7), friction, GetParam(), 1.0);
       SCOPED_TRACE(testing::Message() << "angle " << angle_deg << " mu " << friction);
       // The contact point lies half a gap below the ball: r + g/2 takes the place of r in the lever, 0.5 gap
       // / r of it.
@@ -68,8 +77,8 @@ TEST_P(Incline, RollingBallAcceleratesByFiveSeventhsOfGTimesSine) {
 
 TEST_P(Incline, SlippingBallAcceleratesLikeABlockAndSpinsByFriction) {
   const double angle = radians(40.0), radius = 0.25, friction = 0.1;
-  const Descent run = downTheIncline(Solid::ball(radius), radius + restGap(0.5), inclineTilt(angle, 0.3),
-                                     Quat::Identity(), friction, GetParam(), 1.0);
+  const Descent run = downTheIncline({Solid::ball(radius), radius + restGap(0.5)}, inclineTilt(angle, 0.3),
+                                     friction, GetParam(), 1.0);
   EXPECT_NEAR(run.acceleration_mps2 / (kGravity * (std::sin(angle) - friction * std::cos(angle))), 1.0, 1e-4);
   const double spin_rate = 2.5 * friction * kGravity * std::cos(angle) / radius;
   EXPECT_NEAR(run.spin_rate.y() / spin_rate, 1.0, 1e-4 + restGap(0.5) / radius);
