@@ -137,7 +137,7 @@ bool followDepth(const PolyhedronPair& pair, const Scale& scale, PairMemory& mem
   const std::optional<WarmFacet> warm = nearestFacet(pair, memory.features, scale.noise_m);
   if (warm && warm->proven) {
     answer = answerFrom(warm->gap);
-    if (warm->inside_m > scale.shift_m && clearlyAlone(pair, answer, scale.shift_m)) return true;
+    if (warm->inside_m > scale.shift_m && certifiedAlone(pair, answer, scale.shift_m)) return true;
   }
   const bool parted = warm && warm->gap.gap_m > scale.noise_m;
   std::optional<MinimumTranslation> found;
@@ -147,7 +147,7 @@ bool followDepth(const PolyhedronPair& pair, const Scale& scale, PairMemory& mem
     found = polytope.follow(pair, scale.noise_m, warm ? &warm->gap : nullptr);
   if (found && found->gap_m < -scale.noise_m) {
     answer = answerFrom(*found);
-    if (!clearlyInside(pair, answer, scale.shift_m) || !clearlyAlone(pair, answer, scale.shift_m))
+    if (!certifiedInside(pair, answer, scale.shift_m) || !certifiedAlone(pair, answer, scale.shift_m))
       makeDepthCanonical(pair, scale, polytope, true, answer);
     return true;
   }
@@ -156,8 +156,9 @@ bool followDepth(const PolyhedronPair& pair, const Scale& scale, PairMemory& mem
   return false;
 }
 
-// From the features of the last query to those of this one, which are not clearly the same. One variable is
-// returned everywhere: it is then built in its place, and what has just been written is not copied.
+// From the features of the last query to those of this one, which are not certified to be the same. One
+// variable is returned everywhere: it is then built in its place, and what has just been written is not
+// copied.
 CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
                         InnerPolytope& polytope, Visits& visits) {
   CoreAnswer answer;
@@ -207,12 +208,13 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
   return answer;
 }
 
-// Whether what was closest last time, or what it leads on to, clearly is; places are seen from A's origin.
+// Whether what was closest last time, or what it leads on to, is certified to be so; places are seen from A's
+// origin.
 PairsInPlace findInPlace(const PosedParts& parts, double noise_m, FeaturePair& features, PlacedGap& gap) {
   const PlacedPolyhedron placed_a(parts.a.core, parts.X_WA.rotation, Vec3::Zero());
   const PlacedPolyhedron placed_b(parts.b.core, parts.X_WB.rotation,
                                   parts.X_WB.position - parts.X_WA.position);
-  return findClearlyClosest(placed_a, placed_b, noise_m, features, gap);
+  return findCertifiedClosest(placed_a, placed_b, noise_m, features, gap);
 }
 
 // The answer of a query whose cores have this gap, seen from A's origin.

@@ -35,8 +35,8 @@ struct ContactPolygon {
 double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& window);
 
 /// The complete polygon of two parts whose closest features are known, written to `polygon`. The normal is
-/// the reference face's: of the faces at the closest features the one clearly more parallel to the contact;
-/// else the larger; else, for equals, the mean of both. Proportional to corners times sides.
+/// the reference face's: of the faces at the closest features the one more parallel to the contact by more
+/// than rounding; else the larger; else, for equals, the mean of both. Proportional to corners times sides.
 void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
                     ContactPolygon& polygon);
 ContactPolygon contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,

@@ -86,7 +86,7 @@ class CapCover {
   double depth_m_;
   double noise_m_;
   DirectionCap wanted_;
-  double outside_m_;   // a crossing that is lower along the wanted cap's point is outside, clearly
+  double outside_m_;   // a crossing that is lower along the wanted cap's point is certain to be outside
   double turn_ = 1.0;  // to which side of the plane of two neighbours their rims cross outside
   std::array<Cap, kMostCaps> caps_;
   std::size_t count_ = 0;

@@ -61,7 +61,8 @@ class InnerPolytope {
   int triangleCount() const { return static_cast<int>(triangles_.size() - free_.size()); }
   /// The facets that are as near as the last answer's, to rounding: that one, and others in exact ties.
   void equalFacets(const PolyhedronPair& pair, MinimumTranslations& facets);
-  /// Witnesses of the last answer as weighted means of vertices, where no feature pair holds them clearly.
+  /// Witnesses of the last answer as weighted means of vertices, where no feature pair is certain to hold
+  /// them.
   void placeWitnesses(const PolyhedronPair& pair, MinimumTranslation& answer);
 
   /// Calls visit(corners, neighbours) for each triangle: its corners as the vertices (of A, of B) whose

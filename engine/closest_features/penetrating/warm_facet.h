@@ -22,7 +22,7 @@ namespace carom {
 struct WarmFacet {
   MinimumTranslation gap;  ///< Along the facet's normal, exact.
   bool proven = false;     ///< No other facet is nearer.
-  bool stale = false;      ///< Of one that is not: some facet is clearly nearer, whichever it is.
+  bool stale = false;      ///< Of one that is not: some facet is certain to be nearer, whichever it is.
   double inside_m = 0.0;   ///< Of one that is proven: how far the foot of the origin is inside it.
 };
 

@@ -41,7 +41,7 @@ class WarmPair {
         noise_slope_(noise_m *
                      std::max(a.polyhedron.inverseShortestEdge(), b.polyhedron.inverseShortestEdge())) {}
 
-  // Whether `features` are clearly the closest.
+  // Whether `features` are certified to be the closest.
   bool proves(FeaturePair features, PlacedGap& gap) const {
     const auto [a, b] = features;
     using enum FeatureKind;
@@ -63,7 +63,7 @@ class WarmPair {
     }
   }
 
-  // Where features that are not clearly the closest lead on: over the border that the other body's witness is
+  // Where features that are not certified lead on: over the border that the other body's witness is
   // farthest beyond, else up the steepest way off them; nowhere from two faces or a face and an edge.
   FeaturePair leadsTo(FeaturePair features) const {
     const auto [a, b] = features;
@@ -303,13 +303,13 @@ class WarmPair {
 
 }  // namespace
 
-bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
-                    double noise_m, PlacedGap& gap) {
+bool certifiedClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
+                      double noise_m, PlacedGap& gap) {
   return WarmPair(a, b, noise_m).proves(features, gap);
 }
 
-PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
-                                FeaturePair& features, PlacedGap& gap) {
+PairsInPlace findCertifiedClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                                  FeaturePair& features, PlacedGap& gap) {
   const WarmPair pair(a, b, noise_m);
   PairsInPlace tried;
   bool remembered = isOf(a.polyhedron, features.a) && isOf(b.polyhedron, features.b);
@@ -336,7 +336,7 @@ FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b)
           vertexFeature(b.polyhedron.support(-b.directionBack(between)))};
 }
 
-bool clearlyInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
+bool certifiedInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
   const auto [a, b] = answer.features;
   const auto within = [noise_m](const ConvexPolyhedron& polyhedron, int face, const Vec3& p) {
     double inside = std::numeric_limits<double>::infinity();
@@ -353,7 +353,7 @@ bool clearlyInside(const PolyhedronPair& pair, const CoreAnswer& answer, double 
   return std::min(std::min(s1, e1.length_m - s1), std::min(s2, e2.length_m - s2)) > noise_m;
 }
 
-bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
+bool certifiedAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m) {
   const auto [a, b] = answer.features;
   const double noise_slope = noise_m * std::max(pair.a.inverseShortestEdge(), pair.b.inverseShortestEdge());
   const Vec3 minus_n_B = -pair.directionToB(answer.normal);

@@ -32,10 +32,11 @@ struct PlacedGap {
   Vec3 p_a;     ///< The witness on A; that on B is across the gap.
 };
 
-/// Whether `features` are clearly the closest: witnesses farther than `noise_m` inside their features, and
-/// every end of a feature's neighbours farther than that behind its support plane. Fills `gap` if so.
-bool clearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
-                    double noise_m, PlacedGap& gap);
+/// Whether `features` are certified to be the closest: witnesses farther than `noise_m` inside their
+/// features, and every end of a feature's neighbours farther than that behind its support plane. Fills `gap`
+/// if so.
+bool certifiedClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, FeaturePair features,
+                      double noise_m, PlacedGap& gap);
 
 /// What became of a few pairs that were asked in place.
 struct PairsInPlace {
@@ -46,15 +47,15 @@ struct PairsInPlace {
 /// The same, asked of `features` and of what they lead on to, a few pairs, until one is clear; of the
 /// vertices that face each other instead, where `features` are none of these bodies' or far from what is
 /// closest. `features` are then the clear ones, or where to look further.
-PairsInPlace findClearlyClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
-                                FeaturePair& features, PlacedGap& gap);
+PairsInPlace findCertifiedClosest(const PlacedPolyhedron& a, const PlacedPolyhedron& b, double noise_m,
+                                  FeaturePair& features, PlacedGap& gap);
 
 /// The vertices that face each other along the line of centres: where to start when nothing is remembered.
 FeaturePair facingFeatures(const PlacedPolyhedron& a, const PlacedPolyhedron& b);
 
 /// The same questions about the facet of a minimum translation, F-V or E-E: whether the witnesses in `answer`
 /// are inside its features, and whether these are the only ones that touch along its normal. False of others.
-bool clearlyInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
-bool clearlyAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
+bool certifiedInside(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
+bool certifiedAlone(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m);
 
 }  // namespace carom

@@ -73,7 +73,7 @@ Claims claimsOverAllPairs(const Placed& placed) {
   for (const Feature a : allFeatures(placed.a.polyhedron))
     for (const Feature b : allFeatures(placed.b.polyhedron)) {
       PlacedGap gap;
-      if (!clearlyClosest(placed.a, placed.b, {a, b}, placed.noise_m, gap)) continue;
+      if (!certifiedClosest(placed.a, placed.b, {a, b}, placed.noise_m, gap)) continue;
       ++claims.count;
       claims.features = {a, b};
       claims.gap = gap;
@@ -89,7 +89,7 @@ double outside(const PlacedPolyhedron& placed, const Vec3& p) {
   return most;
 }
 
-TEST(ClearlyClosest, IsOnePairOfAllInAGeneralPose_AndItsDistanceIsTheBruteForceOne) {
+TEST(CertifiedClosest, IsOnePairOfAllInAGeneralPose_AndItsDistanceIsTheBruteForceOne) {
   Random random(7400);
   int separated = 0, silent = 0;
   for (int i = 0; i < 600 / kShare; ++i) {
@@ -119,7 +119,7 @@ TEST(ClearlyClosest, IsOnePairOfAllInAGeneralPose_AndItsDistanceIsTheBruteForceO
   EXPECT_EQ(silent, 0) << "general poses in which no pair was found clear";
 }
 
-TEST(ClearlyClosest, IsNoPairOfBodiesThatIntersect) {
+TEST(CertifiedClosest, IsNoPairOfBodiesThatIntersect) {
   Random random(7401);
   int penetrating = 0;
   for (int i = 0; i < 400 / kShare; ++i) {
@@ -134,7 +134,7 @@ TEST(ClearlyClosest, IsNoPairOfBodiesThatIntersect) {
 }
 
 // Where several pairs are equally near none of them is clear: face over face, edge over face, parallel edges.
-TEST(ClearlyClosest, IsNoPairInALevelPose) {
+TEST(CertifiedClosest, IsNoPairInALevelPose) {
   const ConvexPolyhedron box = boxPolyhedron({1, 1, 1});
   const auto claimed = [&](const Quat& rotation, const Vec3& position) {
     return claimsOverAllPairs({box, Pose{}, box, {rotation, position}}).count;
@@ -147,7 +147,7 @@ TEST(ClearlyClosest, IsNoPairInALevelPose) {
 }
 
 // Whatever the start, what is found is what is clear of all pairs.
-TEST(FindClearlyClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
+TEST(FindCertifiedClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
   Random random(7403);
   int found = 0, stopped = 0;  // from what faces each other
   for (int i = 0; i < 400 / kShare; ++i) {
@@ -164,7 +164,8 @@ TEST(FindClearlyClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
                                     : FeaturePair{anyFeature(a, random), anyFeature(b, random)};
       const FeaturePair start = features;
       PlacedGap gap;
-      const auto [visited, is_clear] = findClearlyClosest(placed.a, placed.b, placed.noise_m, features, gap);
+      const auto [visited, is_clear] =
+          findCertifiedClosest(placed.a, placed.b, placed.noise_m, features, gap);
       ASSERT_GE(visited, 1);
       ASSERT_LE(visited, 8);
       (is_clear ? found : stopped) += k == 0 && claims.count == 1;
@@ -182,7 +183,7 @@ TEST(FindClearlyClosest, FromAnyFeaturesFindsThePairThatIsClear_OrNone) {
 }
 
 // Of round bodies that have turned: from features on the far sides one visit more than from the facing ones.
-TEST(FindClearlyClosest, FromFeaturesThatHaveTurnedAway_GoesOnFromThoseThatFace) {
+TEST(FindCertifiedClosest, FromFeaturesThatHaveTurnedAway_GoesOnFromThoseThatFace) {
   Random random(7419);
   const ConvexPolyhedron ball = oracle::randomHull(random, 250);
   int visited = 0, visited_facing = 0;
@@ -195,14 +196,14 @@ TEST(FindClearlyClosest, FromFeaturesThatHaveTurnedAway_GoesOnFromThoseThatFace)
     FeaturePair averted{vertexFeature(ball.support(-placed.a.directionBack(between))),
                         vertexFeature(ball.support(placed.b.directionBack(between)))};
     PlacedGap gap;
-    visited_facing += findClearlyClosest(placed.a, placed.b, placed.noise_m, facing, gap).visited;
-    visited += findClearlyClosest(placed.a, placed.b, placed.noise_m, averted, gap).visited;
+    visited_facing += findCertifiedClosest(placed.a, placed.b, placed.noise_m, facing, gap).visited;
+    visited += findCertifiedClosest(placed.a, placed.b, placed.noise_m, averted, gap).visited;
   }
   EXPECT_LE(visited, visited_facing + 200);
 }
 
 // Slabs of all facets afresh: the named features are the only ones that touch the planes of the depth.
-TEST(ClearlyAlone, IsNeverSaidOfFeaturesThatOthersAreLevelWith) {
+TEST(CertifiedAlone, IsNeverSaidOfFeaturesThatOthersAreLevelWith) {
   Random random(7402);
   int alone = 0, penetrating = 0;
   for (int i = 0; i < 2000 / kShare; ++i) {
@@ -217,7 +218,7 @@ TEST(ClearlyAlone, IsNeverSaidOfFeaturesThatOthersAreLevelWith) {
     if (m.gap_m > -1e-9) continue;
     ++penetrating;
     const CoreAnswer answer{m.gap_m, m.normal, m.p_a, m.p_b, m.features};
-    if (!clearlyInside(pair, answer, noise) || !clearlyAlone(pair, answer, noise)) continue;
+    if (!certifiedInside(pair, answer, noise) || !certifiedAlone(pair, answer, noise)) continue;
     ++alone;
     ASSERT_FALSE(level) << i;
     const auto touching = [&](const ConvexPolyhedron& p, const Vec3& n) {
