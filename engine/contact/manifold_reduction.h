@@ -29,7 +29,7 @@ inline constexpr double kKeptArea = 0.95;  ///< Of the largest that is to be had
 
 /// All corners of a polygon with up to four; of a larger one a deepest corner (a gap within `same_gap_m` of
 /// the least) and three more, spanning at least 95 % of the largest area that four corners with a deepest one
-/// among them span. Where the gaps are all alike this is the largest area of any four. Equal choices fall to
+/// among them span. Where the gaps are all equal this is the largest area of any four. Equal choices fall to
 /// the names of the corners, so that swapping or moving the bodies keeps the choice. Needs a convex polygon;
 /// quadratic in its corners only where many of them are deepest. Four former corners stay as long as a
 /// deepest is among them and they span `kKeptArea` of the largest area: between choices nearly as good, what

@@ -31,8 +31,8 @@ double cosineNear(double x) {
                                                                           s * (1.0 / 20922789888000.0))))))));
 }
 
-// The angle in [0, pi] with this sine >= 0 and cosine (both scaled alike). Newton's step on sin(target -
-// angle) has a cubic error: from at most 0.34 rad, four steps reach rounding.
+// The angle in [0, pi] with this sine >= 0 and cosine (both scaled by one factor). Newton's step on
+// sin(target - angle) has a cubic error: from at most 0.34 rad, four steps reach rounding.
 double angleOfUnit(double sine, double cosine) {
   constexpr double kHalfPi = 1.5707963267948966;
   double angle = kHalfPi * (1.0 - cosine);

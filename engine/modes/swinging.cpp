@@ -13,7 +13,7 @@ constexpr int kTurns = 2;          // So often it turns round before it swings: 
 constexpr double kLongHalf = 2.0;  // Half a swing that lasts so many times the one before is none.
 
 // Of motions about the same centre: positive where they go the same way; with itself, a squared speed.
-double alike(const Velocity& v, const Velocity& w, double radius_m) {
+double similarity(const Velocity& v, const Velocity& w, double radius_m) {
   return v.linear.dot(w.linear) + radius_m * radius_m * v.angular.dot(w.angular);
 }
 
@@ -26,12 +26,12 @@ void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m
     forget();
     return;
   }
-  if (alike(velocity, fastest_, radius_m) < 0.0) {
+  if (similarity(velocity, fastest_, radius_m) < 0.0) {
     half_s_ = since_s_;
     since_s_ = 0.0;
     ++turns_;
     fastest_ = velocity;
-  } else if (alike(velocity, velocity, radius_m) > alike(fastest_, fastest_, radius_m)) {
+  } else if (similarity(velocity, velocity, radius_m) > similarity(fastest_, fastest_, radius_m)) {
     fastest_ = velocity;
   }
 }
