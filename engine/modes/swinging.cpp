@@ -20,9 +20,9 @@ double similarity(const Velocity& v, const Velocity& w, double radius_m) {
 }  // namespace
 
 void SwingWatch::follow(const Velocity& velocity, double radius_m, double rise_m, double step_s) {
-  fullness_ = rise_m / (tolerance::kSwingRise * radius_m);
+  relative_amplitude_ = rise_m / (tolerance::kSwingRise * radius_m);
   since_s_ += step_s;
-  if (!(fullness_ < 1.0) || (turns_ >= kTurns && since_s_ > kLongHalf * half_s_ + step_s)) {
+  if (!(relative_amplitude_ < 1.0) || (turns_ >= kTurns && since_s_ > kLongHalf * half_s_ + step_s)) {
     forget();
     return;
   }
@@ -41,10 +41,10 @@ double SwingWatch::keeps(double step_s) const {
   // Dry friction slows small swings as much as larger ones, so it takes the larger share of them. And what
   // falls from one point of contact to the next and back, half a swing in a few steps, gains by each turn in
   // proportion to a step's gravity: nothing less than such a share ends that.
-  const double dry = tolerance::kSwingDamping / std::sqrt(fullness_);
+  const double dry = tolerance::kSwingDamping / std::sqrt(relative_amplitude_);
   // v' = -c v - w^2 x is damped critically by c = 2 w; half a swing takes pi / w.
   const double damping = std::min(dry, std::numbers::pi / half_s_);
-  return 1.0 / (1.0 + damping * (1.0 - fullness_) * step_s);
+  return 1.0 / (1.0 + damping * (1.0 - relative_amplitude_) * step_s);
 }
 
 }  // namespace carom

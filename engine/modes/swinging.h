@@ -23,10 +23,10 @@ class SwingWatch {
   double keeps(double step_s) const;
 
  private:
-  Velocity fastest_;       ///< Since it turned round last.
-  double fullness_ = 0.0;  ///< Its rise, as a share of that of the largest swing that is small.
-  double since_s_ = 0.0;   ///< Time since it turned round last, and ...
-  double half_s_ = 0.0;    ///< ... between the last two times: half a swing, once it has turned twice.
+  Velocity fastest_;                 ///< Since it turned round last.
+  double relative_amplitude_ = 0.0;  ///< Its rise, as a share of that of the largest swing that is small.
+  double since_s_ = 0.0;             ///< Time since it turned round last, and ...
+  double half_s_ = 0.0;  ///< ... between the last two times: half a swing, once it has turned twice.
   int turns_ = 0;
 };
 

@@ -59,9 +59,11 @@ TEST(SwingWatch, WhatIsSmallGoesByTheRadius) {
 }
 
 TEST(SwingWatch, QuickSwingsAreSlowedAsByDryFriction) {
-  const auto slowed = [](double fullness) {  // in speed, a step: shares of the largest that is small
-    return std::sqrt(fullness) * (1.0 / keptOfSwing(fullness * kLargestRise, 0.2, 2.0) - 1.0);
-  };
+  const auto slowed =
+      [](double relative_amplitude) {  // in speed, a step: shares of the largest that is small
+        return std::sqrt(relative_amplitude) *
+               (1.0 / keptOfSwing(relative_amplitude * kLargestRise, 0.2, 2.0) - 1.0);
+      };
   const double friction = tolerance::kSwingDamping * kStep;
   EXPECT_NEAR(slowed(0.02), 0.98 * friction, 1e-9);
   EXPECT_NEAR(slowed(0.1), 0.9 * friction, 1e-9);
