@@ -15,13 +15,13 @@ constexpr int kAdvances = 1000;        // proven intervals per search
 constexpr int kProposals = 30;         // tries per interval, most half as long as the last; then the sure one
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
-    1e-10;                              // of the searched interval: less progress than this is standing still
-constexpr double kLandingSlack = 0.05;  // of the landing gap, either way: an impact there has landed
+    1e-10;  // of the searched interval: less progress than this is standing still
+constexpr double kLandingMargin = 0.05;  // of the landing gap, either way: an impact there has landed
 // Of what a gap has above the floor: what comes down fast beside a point in contact is to be struck at the
 // height of that point, and what is in the window already comes down to this share in one look.
 constexpr double kStruckShare = 0.9;
 constexpr double kNextShare = 0.25;
-constexpr double kFloorSlack = 0.02;    // of the floor: this near to it, an approach has come to it
+constexpr double kFloorMargin = 0.02;   // of the floor: this near to it, an approach has come to it
 constexpr long kQueryWork = 4;          // a query of closest features takes as long as so many poses
 constexpr double kCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
 constexpr int kFollowed = 16;  // of Newton's steps to the floor: one that converges takes five or six
@@ -37,7 +37,7 @@ double lowerBound(double begin, double end, double k) {
 
 // The largest gap at which a fast approach is an impact.
 double highestImpact(const ImpactSearch& search) {
-  return search.lands ? (1.0 + kLandingSlack) * search.window.landing : search.window.ceiling;
+  return search.lands ? (1.0 + kLandingMargin) * search.window.landing : search.window.ceiling;
 }
 
 // Two edges that cross, each in its part's axes, and the direction across them: e_A x e_B, of length `sine`.
@@ -76,7 +76,7 @@ class Look {
     double t = found.time_s;
     double gap = found.closest.distance_m;
     double speed = separatingSpeedAt(t, found.closest);
-    const double reached = (1.0 + kFloorSlack) * found.floor;
+    const double reached = (1.0 + kFloorMargin) * found.floor;
     for (int i = 0; i < kFollowed && gap > reached; ++i) {
       t += (gap - found.floor) / -speed;
       const bool ends = search_.ends_held && t >= search_.end_s;
@@ -130,7 +130,7 @@ class Look {
     for (int i = 0; i < kProposals && chord.interval > sure; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
-        if (!lands || chord.end_gap >= (1.0 - kLandingSlack) * target) return chord.interval;
+        if (!lands || chord.end_gap >= (1.0 - kLandingMargin) * target) return chord.interval;
         const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
         if (end_speed >= -search_.collision_speed_mps) return chord.interval;
         ++newton_steps;
@@ -386,7 +386,7 @@ void lookOnce(Look& look, const MovingPart& a, const MovingPart& b, const Impact
     return;
   }
   found.outcome = TimeOfImpact::Outcome::kStopped;
-  if ((speed < 0.0 && gap < (1.0 + kFloorSlack) * found.floor) || found.looks > kAdvances) return;
+  if ((speed < 0.0 && gap < (1.0 + kFloorMargin) * found.floor) || found.looks > kAdvances) return;
   const bool lands = search.lands && found.time_s >= found.passes_until_s;
   const double interval =
       look.provenInterval(found.time_s, found.closest, speed, found.floor, lands, found.newton_steps);

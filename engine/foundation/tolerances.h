@@ -10,7 +10,7 @@ namespace carom::tolerance {
 
 // The collision window (paper §2.3, fig. 7), lengths per metre: floor < rest gap < landing < ceiling.
 inline constexpr double kWindowFloor = 2.0e-4;  // epsilon1: no pair is ever closer
-inline constexpr double kRestGap = 1.0e-3;      // lasting contact is held here: 0.8 mm of slack for residuals
+inline constexpr double kRestGap = 1.0e-3;  // lasting contact is held here: a margin of 0.8 mm for residuals
 inline constexpr double kRestBand =
     0.1;  // of the rest gap, either way: gaps in this band are held as they are
 inline constexpr double kLandingGap = 1.1e-3;  // where a time of impact aims: held as it is when it lasts

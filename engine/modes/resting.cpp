@@ -13,7 +13,7 @@ namespace {
 // How far the effective force may pass beside the polygon, relative to the body's radius: contact points
 // stand half a gap beside the true ones. The balance of forces (2) is what decides; this spares it most
 // hopeless cases.
-constexpr double kSupportSlack = 0.05;
+constexpr double kSupportMargin = 0.05;
 // The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold
 // a body whose centre is not above its contacts, and (2) alone decides.
 constexpr double kLevelSine = 0.05;
@@ -44,13 +44,13 @@ bool forcesPassThroughSupports(const RestQuestion& q) {
     const Vec3 weight = q.gravity / q.bodies[i].inverse_mass;
     if (weight.isZero(0.0)) return false;
     if (resisted[i] != 0 || !standsOnLevelContacts(contacts[i], weight)) continue;
-    if (supportMiss(q.bodies[i].center, weight, contacts[i]) > kSupportSlack * q.radii[i]) return false;
+    if (supportMiss(q.bodies[i].center, weight, contacts[i]) > kSupportMargin * q.radii[i]) return false;
   }
   return true;
 }
 
-// By how much pressures within the slack of their points could turn each body in the step, N m s.
-std::vector<double> slackMoments(const RestQuestion& q, std::span<const ContactRow> rows) {
+// By how much pressures within the margin of their points could turn each body in the step, N m s.
+std::vector<double> marginMoments(const RestQuestion& q, std::span<const ContactRow> rows) {
   std::vector<double> moments(q.bodies.size(), 0.0);
   for (std::size_t k = 0; k < q.slack_m.size(); ++k) {
     const double moment = rows[k].impulse.x() * q.slack_m[k];
@@ -73,14 +73,14 @@ bool stopsTurning(const ImpulseBody& body, double radius_m, double moment) {
 }
 
 // Whether forces leave nothing over: after one step from standstill even the fastest point is slower than
-// allowed, but for turning within the slack of contact points.
+// allowed, but for turning within the margin of contact points.
 bool isBalanced(const RestQuestion& q, std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
                 double allowed_mps) {
   std::vector<double> moments;  // made when some body asks
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Velocity& v = bodies[i].velocity;
     if (v.linear.norm() + v.angular.norm() * q.radii[i] <= allowed_mps) continue;
-    if (moments.empty()) moments = slackMoments(q, rows);
+    if (moments.empty()) moments = marginMoments(q, rows);
     if (!stopsTurning(bodies[i], q.radii[i], moments[i])) return false;
   }
   return true;

@@ -18,7 +18,7 @@ constexpr double kFlatSlope = 1e-15;
 // Distances this close, relative to the size, are equal to rounding.
 constexpr double kAsClose = 0x1p-51;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
-constexpr double kSlack = 0x1p-50;
+constexpr double kMargin = 0x1p-50;
 // One that may be wrong by more than this is no answer.
 constexpr double kLost = 0x1p-41;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
@@ -149,7 +149,7 @@ Move FeatureWalk::next() {
   }
   const Vec3 unit = n.unit();
   const double room = at.distance() - slabAlong(pair_, at.features, unit);
-  if (room <= kSlack * size_m_) return Move::kLevel;
+  if (room <= kMargin * size_m_) return Move::kLevel;
   if (moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length)) return Move::kTaken;
   return room <= kLost * size_m_ ? Move::kLevel : Move::kLost;
 }
@@ -236,7 +236,7 @@ bool FeatureWalk::moveToWiderSlab(FeaturePair features, double slab_m) {
   const FeatureDistance there = anyFeatureDistance(pair_, features);
   if (!asClose(there) || dimensions(there.features) < dimensions(here().features)) return false;
   const Vec3 n = acrossOf(pair_, there).unit();
-  if (slabAlong(pair_, there.features, n) <= slab_m + kSlack * size_m_) return false;
+  if (slabAlong(pair_, there.features, n) <= slab_m + kMargin * size_m_) return false;
   seen_[1 - here_] = there;
   here_ = 1 - here_;
   return true;

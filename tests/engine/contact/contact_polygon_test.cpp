@@ -187,12 +187,12 @@ Real offFeature(const ConvexPart& part, const Pose& X_W, Feature feature, const 
   return std::abs(d.x() * (p - tail).y() - d.y() * (p - tail).x());
 }
 
-// Corners, gaps, area, names: all as the oracle has them. `slack` is the tolerance within which corners are
+// Corners, gaps, area, names: all as the oracle has them. `margin` is the tolerance within which corners are
 // one.
 void expectAsByBruteForce(const Pair& pair) {
   const ContactPolygon polygon = pair.polygon();
   const Oracle o = bruteForce(pair, polygon.n_W);
-  const Real slack = 2 * static_cast<Real>(sameCorner_m(pair.X_WA, pair.X_WB, pair.window()));
+  const Real margin = 2 * static_cast<Real>(sameCorner_m(pair.X_WA, pair.X_WB, pair.window()));
   std::vector<Vec2R> found, expected;
   std::set<std::uint64_t> ids;
   for (const PolygonCorner& c : polygon.corners) {
@@ -200,12 +200,12 @@ void expectAsByBruteForce(const Pair& pair) {
     found.push_back(p);
     Real nearest = 1e9L;
     for (const OracleCorner& e : o.corners) nearest = std::min(nearest, (e.p - p).norm());
-    EXPECT_LT(nearest, slack);
+    EXPECT_LT(nearest, margin);
     EXPECT_NEAR(static_cast<double>(o.gap(p)), c.gap_m, 1e-12);
     const Real off_a = offFeature(pair.a, pair.X_WA, c.features.a, o.a, o.R, p);
     const Real off_b = offFeature(pair.b, pair.X_WB, c.features.b, o.b, o.R, p);
-    EXPECT_LT(off_a, slack) << "not at the feature of A";
-    EXPECT_LT(off_b, slack) << "not at the feature of B";
+    EXPECT_LT(off_a, margin) << "not at the feature of A";
+    EXPECT_LT(off_b, margin) << "not at the feature of B";
     const auto kinds = std::minmax(c.features.a.kind, c.features.b.kind);
     if (kinds.first == FeatureKind::kEdge && kinds.second == FeatureKind::kFace) {
       EXPECT_NEAR(c.gap_m, pair.window().manifold, 1e-12) << "an edge over a face is a corner only at k";
@@ -217,7 +217,7 @@ void expectAsByBruteForce(const Pair& pair) {
     expected.push_back(e.p);
     Real nearest = 1e9L;
     for (const Vec2R& p : found) nearest = std::min(nearest, (e.p - p).norm());
-    EXPECT_LT(nearest, slack) << "a corner is missing";
+    EXPECT_LT(nearest, margin) << "a corner is missing";
   }
   if (found.size() > 2 && expected.size() > 2) {
     EXPECT_NEAR(static_cast<double>(areaOf(found)), static_cast<double>(areaOf(expected)), 1e-8);

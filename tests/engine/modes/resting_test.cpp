@@ -98,25 +98,25 @@ TEST(CanRest, OnOneFootOffTheCentreDoesNot) {
 }
 
 // The weight turns the box about the line through its two points, which its centre is beside.
-TEST(CanRest, OnTwoPointsRestsExactlyWhenTheirSlackReachesBelowTheCentre) {
-  constexpr double kSlack = 1e-4;
+TEST(CanRest, OnTwoPointsRestsExactlyWhenTheirMarginReachesBelowTheCentre) {
+  constexpr double kMargin = 1e-4;
   for (double share : {-1.01, -0.99, -0.1, 0.1, 0.99, 1.01}) {
     Stack s(0.0);
     s.put({0.6, 0.5, 0.2}, 0.5);
     s.rows.clear();
     for (double x : {-0.3, 0.3})
       s.rows.push_back(rowAt(
-          {.a = 0, .b = 1, .n = Vec3::UnitZ(), .p_W = Vec3(x, share * kSlack, 0), .friction = {0.5, 0.5}},
+          {.a = 0, .b = 1, .n = Vec3::UnitZ(), .p_W = Vec3(x, share * kMargin, 0), .friction = {0.5, 0.5}},
           s.bodies));
     EXPECT_FALSE(s.rests()) << share;
-    s.slack_m.assign(2, kSlack);
+    s.slack_m.assign(2, kMargin);
     EXPECT_EQ(s.rests(), std::abs(share) < 1.0) << share;
   }
 }
 
-// Pushed on a smooth floor by hardly more than is allowed: slack holds what turns; but what slides, no moment
-// holds, were it to turn so much that one could take all its energy.
-TEST(CanRest, SlackHoldsATurnButNotASlide) {
+// Pushed on a smooth floor by hardly more than is allowed: the margin holds what turns; but what slides, no
+// moment holds, were it to turn so much that one could take all its energy.
+TEST(CanRest, MarginHoldsATurnButNotASlide) {
   const double push = 2.0 * tolerance::kRestAcceleration * kGravity.norm() * kStep;
   for (double slide : {0.0, push}) {
     Stack s(0.0);
