@@ -7,32 +7,32 @@
 namespace carom {
 namespace {
 
-constexpr double kRoom = 0.1;                      // of the smallest width, on every side of what moves
-constexpr std::size_t kMostNear = 4 * kMostPairs;  // with room: eight bytes each
+constexpr double kMargin = 0.1;                    // of the smallest width, on every side of what moves
+constexpr std::size_t kMostNear = 4 * kMostPairs;  // of fat bounds: eight bytes each
 
-Proxy withRoom(Proxy proxy) {
+Proxy fattened(Proxy proxy) {
   if (!proxy.moves) return proxy;
-  proxy.bounds = widened(proxy.bounds, kRoom * (proxy.bounds.high - proxy.bounds.low).minCoeff());
+  proxy.bounds = widened(proxy.bounds, kMargin * (proxy.bounds.high - proxy.bounds.low).minCoeff());
   return proxy;
 }
 
 }  // namespace
 
 bool PairFinder::hasLeft(const Proxy& proxy, int i) const {
-  const Proxy& roomy = roomy_[at(i)];
-  return proxy.group != roomy.group || proxy.moves != roomy.moves || !roomy.bounds.contains(proxy.bounds);
+  const Proxy& fat = fat_[at(i)];
+  return proxy.group != fat.group || proxy.moves != fat.moves || !fat.bounds.contains(proxy.bounds);
 }
 
 // To give all things other bounds costs no more than to put half of them elsewhere.
-void PairFinder::makeRoom(std::span<const Proxy> proxies) {
-  for (const int i : left_) roomy_[at(i)] = withRoom(proxies[at(i)]);
+void PairFinder::fatten(std::span<const Proxy> proxies) {
+  for (const int i : left_) fat_[at(i)] = fattened(proxies[at(i)]);
   if (2 * left_.size() <= proxies.size()) {
-    for (const int i : left_) tree_.move(i, roomy_[at(i)].bounds);
+    for (const int i : left_) tree_.move(i, fat_[at(i)].bounds);
     return;
   }
   std::vector<Bounds> bounds;
-  bounds.reserve(roomy_.size());
-  for (const Proxy& roomy : roomy_) bounds.push_back(roomy.bounds);
+  bounds.reserve(fat_.size());
+  for (const Proxy& fat : fat_) bounds.push_back(fat.bounds);
   tree_.moveAll(bounds);
 }
 
@@ -42,10 +42,10 @@ void PairFinder::pairAnew() {
   });
   const auto known = static_cast<std::ptrdiff_t>(near_.size());
   for (const int i : left_) {
-    tree_.find(roomy_[at(i)].bounds, found_);
+    tree_.find(fat_[at(i)].bounds, found_);
     for (const int j : found_) {
       if (isLeft(j) && j <= i) continue;  // once
-      if (!canPair(roomy_[at(i)], roomy_[at(j)])) continue;
+      if (!canPair(fat_[at(i)], fat_[at(j)])) continue;
       if (near_.size() >= kMostNear) throw TooManyPairs();
       near_.push_back({std::min(i, j), std::max(i, j)});
     }
@@ -55,9 +55,9 @@ void PairFinder::pairAnew() {
 }
 
 const std::vector<IndexPair>& PairFinder::find(std::span<const Proxy> proxies, std::span<const int> active) {
-  if (roomy_.size() != proxies.size()) {
+  if (fat_.size() != proxies.size()) {
     near_.clear();
-    roomy_.assign(proxies.begin(), proxies.end());
+    fat_.assign(proxies.begin(), proxies.end());
     active_in_.assign(proxies.size(), -1);
     left_in_.assign(proxies.size(), -1);
     round_ = 0;
@@ -71,7 +71,7 @@ const std::vector<IndexPair>& PairFinder::find(std::span<const Proxy> proxies, s
     left_in_[at(i)] = round_;
     left_.push_back(i);
   }
-  if (!left_.empty()) makeRoom(proxies);
+  if (!left_.empty()) fatten(proxies);
   pairAnew();
   pairs_.clear();
   for (const IndexPair& pair : near_) {
@@ -85,7 +85,8 @@ const std::vector<IndexPair>& PairFinder::find(std::span<const Proxy> proxies, s
 void PairFinder::grow(int proxy, const Bounds& bounds) {
   if (tree_.bounds(proxy).contains(bounds)) return;
   tree_.grow(proxy, bounds);
-  active_in_[at(proxy)] = -1;  // paired anew by the next call: its room is no longer what the tree holds
+  active_in_[at(proxy)] =
+      -1;  // paired anew by the next call: its fat bounds are no longer what the tree holds
 }
 
 void PairFinder::findPartners(std::span<const Proxy> proxies, int proxy, std::vector<int>& found) const {

@@ -1,7 +1,7 @@
 #pragma once
-// Candidate pairs of proxies that come again with every step, few of which are active: what has left the room
-// that it was given is paired anew, with room; of the pairs that overlap with theirs, those that overlap
-// without are the candidates. What is not active costs nothing. Tested in
+// Candidate pairs of proxies that come again with every step, few of which are active: what has left the fat
+// bounds that it was given is paired anew, with fat bounds; of the pairs that overlap with theirs, those that
+// overlap without are the candidates. What is not active costs nothing. Tested in
 // tests/engine/broad_phase/pair_finder_test.cpp.
 
 #include <span>
@@ -28,15 +28,15 @@ class PairFinder {
   bool hasLeft(const Proxy& proxy, int i) const;
   bool isActive(int i) const { return active_in_[static_cast<std::size_t>(i)] == round_; }
   bool isLeft(int i) const { return left_in_[static_cast<std::size_t>(i)] == round_; }
-  void makeRoom(std::span<const Proxy> proxies);
+  void fatten(std::span<const Proxy> proxies);
   void pairAnew();
 
-  BoundsTree tree_;              ///< Of the proxies with room, and of what they have grown to since.
-  std::vector<Proxy> roomy_;     ///< As they were paired last.
-  std::vector<IndexPair> near_;  ///< Of the roomy proxies, one of them active, ascending.
+  BoundsTree tree_;              ///< Of the fat proxies, and of what they have grown to since.
+  std::vector<Proxy> fat_;       ///< As they were paired last.
+  std::vector<IndexPair> near_;  ///< Of the fat proxies, one of them active, ascending.
   std::vector<IndexPair> pairs_;
   std::vector<int> left_;
-  // In which call each was active last, and had left its room last: nothing has to be cleared.
+  // In which call each was active last, and had left its fat bounds last: nothing has to be cleared.
   int round_ = 0;
   std::vector<int> active_in_;
   std::vector<int> left_in_;

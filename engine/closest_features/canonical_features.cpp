@@ -23,7 +23,7 @@ constexpr double kEqual = 0.125;
 // Witnesses this many times the noise beside an axis still are its witnesses.
 constexpr double kOffAxis = 32.0;
 
-// Room for what touches two support planes: faces of some hundreds of corners, and the axes level with them.
+// Bytes for what touches two support planes: faces of some hundreds of corners, and the axes level with them.
 constexpr std::size_t kSupportBytes = std::size_t{32} << 10;
 
 // Relative poses that differ by less than this, relative to the bodies' size, are the same.

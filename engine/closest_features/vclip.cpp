@@ -30,11 +30,11 @@ constexpr double kShortest = 0x1p-500;
 // A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
 constexpr int kLongWalk = 12;
-// An answer that support planes leave more room than this, relative to the size, is not proven.
-constexpr double kRoom = 0x1p-41;
+// An answer that support planes leave a larger margin than this, relative to the size, is not proven.
+constexpr double kUnproven = 0x1p-41;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
-// Room for facets in exact ties, and for the polytope of a pair that has no memory of its own.
+// Bytes for facets in exact ties, and for the polytope of a pair that has no memory of its own.
 constexpr std::size_t kFacetsBytes = 64 * sizeof(MinimumTranslation);
 constexpr std::size_t kPolytopeBytes = std::size_t{256} << 10;
 
@@ -199,9 +199,9 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     walk.restart(axes->features);
   }
   settle(pair, {walk, move == Move::kInside, axes}, scale, polytope, answer);
-  // The support planes leave no room for a shorter way, or a longer search has to find it.
+  // The support planes leave no margin for a shorter way, or a longer search has to find it.
   visits.reached_limit =
-      std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kRoom * scale.size_m;
+      std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kUnproven * scale.size_m;
   if (!visits.reached_limit) return answer;
   walk.startFrom(exhaustiveSearch(pair));
   settle(pair, {walk, walk.here().crossing, std::nullopt}, scale, polytope, answer);

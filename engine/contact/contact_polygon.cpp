@@ -19,7 +19,7 @@ constexpr double kSameArea = 1e-9;    // relative: faces this close in area are 
 constexpr double kSameCorner = 1e-5;  // of the window's floor
 constexpr double kPoseRounding = 16.0 * std::numeric_limits<double>::epsilon();  // relative to the positions
 
-// Room for the corners of a clipped face: those of two faces of some hundred sides, twice.
+// Bytes for the corners of a clipped face: those of two faces of some hundred sides, twice.
 constexpr std::size_t kClipBytes = std::size_t{32} << 10;
 
 // The frame of one contact: its origin near the contact, so that far from the world's origin no more is lost

@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-// Room for a polygon of some hundred corners and what thinning needs.
+// Bytes for a polygon of some hundred corners and what thinning needs.
 constexpr std::size_t kReductionBytes = std::size_t{32} << 10;
 
 constexpr int kExactCorners = 24;    // up to here no thinning

@@ -177,15 +177,15 @@ class Look {
     return std::min(half, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
   }
 
-  // So long a gap cannot lose `room` m whatever the parts do: it closes at most at this speed and
+  // So long a gap cannot lose `margin` m whatever the parts do: it closes at most at this speed and
   // acceleration.
-  static double sureInterval(double room, double slowest_mps, double curvature, double whole) {
-    if (!(room > 0.0)) return 0.0;
+  static double sureInterval(double margin, double slowest_mps, double curvature, double whole) {
+    if (!(margin > 0.0)) return 0.0;
     if (slowest_mps >= 0.0 && !(curvature > 0.0)) return whole;
-    const double root = std::sqrt(slowest_mps * slowest_mps + 2.0 * curvature * room);
-    // The larger root of room + slowest t - curvature t^2 / 2, by whichever form does not cancel.
+    const double root = std::sqrt(slowest_mps * slowest_mps + 2.0 * curvature * margin);
+    // The larger root of margin + slowest t - curvature t^2 / 2, by whichever form does not cancel.
     const double sure =
-        slowest_mps < 0.0 ? 2.0 * room / (root - slowest_mps) : (slowest_mps + root) / curvature;
+        slowest_mps < 0.0 ? 2.0 * margin / (root - slowest_mps) : (slowest_mps + root) / curvature;
     return std::min((1.0 - 1e-9) * sure, whole);
   }
 

@@ -39,7 +39,7 @@ Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) 
 }
 
 // How far all faces are from a point; not positive outside.
-double roomAbout(const ConvexPolyhedron& polyhedron, const Vec3& p) {
+double clearanceAbout(const ConvexPolyhedron& polyhedron, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (int f = 0; f < polyhedron.faceCount(); ++f)
     least = std::min(least, -polyhedron.plane(f).signedDistance(p));
@@ -222,14 +222,15 @@ std::uint64_t ConvexPolyhedron::computeFingerprint() const {
   return sum;
 }
 
-// From the roomiest of two middles away from whatever face is nearest, in ever smaller steps.
+// From the middle of two with the larger clearance, away from whatever face is nearest, in ever smaller
+// steps.
 InnerBall ConvexPolyhedron::largestInnerBall() const {
   Vec3 center = Vec3::Zero();
   for (const Vec3& v : vertices_) center += v;
   center /= static_cast<double>(vertices_.size());
   if (planes_.empty()) return {center, 0.0};
-  if (roomAbout(*this, center_) >= roomAbout(*this, center)) center = center_;
-  InnerBall best{center, std::max(0.0, roomAbout(*this, center))};
+  if (clearanceAbout(*this, center_) >= clearanceAbout(*this, center)) center = center_;
+  InnerBall best{center, std::max(0.0, clearanceAbout(*this, center))};
   constexpr int kSteps = 100;
   double step_m = 0.2 * best.radius_m;
   for (int i = 0; i < kSteps; ++i, step_m *= 0.95) {
@@ -295,7 +296,7 @@ ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   result.inner_ball_.center += shift;
   result.fingerprint_ = result.computeFingerprint();
   if (!result.planes_.empty())
-    result.inner_ball_.radius_m = std::max(0.0, roomAbout(result, result.inner_ball_.center));
+    result.inner_ball_.radius_m = std::max(0.0, clearanceAbout(result, result.inner_ball_.center));
   return result;
 }
 

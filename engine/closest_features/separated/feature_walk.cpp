@@ -24,7 +24,7 @@ constexpr double kLost = 0x1p-41;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
 // this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
-// Room for the axes that are level with a pair, of which there are rarely more than four.
+// Bytes for the axes that are level with a pair, of which there are rarely more than four.
 constexpr std::size_t kAxesBytes = 64 * sizeof(MinimumTranslation);
 
 // The vertices that face each other along a direction from A to B.
@@ -148,10 +148,10 @@ Move FeatureWalk::next() {
     return Move::kInside;
   }
   const Vec3 unit = n.unit();
-  const double room = at.distance() - slabAlong(pair_, at.features, unit);
-  if (room <= kMargin * size_m_) return Move::kLevel;
+  const double unproven = at.distance() - slabAlong(pair_, at.features, unit);
+  if (unproven <= kMargin * size_m_) return Move::kLevel;
   if (moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length)) return Move::kTaken;
-  return room <= kLost * size_m_ ? Move::kLevel : Move::kLost;
+  return unproven <= kLost * size_m_ ? Move::kLevel : Move::kLost;
 }
 
 bool FeatureWalk::asClose(const FeatureDistance& there) const {

@@ -6,7 +6,7 @@
 // Every move lowers, in lexicographic order, three pure functions of the pair:
 // - the lowest distance seen so far, which falls only as often as there are feature pairs;
 // - at a distance equal to that to rounding: the dimensions that the two features lack, at most four;
-// - at as many dimensions: the room between the support planes and the distance.
+// - at as many dimensions: the margin between the support planes and the distance.
 // So no pair is visited twice at the same lowest distance, whatever rounding does.
 //
 // Where it ends is the answer: by convexity two points each in the other's V-region are the closest points of
@@ -19,7 +19,7 @@
 //   step on both the slope itself: the free slab between the support planes bounds what is left to gain, and
 //   the axes and pairs of all features level with these are tried;
 // - witnesses within rounding of each other have no direction: the walk says kInside, and the axes decide.
-// Begun far off, on exact lattice poses, a walk can still stop between borders of V-regions: the room that
+// Begun far off, on exact lattice poses, a walk can still stop between borders of V-regions: the margin that
 // the support planes leave tells (kLost), and the axis of the widest slab leads on. Tested in
 // tests/engine/closest_features/vclip_test.cpp and stale_seed_test.cpp.
 
@@ -34,7 +34,7 @@ enum class Move {
   kClear,   ///< The end: every way off these features leads away by more than rounding.
   kLevel,   ///< The end: no way off leads closer, but some are level.
   kInside,  ///< The end: a point of both bodies is found, or one nearer than rounding tells.
-  kLost     ///< No way on, but the support planes leave room for a shorter one: the axes have to lead on.
+  kLost     ///< No way on, but the support planes leave a margin for a shorter one: the axes have to lead on.
 };
 
 class FeatureWalk {
