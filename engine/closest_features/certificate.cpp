@@ -39,8 +39,8 @@ double distanceToSegment(const Vec3& a, const Vec3& b) {
   return (a + s * d).norm();
 }
 
-// How far the origin is from a triangle. Of a sliver, whose plane is blurred, the edges tell: its points are
-// those of its edges, to rounding.
+// How far the origin is from a triangle. Of a sliver, whose plane is uncertain, the edges tell: its points
+// are those of its edges, to rounding.
 double distanceToTriangle(const std::array<Vec3, 3>& w) {
   const Vec3 side1 = w[1] - w[0];
   const Vec3 side2 = w[2] - w[0];

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 // The direction between witnesses is never trusted less than to this angle.
-constexpr double kMostBlur = 1e-3;
+constexpr double kMostUncertainty = 1e-3;
 
 // Calls visit(face) for the faces at a vertex whose normals are within an angle of n.
 template <typename Visit>
@@ -70,7 +70,7 @@ double slabAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec
 void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m,
                      MinimumTranslations& axes) {
   axes.clear();
-  const double sine = std::min(kMostBlur, 4.0 * std::sqrt(noise_m / std::abs(answer.gap_m)));
+  const double sine = std::min(kMostUncertainty, 4.0 * std::sqrt(noise_m / std::abs(answer.gap_m)));
   const Feature a = answer.features.a, b = answer.features.b;
   const int va = vertexOf(pair.a, a);
   const int vb = vertexOf(pair.b, b);

@@ -1,8 +1,8 @@
 #pragma once
 // The directions that the way between two witnesses may really have, for all that rounding tells. Along level
-// features the distance changes only in the second order, so the direction of the witnesses is blurred by the
-// root of rounding; the normals of level faces, and what is across two level edges, are exact. By duality no
-// slab that is free of both bodies is wider than their distance, so the widest one tells. Tested in
+// features the distance changes only in the second order, so the direction of the witnesses is uncertain by
+// the root of rounding; the normals of level faces, and what is across two level edges, are exact. By duality
+// no slab that is free of both bodies is wider than their distance, so the widest one tells. Tested in
 // tests/engine/closest_features/canonical_features_test.cpp.
 
 #include "engine/closest_features/pair/core_answer.h"

@@ -85,7 +85,7 @@ class AdversarialFamily : public testing::TestWithParam<Family> {
 };
 
 // The error of a claim of separation: by the certificate, and where the normal of a near-degenerate pair is
-// blurred (the distance is flat to second order there), by brute force on the distance.
+// uncertain (the distance is flat to second order there), by brute force on the distance.
 double separationError(const PlacedConvex& a, const PlacedConvex& b, const ClosestFeatures& c, double scale) {
   const auto certified = static_cast<double>(oracle::separationError(a, b, claim(c)));
   if (certified <= kRight * scale) return certified;

@@ -65,7 +65,7 @@ class ApartWatch {
     const Vec3 between = X_b.position - X_a.position;
     const double reach = solid_a.radius() + solid_b.radius();
     if (between.norm() > reach * (1.0 + 0x1p-40)) return -1.0;
-    const double blur = noise(X_a, X_b, reach);
+    const double uncertainty = noise(X_a, X_b, reach);
     const Mat3 R_a = X_a.rotation.normalized().toRotationMatrix();
     const Mat3 R_b = X_b.rotation.normalized().toRotationMatrix();
     double deepest = -1.0;
@@ -74,7 +74,7 @@ class ApartWatch {
         const ConvexPart& pa = solid_a.parts()[i];
         const ConvexPart& pb = solid_b.parts()[j];
         const auto apartAlong = [&](const Vec3& axis) {
-          return -mostAlong(pb, R_b, between, -axis) - mostAlong(pa, R_a, Vec3::Zero(), axis) > blur;
+          return -mostAlong(pb, R_b, between, -axis) - mostAlong(pa, R_a, Vec3::Zero(), axis) > uncertainty;
         };
         Vec3& kept_A = axes_[{a, i, b, j}];
         if (!kept_A.isZero(0.0) && apartAlong(R_a * kept_A)) continue;
