@@ -101,8 +101,9 @@ void addSceneOptions(CLI::App& command, SceneChoice& choice) {
 
 void addThreadsOption(CLI::App& command, SceneChoice& choice) {
   command
-      .add_option("--threads", choice.threads,
-                  "That step crowds together (0: one for each processor); states are the same for any number")
+      .add_option(
+          "--threads", choice.threads,
+          "That step large islands together (0: one for each processor); states are the same for any number")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
 }

@@ -57,8 +57,8 @@ std::vector<EdgeUse> edgeUses(const std::vector<Triangle>& triangles) {
 std::vector<int> pairedSides(const SurfaceMesh& mesh) {
   const std::vector<EdgeUse> uses = edgeUses(mesh.triangles);
   std::vector<int> mates(uses.size(), -1);
-  int open = 0, crowded = 0;
-  const EdgeUse *first_open = nullptr, *first_crowded = nullptr;
+  int open = 0, shared = 0;
+  const EdgeUse *first_open = nullptr, *first_shared = nullptr;
   for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
     end = i + 1;
     while (end < uses.size() && uses[end].sameEdge(uses[i])) ++end;
@@ -68,18 +68,18 @@ std::vector<int> pairedSides(const SurfaceMesh& mesh) {
     } else if (end - i == 1) {
       if (open++ == 0) first_open = &uses[i];
     } else {
-      if (crowded++ == 0) first_crowded = &uses[i];
+      if (shared++ == 0) first_shared = &uses[i];
     }
   }
-  if (open == 0 && crowded == 0) return mates;
-  const EdgeUse& edge = open > 0 ? *first_open : *first_crowded;
+  if (open == 0 && shared == 0) return mates;
+  const EdgeUse& edge = open > 0 ? *first_open : *first_shared;
   const std::string where =
       "from " + shown(mesh.vertices[at(edge.low)]) + " to " + shown(mesh.vertices[at(edge.high)]);
   if (open > 0)
     throw InputError("the surface is open: " + std::to_string(open) +
                      (open == 1 ? " edge has" : " edges have") + " one triangle only, the first " + where);
-  throw InputError("the surface is not manifold: " + std::to_string(crowded) +
-                   (crowded == 1 ? " edge has" : " edges have") + " more than two triangles, the first " +
+  throw InputError("the surface is not manifold: " + std::to_string(shared) +
+                   (shared == 1 ? " edge has" : " edges have") + " more than two triangles, the first " +
                    where);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A crowd of equal-sized bodies dropped into an open bin: the stress of lasting contact. Layers of a lattice,
+// A pile of equal-sized bodies dropped into an open bin: the stress of lasting contact. Layers of a lattice,
 // every body turned at random; the bin grows with the number, so that the heap's shape stays. Tested in
 // tests/bench/bin_pile_test.cpp.
 
@@ -12,10 +12,10 @@
 
 namespace carom::bench {
 
-enum class Crowd { kHulls, kBoxes };
+enum class PileOf { kHulls, kBoxes };
 
 struct PilePlan {
-  Crowd crowd = Crowd::kHulls;  ///< Hulls of 12 to 20 vertices and 1 m, or boxes of 0.5 m.
+  PileOf of = PileOf::kHulls;  ///< Hulls of 12 to 20 vertices and 1 m, or boxes of 0.5 m.
   int bodies = 1000;
   double friction = 0.5;
   double rate_hz = 60.0;
@@ -33,7 +33,7 @@ class BinPile {
                 .resting_mode = plan.resting_mode,
                 .threads = plan.threads}) {
     material_ = {plan.friction, plan.friction, 0.0, 1000.0};
-    const double pitch = plan.crowd == Crowd::kHulls ? 1.08 : 0.9;  // no body's ball meets its neighbour's
+    const double pitch = plan.of == PileOf::kHulls ? 1.08 : 0.9;  // no body's ball meets its neighbour's
     const int side = std::max(1, static_cast<int>(std::lround(std::cbrt(plan.bodies))));
     half_width_m_ = 0.5 * side * pitch + 0.05;
     buildBin((plan.bodies / (side * side) + 3) * pitch);
@@ -77,7 +77,7 @@ class BinPile {
   }
 
   void chooseSolids(oracle::Random& random) {
-    if (plan_.crowd == Crowd::kBoxes) {
+    if (plan_.of == PileOf::kBoxes) {
       solids_.push_back(world_.addSolid(Solid::box(Vec3::Constant(0.5))));
       return;
     }

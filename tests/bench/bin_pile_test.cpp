@@ -12,11 +12,11 @@
 namespace carom::bench {
 namespace {
 
-class SmallPile : public testing::TestWithParam<std::tuple<Crowd, double>> {};
+class SmallPile : public testing::TestWithParam<std::tuple<PileOf, double>> {};
 
 TEST_P(SmallPile, NeverOverlapsAndHardlyStalls) {
-  const auto [crowd, friction] = GetParam();
-  BinPile pile({.crowd = crowd, .bodies = 27, .friction = friction});
+  const auto [of, friction] = GetParam();
+  BinPile pile({.of = of, .bodies = 27, .friction = friction});
   ASSERT_TRUE(pile.world().start().empty());
   constexpr int kSteps = 180;
   int stalled = 0;
@@ -33,10 +33,10 @@ TEST_P(SmallPile, NeverOverlapsAndHardlyStalls) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CrowdsAndFriction, SmallPile,
-                         testing::Combine(testing::Values(Crowd::kHulls, Crowd::kBoxes),
+                         testing::Combine(testing::Values(PileOf::kHulls, PileOf::kBoxes),
                                           testing::Values(0.5, 0.1, 0.0)),
                          [](const auto& pile) {
-                           const bool hulls = std::get<0>(pile.param) == Crowd::kHulls;
+                           const bool hulls = std::get<0>(pile.param) == PileOf::kHulls;
                            return std::string(hulls ? "Hulls" : "Boxes") + "AtFriction" +
                                   std::to_string(std::lround(10.0 * std::get<1>(pile.param))) + "Tenths";
                          });

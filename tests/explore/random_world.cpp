@@ -139,7 +139,7 @@ class WorldMaker {
         {"touching", &WorldMaker::touching, 8}, {"thin", &WorldMaker::thin, 12},
         {"ratio", &WorldMaker::ratio, 5},       {"spinning", &WorldMaker::spinning, 6},
         {"fluid", &WorldMaker::fluid, 5},       {"bullet", &WorldMaker::bullet, 5},
-        {"crowd", &WorldMaker::crowd, 1}};
+        {"many", &WorldMaker::many, 1}};
     int total = 0;
     for (const Choice& choice : kChoices) total += choice.weight;
     int at = random_.integer(0, total - 1);
@@ -460,7 +460,7 @@ class WorldMaker {
     steps_ = random_.integer(30, 90);
   }
 
-  void crowd() {
+  void many() {
     const double room = 10.0 * size_;
     addStaticBox({room, room, size_}, {0, 0, -0.5 * size_});
     const std::size_t first = scene().bodies.size();

@@ -102,18 +102,18 @@ TEST(OverlapOracle, NamesTheClosestPairOfAll) {
   EXPECT_EQ(smallest.body_b, 2);
 }
 
-// What is passed over changes nothing: random crowds, loose and overlapping, against every pair by itself.
+// What is passed over changes nothing: random bodies, loose and overlapping, against every pair by itself.
 TEST(OverlapOracle, IsTheLeastOfAllPairsByThemselves) {
   Random random(5);
   int overlapping = 0;
-  for (int crowd = 0; crowd < 40; ++crowd) {
+  for (int trial = 0; trial < 40; ++trial) {
     const std::vector<Solid> solids{Solid::box({1, 0.4, 0.7}), Solid::ball(0.4), Solid::capsule(0.2, 0.9),
                                     Solid::polyhedron(randomHull(random, 9))};
     std::vector<PlacedSolid> bodies;
     for (int i = 0; i < 9; ++i)
       bodies.push_back(
-          {&solids[static_cast<std::size_t>(i % 4)], random.pose(crowd % 2 ? 12.0 : 2.5), i % 5 == 0});
-    if (crowd % 8 == 0) bodies[2].X_WB.position = bodies[1].X_WB.position;  // no line between their centres
+          {&solids[static_cast<std::size_t>(i % 4)], random.pose(trial % 2 ? 12.0 : 2.5), i % 5 == 0});
+    if (trial % 8 == 0) bodies[2].X_WB.position = bodies[1].X_WB.position;  // no line between their centres
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < bodies.size(); ++i)
       for (std::size_t j = i + 1; j < bodies.size(); ++j)
@@ -121,7 +121,7 @@ TEST(OverlapOracle, IsTheLeastOfAllPairsByThemselves) {
           least = std::min(
               least, static_cast<double>(signedGap(place(bodies[i].solid->parts()[0], bodies[i].X_WB),
                                                    place(bodies[j].solid->parts()[0], bodies[j].X_WB))));
-    EXPECT_NEAR(smallestGap(bodies).gap_m, least, 1e-15) << "crowd " << crowd;
+    EXPECT_NEAR(smallestGap(bodies).gap_m, least, 1e-15) << "trial " << trial;
     overlapping += least < 0.0;
   }
   EXPECT_GT(overlapping, 10);

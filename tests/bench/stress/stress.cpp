@@ -56,12 +56,12 @@ int main(int argc, char** argv) {
   landings->add_option("--threads", landing.threads)->check(CLI::Range(1, 256));
 
   PileRun pile;
-  pile.crowds = {Crowd::kHulls, Crowd::kBoxes};
+  pile.kinds = {PileOf::kHulls, PileOf::kBoxes};
   pile.frictions = {0.5, 0.1, 0.0};
-  const std::map<std::string, Crowd> crowds{{"hulls", Crowd::kHulls}, {"boxes", Crowd::kBoxes}};
-  CLI::App* piles = app.add_subcommand("pile", "crowds dropped into a bin: overlap, stalls, rest, ms a step");
-  piles->add_option("--of", pile.crowds, "hulls, boxes")
-      ->transform(CLI::CheckedTransformer(crowds))
+  const std::map<std::string, PileOf> kinds{{"hulls", PileOf::kHulls}, {"boxes", PileOf::kBoxes}};
+  CLI::App* piles = app.add_subcommand("pile", "bodies dropped into a bin: overlap, stalls, rest, ms a step");
+  piles->add_option("--of", pile.kinds, "hulls, boxes")
+      ->transform(CLI::CheckedTransformer(kinds))
       ->default_str("both");
   piles->add_option("--bodies", pile.bodies, "0: 1000 hulls, 5000 boxes")->check(CLI::Range(0, 100000));
   piles->add_option("--friction", pile.frictions)->check(CLI::Range(0.0, 10.0));

@@ -37,7 +37,7 @@ struct CollisionRun {
 bool runCollisions(const CollisionRun& run);
 
 struct PileRun {
-  std::vector<Crowd> crowds;
+  std::vector<PileOf> kinds;
   std::vector<double> frictions;
   int bodies = 0;  ///< 0: 1000 hulls, 5000 boxes.
   double seconds = 20.0;

@@ -1,4 +1,4 @@
-// stress pile: drops the crowds, asks the overlap oracle in every step, or every few, and keeps the time of
+// stress pile: drops the bodies, asks the overlap oracle in every step, or every few, and keeps the time of
 // every phase. The settled heap is then stepped again from rest without resting mode, by ours and by each
 // peer that is there.
 
@@ -147,9 +147,9 @@ void compareSettled(const BinPile& pile, int steps) {
   }
 }
 
-bool runOne(const PileRun& run, Crowd crowd, double friction) {
-  const bool hulls = crowd == Crowd::kHulls;
-  const PilePlan plan{.crowd = crowd,
+bool runOne(const PileRun& run, PileOf of, double friction) {
+  const bool hulls = of == PileOf::kHulls;
+  const PilePlan plan{.of = of,
                       .bodies = run.bodies > 0 ? run.bodies : (hulls ? 1000 : 5000),
                       .friction = friction,
                       .rate_hz = run.rate_hz,
@@ -175,8 +175,8 @@ bool runOne(const PileRun& run, Crowd crowd, double friction) {
 
 bool runPiles(const PileRun& run) {
   bool met = true;
-  for (Crowd crowd : run.crowds)
-    for (double friction : run.frictions) met &= runOne(run, crowd, friction);
+  for (PileOf of : run.kinds)
+    for (double friction : run.frictions) met &= runOne(run, of, friction);
   return met;
 }
 

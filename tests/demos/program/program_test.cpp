@@ -288,7 +288,7 @@ TEST(Program, SimulatePrintsAHashThatCanBeExpected) {
   expectOneLine(differs, "state hash " + hash + " differs from the expected 0123456789abcdef");
 }
 
-constexpr const char* kCrowd = R"({ "format": 1, "rate": 60, "duration": 0.1,
+constexpr const char* kManyCrates = R"({ "format": 1, "rate": 60, "duration": 0.1,
   "materials": { "stone": { "staticFriction": 0.5 } },
   "bodies": [
     { "name": "floor", "shape": { "box": [40, 40, 1] }, "position": [0, 0, -0.5], "static": true, "material": "stone" },
@@ -296,9 +296,9 @@ constexpr const char* kCrowd = R"({ "format": 1, "rate": 60, "duration": 0.1,
       "linearVelocity": [0.5, 0, 0], "repeat": { "count": [16, 16, 4], "step": [0.5005, 0.5005, 0.5005] } }
   ] })";
 
-TEST(Program, ThreadsChangeNoBitOfACrowd) {
+TEST(Program, ThreadsChangeNoBitOfALargeIsland) {
   const TemporaryFolder folder;
-  const std::string scene = folder.file("crowd.json", kCrowd).string();
+  const std::string scene = folder.file("crates.json", kManyCrates).string();
   const auto simulated = [&](const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"simulate", scene, "-q"};
     arguments.insert(arguments.end(), options.begin(), options.end());

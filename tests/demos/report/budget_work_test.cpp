@@ -1,6 +1,6 @@
 // The exact work that `carom budget` counts, from outside: the same on every run, for any number of threads
 // and with either GL library, and of everything that costs time one change is seen. The scenes between them
-// have crowds, events, landings and a ground that mirrors.
+// have large islands, events, landings and a ground that mirrors.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(BudgetWork, IsTheSameOnEveryRunForAnyThreadsAndWithEitherGl) {
   }
 }
 
-// What no scene brings about is counted in vain.
+// What no scene brings about need not be counted.
 TEST(BudgetWork, OfEveryKindSomeSceneHasSome) {
   std::map<std::string, double> most;
   for (const auto& [scene, preset] : std::map<std::string, std::string>{

@@ -38,7 +38,7 @@ Vec3 randomVector(Random& random, double low, double high) {
   return v;
 }
 
-// Of crowds with a few floors and walls among them.
+// Of many bodies with a few floors and walls among them.
 struct Place {
   double spread = 1.0;
   double size = 1.0;

@@ -387,7 +387,7 @@ TEST(TimeOfImpact, OfTwoThatTravelTogether_IsClearWithoutAQuery) {
   EXPECT_EQ(found.queries, 0);
 }
 
-// In a crowd: a box stands with a corner, an edge or a face near another's face and slides over it while both
+// A box stands with a corner, an edge or a face near another's face and slides over it while both
 // turn, each as it likes, but so that the contact neither opens nor closes. What turns with the contact sees
 // the gap stay; in directions that stand still, faces would seem to sweep through each other at once.
 TEST(TimeOfImpact, OfTwoThatSlideAndTurnInContact_NeedsFewQueries) {

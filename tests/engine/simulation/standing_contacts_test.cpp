@@ -23,7 +23,7 @@ std::set<PointName> pointsOf(const StepView& view) {
 }
 
 TEST(StandingContacts, OfAHeapStayTheSameFromStepToStep) {
-  bench::BinPile pile({.crowd = bench::Crowd::kBoxes, .bodies = 125, .resting_mode = false});
+  bench::BinPile pile({.of = bench::PileOf::kBoxes, .bodies = 125, .resting_mode = false});
   World& world = pile.world();
   ASSERT_TRUE(world.start().empty());
   StepView view;

@@ -33,7 +33,7 @@ struct Floor {
 };
 
 // A block that tips over its edge, and a box that slides.
-Floor stirred(int coarsening) {
+Floor tippedAndThrown(int coarsening) {
   Floor f(coarsening);
   const Quat tipped(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
   f.add(Solid::box({0.4, 0.4, 1.2}),
@@ -46,7 +46,7 @@ Floor stirred(int coarsening) {
 class Substeps : public testing::TestWithParam<int> {};
 
 TEST_P(Substeps, GiveTheBitsOfStepsOfTheirLength) {
-  Floor coarse = stirred(GetParam()), fine = stirred(1);
+  Floor coarse = tippedAndThrown(GetParam()), fine = tippedAndThrown(1);
   for (int i = 0; i < 60 / GetParam(); ++i) {
     coarse.world.step();
     EXPECT_EQ(coarse.substeps(), GetParam());
@@ -128,9 +128,9 @@ TEST(SubstepCount, MayChangeAtAnyTimeWithoutAJerk) {
 // A ball meets the floor in the first substep of some step; at its end that is long past.
 TEST(SubstepModes, ACollisionInAnySubstepCounts) {
   Floor f(8);
-  Material lively;
-  lively.restitution = 1.0;
-  const int ball = f.add(Solid::ball(0.2), {Quat::Identity(), Vec3(0, 0, 0.3)}, Vec3::Zero(), lively);
+  Material elastic;
+  elastic.restitution = 1.0;
+  const int ball = f.add(Solid::ball(0.2), {Quat::Identity(), Vec3(0, 0, 0.3)}, Vec3::Zero(), elastic);
   ASSERT_TRUE(f.world.start().empty());
   double upward = 0.0;
   int bounces = 0;

@@ -1,4 +1,4 @@
-// A crowd stepped by several threads: what one gets, to the bit.
+// A large island stepped by several threads: what one gets, to the bit.
 
 #include <gtest/gtest.h>
 

@@ -139,7 +139,7 @@ TEST(SupportTable, ClimbOverABall_DoesNotGrowWithTheNumberOfVertices) {
   }
 }
 
-// Slivers crowd their vertices into few cells, but few directions point there.
+// Slivers have their vertices in few cells, but few directions point there.
 TEST(SupportTable, ClimbOverASliver_IsOneStepInTheMean) {
   for (const Vec3& axes : {Vec3(1, 1e-2, 1e-2), Vec3(1, 1e-1, 1e-3)})
     for (const int n : {100, 300, 1000}) {

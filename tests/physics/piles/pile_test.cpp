@@ -1,5 +1,5 @@
-// Impulses that pass through many bodies: chains against their closed form, and crowds that must come to rest
-// without ever overlapping.
+// Impulses that pass through many bodies: chains against their closed form, and bins of bodies that must come
+// to rest without ever overlapping.
 
 #include "tests/oracle/overlap_oracle.h"
 #include "tests/physics/small_world.h"
@@ -43,8 +43,8 @@ TEST_P(Chain, StruckInelastically_MovesOnAsOneBody) {
 INSTANTIATE_TEST_SUITE_P(Rates, Chain, testing::Values(60.0, 240.0));
 
 // A block of 125 boxes, a window apart and free of gravity, struck on one side by a box of three times their
-// density. In a crowd impulses need not reach everybody in the step of the blow; but none is lost, nothing is
-// gained, few are held at their event limit, and soon the far side moves as well.
+// density. In a large island impulses need not reach everybody in the step of the blow; but none is lost,
+// nothing is gained, few are held at their event limit, and soon the far side moves as well.
 class StruckBlock : public testing::TestWithParam<std::tuple<double, double>> {
  protected:
   static constexpr int kSide = 5;
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, StruckBlock,
                                          std::tuple(60.0, 0.03)));
 
 // Sixty boxes and dodecahedra poured into a box, landing at up to 9 m/s.
-class Crowd : public testing::TestWithParam<std::tuple<double, double>> {
+class BodiesInABin : public testing::TestWithParam<std::tuple<double, double>> {
  protected:
   static constexpr int kBodies = 60;
 
@@ -132,7 +132,7 @@ class Crowd : public testing::TestWithParam<std::tuple<double, double>> {
   std::vector<int> bodies_;
 };
 
-TEST_P(Crowd, ComesToRestAndNeverOverlaps) {
+TEST_P(BodiesInABin, ComesToRestAndNeverOverlaps) {
   const auto [rate, friction] = GetParam();
   SmallWorld w(rate);
   pour(w, rubbing(friction));
@@ -148,7 +148,7 @@ TEST_P(Crowd, ComesToRestAndNeverOverlaps) {
   EXPECT_LT(stopped, 1e-3 * kBodies * frames);
 }
 
-INSTANTIATE_TEST_SUITE_P(RatesAndFriction, Crowd,
+INSTANTIATE_TEST_SUITE_P(RatesAndFriction, BodiesInABin,
                          testing::Values(std::tuple(60.0, 0.5), std::tuple(240.0, 0.5),
                                          std::tuple(240.0, 0.2)));
 

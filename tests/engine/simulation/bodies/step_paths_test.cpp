@@ -29,7 +29,7 @@ int add(World& world, Solid solid, const Pose& X_WB, const Material& material,
 // Balls, boxes and fast spinning rods pour into a bin, bounce, roll and come to rest.
 World poured(double rate_hz) {
   World world({1.0 / rate_hz, Vec3(0.0, 0.0, -kG), true});
-  const Material lively{0.4, 0.4, 0.6, 1000.0}, dull{0.5, 0.5, 0.0, 1000.0};
+  const Material bouncy{0.4, 0.4, 0.6, 1000.0}, dull{0.5, 0.5, 0.0, 1000.0};
   add(world, Solid::box({6, 6, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, dull, {}, true);
   for (const double side : {-1.0, 1.0}) {
     add(world, Solid::box({0.4, 3, 3}), {Quat::Identity(), Vec3(0.9 * side, 0, 1.6)}, dull, {}, true);
@@ -40,11 +40,11 @@ World poured(double rate_hz) {
     const Pose X{random.rotation(), Vec3(0.7 * (i % 2) - 0.35, 0.5 * (i / 2 % 2) - 0.25, 0.6 + 0.45 * i)};
     const Velocity velocity{Vec3(0, 0, -4.0), 20.0 * random.direction()};
     if (i % 3 == 0)
-      add(world, Solid::ball(0.15), X, lively, velocity);
+      add(world, Solid::ball(0.15), X, bouncy, velocity);
     else if (i % 3 == 1)
       add(world, Solid::box({0.3, 0.2, 0.4}), X, dull, velocity);
     else
-      add(world, Solid::box({0.05, 0.06, 0.6}), X, lively, velocity);
+      add(world, Solid::box({0.05, 0.06, 0.6}), X, bouncy, velocity);
   }
   EXPECT_TRUE(world.start().empty());
   return world;
@@ -134,9 +134,9 @@ TEST(StepPaths, ABallThatBouncesIsOnTheParabolasOfTheClosedForm) {
   constexpr double kRestitution = 0.7, kHeight = 1.0;
   for (const double rate : {30.0, 60.0, 240.0}) {
     World world({1.0 / rate, Vec3(0.0, 0.0, -kG), true});
-    const Material lively{0.0, 0.0, kRestitution, 1000.0};
-    add(world, Solid::box({4, 4, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, lively, {}, true);
-    const int ball = add(world, Solid::ball(0.2), {Quat::Identity(), Vec3(0.3, 0.1, 0.2 + kHeight)}, lively,
+    const Material bouncy{0.0, 0.0, kRestitution, 1000.0};
+    add(world, Solid::box({4, 4, 1}), {Quat::Identity(), Vec3(0, 0, -0.5)}, bouncy, {}, true);
+    const int ball = add(world, Solid::ball(0.2), {Quat::Identity(), Vec3(0.3, 0.1, 0.2 + kHeight)}, bouncy,
                          {Vec3(0.5, 0, 0), Vec3::Zero()});
     ASSERT_TRUE(world.start().empty());
     StepView view;

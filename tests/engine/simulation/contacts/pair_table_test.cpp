@@ -14,9 +14,9 @@ namespace {
 using oracle::Random;
 
 // Bodies of one or two parts, some of them static, thrown anew into a room for every step.
-class Crowd {
+class ManyBodies {
  public:
-  Crowd(Random& random, int bodies) : random_(random), bodies_(static_cast<std::size_t>(bodies)) {
+  ManyBodies(Random& random, int bodies) : random_(random), bodies_(static_cast<std::size_t>(bodies)) {
     settings_.step_s = 0.1;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const int body = static_cast<int>(i);
@@ -113,21 +113,21 @@ class Crowd {
 
 TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
   Random random(44);
-  Crowd crowd(random, 100);
+  ManyBodies bodies(random, 100);
   std::size_t added_in_all = 0;
   for (int step = 0; step < 10; ++step) {
-    crowd.beginStep();
+    bodies.beginStep();
     for (int event = 0; event < 40; ++event) {
       const int body = 10 * random.integer(0, 9) + random.integer(0, 8);  // not a static one
-      const std::vector<IndexPair> known = crowd.pairs();
-      const std::vector<IndexPair> added = crowd.turnOne(0.002 * event, body);
-      ASSERT_EQ(added, crowd.missing(body, known)) << "step " << step << " event " << event;
-      ASSERT_FALSE(crowd.pathsLeaveBounds());
+      const std::vector<IndexPair> known = bodies.pairs();
+      const std::vector<IndexPair> added = bodies.turnOne(0.002 * event, body);
+      ASSERT_EQ(added, bodies.missing(body, known)) << "step " << step << " event " << event;
+      ASSERT_FALSE(bodies.pathsLeaveBounds());
       added_in_all += added.size();
     }
-    std::vector<IndexPair> pairs = crowd.pairs();
+    std::vector<IndexPair> pairs = bodies.pairs();
     std::sort(pairs.begin(), pairs.end());
-    EXPECT_EQ(pairs, candidatePairs(crowd.table().proxies())) << "step " << step;
+    EXPECT_EQ(pairs, candidatePairs(bodies.table().proxies())) << "step " << step;
   }
   EXPECT_GT(added_in_all, 1000u);
 }
@@ -136,21 +136,21 @@ TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
 // they are in the order they were in, and their impulses are those of steps as long as they are now.
 TEST(PairTable, KeepsThePairsOfWhatRests_AndBringsThemBackWhenItWakes) {
   Random random(45);
-  Crowd crowd(random, 100);
-  crowd.beginStep();
-  PairTable& table = crowd.table();
+  ManyBodies bodies(random, 100);
+  bodies.beginStep();
+  PairTable& table = bodies.table();
   for (const int place : table.active())
     table.pairs()[static_cast<std::size_t>(place)].remembered.push_back({.impulse_W = Vec3(0, 0, place + 1)});
   const std::vector<int> before = table.all();
-  crowd.restHalf();
+  bodies.restHalf();
   EXPECT_EQ(table.all(), before);
   for (const int place : table.active())
-    EXPECT_TRUE(crowd.hasActiveBody(table.pairs()[static_cast<std::size_t>(place)]));
+    EXPECT_TRUE(bodies.hasActiveBody(table.pairs()[static_cast<std::size_t>(place)]));
   ASSERT_LT(table.active().size(), before.size()) << "some pairs rest";
   table.scaleImpulses(0.5);
   table.scaleImpulses(0.5);
   for (int body = 1; body < 100; body += 2)
-    if (body % 10 != 9) crowd.wake(body);
+    if (body % 10 != 9) bodies.wake(body);
   EXPECT_EQ(table.active().size(), before.size());
   for (const int place : table.active()) {
     const ShapePair& pair = table.pairs()[static_cast<std::size_t>(place)];
