@@ -13,7 +13,7 @@ constexpr double kReceiverReach =
     1.6;  // Shadows are drawn up to this multiple of the farthest caster's distance.
 constexpr double kStepsPerDoubling = 4.0;
 constexpr int kBorderTexels = 6;        // Kept free around the casters: the filter's reach.
-constexpr double kGridsPerSide = 16.0;  // How finely the map is placed, over its own size.
+constexpr double kGridsPerSide = 16.0;  // Steps of the place of the map, over its own size.
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();

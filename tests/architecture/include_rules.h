@@ -180,7 +180,7 @@ inline std::vector<std::string> violations(const std::vector<Source>& sources) {
 inline constexpr int kMostSources = 20;
 
 /// One line for each folder that holds too many.
-inline std::vector<std::string> crowdedFolders(const std::vector<std::string>& paths) {
+inline std::vector<std::string> overfullFolders(const std::vector<std::string>& paths) {
   std::map<std::string, int> counts;
   for (const std::string& path : paths) ++counts[folderOf(path)];
   std::vector<std::string> found;

@@ -48,7 +48,7 @@ TEST(Tree, NoFolderHoldsMoreThanTwentySources) {
   std::vector<std::string> paths;
   for (const Source& source : sourcesOfTheTree({"engine", "renderer", "demos", "tests"}))
     paths.push_back(source.path);
-  for (const std::string& folder : crowdedFolders(paths)) ADD_FAILURE() << folder;
+  for (const std::string& folder : overfullFolders(paths)) ADD_FAILURE() << folder;
 }
 
 TEST(Tree, EveryHeaderIsIncludedOnce) {
@@ -154,9 +154,9 @@ TEST(IncludeRules, CountTheSourcesOfAFolder) {
   std::vector<std::string> paths;
   for (int i = 0; i < kMostSources; ++i) paths.push_back("demos/scene/" + std::to_string(i) + ".cpp");
   paths.push_back("demos/main.cpp");
-  EXPECT_TRUE(crowdedFolders(paths).empty());
+  EXPECT_TRUE(overfullFolders(paths).empty());
   paths.push_back("demos/scene/one_more.h");
-  EXPECT_EQ(crowdedFolders(paths), std::vector<std::string>{"demos/scene holds 21 sources, more than 20"});
+  EXPECT_EQ(overfullFolders(paths), std::vector<std::string>{"demos/scene holds 21 sources, more than 20"});
 }
 
 TEST(IncludeRules, ReportTheLine) {

@@ -32,7 +32,7 @@ TEST_P(SmallPile, NeverOverlapsAndHardlyStalls) {
   EXPECT_LT(stalled, 1e-3 * pile.plan().bodies * kSteps);
 }
 
-INSTANTIATE_TEST_SUITE_P(CrowdsAndFriction, SmallPile,
+INSTANTIATE_TEST_SUITE_P(KindsAndFriction, SmallPile,
                          testing::Combine(testing::Values(PileOf::kHulls, PileOf::kBoxes),
                                           testing::Values(0.5, 0.1, 0.0)),
                          [](const auto& pile) {

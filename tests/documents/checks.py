@@ -8,6 +8,7 @@ import shutil
 import subprocess
 
 import document as doc
+import words
 
 README_BYTES = 6144
 APNG_BYTES = 1536 * 1024
@@ -204,4 +205,4 @@ def commands(root, name, program, work, seconds=300):
 
 
 CHECKS = {"sizes": sizes, "links": links, "paths": named_paths, "tests": tests_of_heads, "departures": departures,
-          "citations": citations, "remarks": remarks, "parts": parts}
+          "citations": citations, "remarks": remarks, "parts": parts, "words": words.retired_words}

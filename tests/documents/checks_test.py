@@ -117,6 +117,24 @@ class Checks(Tree):
         self.put("README.md", "```sh not-run: no\nx\n```\n")
         self.assertEqual(self.found("remarks"), ["README.md:1: not run, without a reason"])
 
+    def test_a_retired_word_is_found_in_text_and_in_names(self):
+        self.put("engine/a.h", HEADER + "// A crowd.\nint kSolverCrowd = 0;  // clearly\n")
+        self.put("demos/a.cpp", "// Clearly slack, which is English.\nint stir_count = 0;\n")
+        found = self.found("words")
+        self.assertEqual([line.split(": ")[0] for line in found],
+                         ["engine/a.h:5", "engine/a.h:6", "engine/a.h:6", "demos/a.cpp:2"])
+
+    def test_a_word_that_is_part_of_another_is_none(self):
+        self.put("demos/a.cpp", "// Crowdedness, a screw and patience sorting take up to a minute.\n")
+        self.assertEqual(self.found("words"), [])
+
+    def test_a_file_that_is_excused_and_says_none_is_found(self):
+        self.put("engine/response/a.cpp", "// A crowd.\n")
+        self.put("engine/simulation/a.cpp", "// A large island.\n")
+        found = self.found("words")
+        self.assertEqual(len(found), 1)
+        self.assertIn("engine/simulation/ says no retired word any more", found[0])
+
     def test_a_line_that_its_file_no_longer_has_is_found(self):
         self.put("README.md", "```cpp part-of: engine/a.h\nint steps = 2001;\n```\n")
         self.assertEqual(self.found("parts"), ["README.md:1: not in engine/a.h: int steps = 2001;"])

@@ -75,9 +75,9 @@ bool runLandings(const LandingsRun& run);
 template <typename Work>
 void shareOut(long count, int threads, const Work& work) {
   std::atomic<long> next = 0, done = 0;
-  std::vector<std::thread> crew;
+  std::vector<std::thread> started;
   for (int t = 0; t < threads; ++t)
-    crew.emplace_back([&, t] {
+    started.emplace_back([&, t] {
       for (long i = next++; i < count; i = next++, ++done) work(t, i);
     });
   constexpr auto kPause = std::chrono::milliseconds(20);
@@ -87,7 +87,7 @@ void shareOut(long count, int threads, const Work& work) {
     if (i % kPausesPerLine == 0)
       std::fprintf(stderr, "%.1f %% done\n", 100.0 * static_cast<double>(done) / static_cast<double>(count));
   }
-  for (std::thread& thread : crew) thread.join();
+  for (std::thread& thread : started) thread.join();
 }
 
 }  // namespace carom::bench
