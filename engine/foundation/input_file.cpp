@@ -1,7 +1,6 @@
 #include "engine/foundation/input_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "engine/foundation/contract.h"
@@ -40,7 +39,7 @@ InputFile tryInputFile(const fs::path& path) {
   // The file is not at fault where the system has none to give.
   if (errno == EMFILE || errno == ENFILE || errno == ENOMEM)
     throw std::system_error(errno, std::generic_category(), "cannot read '" + path.string() + "'");
-  file.problem = std::strerror(errno);
+  file.problem = std::generic_category().message(errno);
   return file;
 }
 
