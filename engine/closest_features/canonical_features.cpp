@@ -17,7 +17,7 @@ namespace carom {
 namespace {
 
 // Edges closer to parallel than this do not cross: their ends lie over each other.
-constexpr double kParallelSine = 1e-9;
+constexpr double kNoCrossingSine = 1e-9;
 // Slabs that agree with the distance to this share of the noise are preferred to those that only just do.
 constexpr double kEqual = 0.125;
 // Witnesses this many times the noise beside an axis still are its witnesses.
@@ -227,7 +227,7 @@ bool takeLowestCrossing(const PolyhedronPair& pair, const SupportSets& sets, Cor
       const Vec3 d2 = pair.directionToA(e2.direction);
       const Vec3 across = e1.direction.cross(d2);
       const double squared = across.squaredNorm();
-      if (squared < kParallelSine * kParallelSine) continue;
+      if (squared < kNoCrossingSine * kNoCrossingSine) continue;
       const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - pair.a.vertex(e1.tail);
       const double s1 = between.cross(d2).dot(across) / squared;
       const double s2 = between.cross(e1.direction).dot(across) / squared;

@@ -10,8 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr double kSameCosine = 1e-9;  // normals this close are one direction
-constexpr double kSameGap = 1e-3;     // of the window's floor: gaps this close are one gap
+constexpr double kSameGap = 1e-3;  // of the window's floor: gaps this close are one gap
 // Bytes for a polygon of some hundred corners.
 constexpr std::size_t kPolygonBytes = std::size_t{16} << 10;
 

@@ -13,7 +13,6 @@ namespace {
 
 using tolerance::kLyingSine;
 
-constexpr double kSameCosine = 1e-9;  // faces whose cosines to the contact are this close are as parallel
 constexpr double kSameSine = 1e-6;    // the same for the sines of edges
 constexpr double kSameArea = 1e-9;    // relative: faces this close in area are equally large
 constexpr double kSameCorner = 1e-5;  // of the window's floor

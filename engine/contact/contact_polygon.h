@@ -30,6 +30,10 @@ struct ContactPolygon {
   std::pmr::vector<PolygonCorner> corners;
 };
 
+/// Normals whose cosine is this near to 1 are one direction; faces whose cosines to a direction are this near
+/// to each other are as parallel to it.
+inline constexpr double kSameCosine = 1e-9;
+
 /// Corners closer than this are one corner, metres: far below every gap of the window, above the rounding of
 /// the poses.
 double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& window);

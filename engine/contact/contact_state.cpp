@@ -6,7 +6,7 @@ namespace carom {
 namespace {
 
 // Edges closer to parallel than this have no usable product; the line between the witnesses serves instead.
-constexpr double kParallelSine = 1e-6;
+constexpr double kNoProductSine = 1e-6;
 
 Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
                     const ConvexPart& b, const Pose& X_WB) {
@@ -14,7 +14,7 @@ Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const P
   const Vec3 product =
       (X_WA.rotation * base.direction).cross(X_WB.rotation * b.core.edge(closest.features.b.index).direction);
   const double sine = product.norm();
-  if (sine < kParallelSine) return closest.n_W;
+  if (sine < kNoProductSine) return closest.n_W;
   const Vec3 n = product / sine;
   if (base.left < 0) return n.dot(closest.n_W) < 0.0 ? Vec3(-n) : n;
   // Less than 90 degrees to both faces at the base edge: outwards (fig. 5).

@@ -21,9 +21,9 @@ constexpr double kLandingMargin = 0.05;  // of the landing gap, either way: an i
 // height of that point, and what is in the window already comes down to this share in one look.
 constexpr double kStruckShare = 0.9;
 constexpr double kNextShare = 0.25;
-constexpr double kFloorMargin = 0.02;   // of the floor: this near to it, an approach has come to it
-constexpr long kQueryWork = 4;          // a query of closest features takes as long as so many poses
-constexpr double kCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
+constexpr double kFloorMargin = 0.02;        // of the floor: this near to it, an approach has come to it
+constexpr long kQueryWork = 4;               // a query of closest features takes as long as so many poses
+constexpr double kSharpCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
 constexpr int kFollowed = 16;  // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
@@ -223,7 +223,7 @@ class Look {
     edges.edge_B = b_.part->core.edge(c.features.b.index).direction;
     const Vec3 w = acrossEdges(edges, poseOf(a_, begin), poseOf(b_, begin));
     edges.sine = w.norm();
-    if (edges.sine < kCrossingSine) return {nullptr, c.n_W};
+    if (edges.sine < kSharpCrossingSine) return {nullptr, c.n_W};
     if (w.dot(c.n_W) < 0.0) edges.edge_A = -edges.edge_A;
     const Direction across{.across = &edges};
     edges.gap_m = gapAlong(across, begin);

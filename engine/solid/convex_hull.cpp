@@ -21,7 +21,7 @@ namespace {
 // A rounded coordinate moves the centrum of a facet, seen from its neighbour, by a few roundings.
 constexpr double kRoundingsToCoplanar = 16.0;
 // Thinner than this relative to its size, a point set spans no volume.
-constexpr double kFlat = 1e-7;
+constexpr double kThin = 1e-7;
 // What merges must stay well below the thinnest extent, and vertices must not wander off.
 constexpr double kMostOfThickness = 1e-2;
 constexpr double kMostMoved = 4.0;  // in tolerances
@@ -68,8 +68,8 @@ Spread spreadOfSolid(std::span<const Vec3> points) {
     if (!p.allFinite()) throw InputError("a point has a coordinate that is not finite");
   const Spread spread = measureSpread(points);
   if (!(spread.size > 0.0)) throw InputError("all points coincide: no volume");
-  if (!(spread.width > kFlat * spread.size)) throw InputError("all points lie on one line: no volume");
-  if (!(spread.thickness > kFlat * spread.size))
+  if (!(spread.width > kThin * spread.size)) throw InputError("all points lie on one line: no volume");
+  if (!(spread.thickness > kThin * spread.size))
     throw InputError("all points lie in one plane: a flat mesh has no volume");
   return spread;
 }

@@ -17,9 +17,9 @@ namespace {
 constexpr double kPlanarity = 1e-9;
 
 // An edge climbs along a direction if its slope is above the rounding of the product of two unit vectors.
-constexpr double kLevelSlope = 1e-15;
+constexpr double kRisingSlope = 1e-15;
 // Faces whose normals are this close may all be level.
-constexpr double kFlat = 1.0 - 1e-12;
+constexpr double kLevelCosine = 1.0 - 1e-12;
 
 // Newell's normal: robust for any planar polygon, whatever its first corner looks like.
 Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {
@@ -247,7 +247,7 @@ InnerBall ConvexPolyhedron::largestInnerBall() const {
 int ConvexPolyhedron::support(const Vec3& direction, int start) const {
   // Slopes, not heights: along an edge much shorter than the solid the difference of two heights is all
   // rounding. A slope above its own rounding means a truly higher vertex, so this ends.
-  const double level = kLevelSlope * direction.norm();
+  const double level = kRisingSlope * direction.norm();
   int here = start;
   for (int next = start; next >= 0;) {
     here = next;
@@ -276,8 +276,9 @@ int ConvexPolyhedron::farthestVertex(const Vec3& direction) const {
 
 bool ConvexPolyhedron::isFlat(int v) const {
   const Vec3& first = plane(faceBeside(spokes(v)[0], v)).normal;
-  return std::ranges::all_of(
-      spokes(v), [&](const Spoke& spoke) { return plane(faceBeside(spoke, v)).normal.dot(first) > kFlat; });
+  return std::ranges::all_of(spokes(v), [&](const Spoke& spoke) {
+    return plane(faceBeside(spoke, v)).normal.dot(first) > kLevelCosine;
+  });
 }
 
 double ConvexPolyhedron::radiusAbout(const Vec3& p) const {

@@ -5,10 +5,6 @@
 namespace carom {
 namespace {
 
-// A crossing this close to the wanted cap, relative to its lengths, is in it.
-constexpr double kMargin = 1e-9;
-// Slopes below are rounding.
-constexpr double kLevelSlope = 0x1p-50;
 // How far rounding may take the square of a crossing's length from 1.
 constexpr double kUnit = 0x1p-48;
 // The support point itself is sought once there are this many; before, any point that is high enough will do.
@@ -35,7 +31,7 @@ CapCover::CapCover(const PolyhedronPair& pair, const Vec3& normal, double depth_
       depth_m_(depth_m),
       noise_m_(noise_m),
       wanted_(wanted),
-      outside_m_(wanted.level_m - kMargin * (wanted.point.lpNorm<1>() + std::abs(wanted.level_m))) {}
+      outside_m_(wanted.level_m - kCapMargin * (wanted.point.lpNorm<1>() + std::abs(wanted.level_m))) {}
 
 void CapCover::addCorner(int a, int b, const Vec3& crossing) {
   Cap& cap = caps_[count_];

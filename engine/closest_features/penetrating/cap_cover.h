@@ -34,6 +34,11 @@ struct DirectionCap {
   bool isEmpty() const { return level_m >= 0.0 && level_m * level_m >= point.squaredNorm(); }
 };
 
+/// A direction this close to a cap, relative to its lengths, is in it.
+inline constexpr double kCapMargin = 1e-9;
+/// Slopes below are rounding.
+inline constexpr double kLevelSlope = 0x1p-50;
+
 class CapCover {
  public:
   /// Of a facet of M: its unit normal and its height over the origin, > 0. `wanted`: the cap to cover.

@@ -19,7 +19,7 @@ constexpr std::size_t kAgeing = 16;
 // Planes whose normals are this close are of one facet.
 constexpr double kSameDirection = 1.0 - 1e-12;
 // The start is a tetrahedron of at least this share of its size.
-constexpr double kFlat = 1e-12;
+constexpr double kThinnestStart = 1e-12;
 // Of a remembered polytope at most one triangle in this many may be low: with more it is made anew as fast.
 constexpr int kFewLow = 4;
 
@@ -170,11 +170,11 @@ bool InnerPolytope::build(const PolyhedronPair& pair) {
       farthest({across.t1, across.t2}, [&](const Vec3& w) { return along.cross(w - c0.w).norm(); });
   const Vec3 normal = along.cross(c2.w - c0.w);
   const double breadth = normal.norm();
-  if (!(breadth > kFlat * length)) return false;
+  if (!(breadth > kThinnestStart * length)) return false;
   const Vec3 up = normal / breadth;
   const Corner c3 = farthest({up}, [&](const Vec3& w) { return std::abs(up.dot(w - c0.w)); });
   const double rise = up.dot(c3.w - c0.w);
-  if (!(std::abs(rise) > kFlat * length)) return false;
+  if (!(std::abs(rise) > kThinnestStart * length)) return false;
   corners_ = {c0, c1, c2, c3};
   if (rise > 0.0) std::swap(corners_[1], corners_[2]);  // 0, 1, 2 counter-clockwise seen from opposite 3
   for (const auto& corners : {std::array{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})

@@ -6,7 +6,7 @@ namespace carom {
 namespace {
 
 // Edges closer to parallel than this give no axis of their own: the faces beside them give it better.
-constexpr double kParallelSine = 1e-10;
+constexpr double kNoAxisSine = 1e-10;
 // Below this sine the rounding of a cross product, relative to it, would show in a gap.
 constexpr double kSmallSine = 0.1;
 
@@ -114,7 +114,7 @@ MinimumTranslation gapOverFaceOfB(const PolyhedronPair& pair, int face, int star
 std::optional<CommonPerpendicular> commonPerpendicular(const Vec3& d1, const Vec3& d2) {
   const Vec3 cross = d1.cross(d2);
   const double sine = cross.norm();
-  if (sine < kParallelSine) return std::nullopt;
+  if (sine < kNoAxisSine) return std::nullopt;
   const double inverse = 1.0 / sine;
   Vec3 n = inverse * cross;
   if (sine < kSmallSine) n = (n - n.dot(d1) * d1).normalized();

@@ -11,10 +11,6 @@
 namespace carom {
 namespace {
 
-// A direction this close to a cap, relative to its lengths, is in it.
-constexpr double kMargin = 1e-9;
-// Slopes below are rounding.
-constexpr double kLevelSlope = 0x1p-50;
 constexpr int kMostFacets = 16;  // on the way down: what has moved farther is better begun anew
 
 // An edge of M: an edge of one body, and the vertex of the other that the edge's points are taken from or
@@ -287,7 +283,7 @@ class Descent {
     const double depth = -facet.gap_m;
     const double along = facet.normal.dot(cap.point);
     if (!(along > cap.level_m)) return false;
-    const double outside = cap.level_m - kMargin * (std::abs(along) + std::abs(cap.level_m));
+    const double outside = cap.level_m - kCapMargin * (std::abs(along) + std::abs(cap.level_m));
     const double low = depth * depth * (along - outside), high = along + outside;
     return std::all_of(sides.used().begin(), sides.used().end(), [&](const Side& side) {
       const double inside = side.inside_m;

@@ -10,7 +10,7 @@ namespace {
 
 // Edges that cross at a smaller angle have no well-defined common perpendicular.
 constexpr double kCrossingSineSquared = 1e-6;
-constexpr int kMostPairs = 8;  // tried before a walk begins
+constexpr int kMostTried = 8;  // tried before a walk begins
 // The cosine of how far apart the ways across features that lie side by side may be.
 constexpr double kBeside = 0.95;
 
@@ -314,7 +314,7 @@ PairsInPlace findCertifiedClosest(const PlacedPolyhedron& a, const PlacedPolyhed
   PairsInPlace tried;
   bool remembered = isOf(a.polyhedron, features.a) && isOf(b.polyhedron, features.b);
   if (!remembered) features = facingFeatures(a, b);
-  while (tried.visited < kMostPairs) {
+  while (tried.visited < kMostTried) {
     ++tried.visited;
     tried.found = pair.proves(features, gap);
     if (tried.found) break;
