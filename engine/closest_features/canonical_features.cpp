@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -60,7 +59,7 @@ bool firstIsA(const PolyhedronPair& pair) {
 // Everything of a polyhedron that touches its support plane along a direction, within a tolerance.
 class SupportSet {
  public:
-  SupportSet(const ConvexPolyhedron& polyhedron, std::pmr::memory_resource* memory)
+  SupportSet(const ConvexPolyhedron& polyhedron, Arena* memory)
       : polyhedron_(&polyhedron), vertices_(memory), edges_(memory), faces_(memory), seen_(memory) {
     vertices_.reserve(kExpected);
     edges_.reserve(kExpected);
@@ -70,7 +69,7 @@ class SupportSet {
     const ConvexPolyhedron& polyhedron = *polyhedron_;
     n_ = n;
     shift_m_ = shift_m;
-    seen_.assign(polyhedron.vertices().size() / kWordBits + 1, 0);
+    seen_.assign(polyhedron.vertices().size(), 0);
     const int top = polyhedron.support(n, start);
     vertices_.clear();
     add(top);
@@ -107,10 +106,10 @@ class SupportSet {
 
  private:
   void add(int v) {
-    seen_[at(v) / kWordBits] |= std::uint64_t{1} << at(v) % kWordBits;
+    seen_[at(v)] = 1;
     vertices_.push_back(v);
   }
-  bool contains(int v) const { return (seen_[at(v) / kWordBits] >> at(v) % kWordBits & 1) != 0; }
+  bool contains(int v) const { return seen_[at(v)] != 0; }
 
   void gatherEdges() {
     edges_.clear();
@@ -161,18 +160,16 @@ class SupportSet {
   }
 
   static constexpr std::size_t kExpected = 16;  // of a list, before it has to grow
-  static constexpr std::size_t kWordBits = 64;
 
   const ConvexPolyhedron* polyhedron_;
   Vec3 n_ = Vec3::Zero();
   double shift_m_ = 0.0;
-  std::pmr::vector<int> vertices_, edges_, faces_;
-  std::pmr::vector<std::uint64_t> seen_;  // a bit a vertex
+  ArenaVector<int> vertices_, edges_, faces_;
+  ArenaVector<char> seen_;  // by vertex
 };
 
 struct SupportSets {
-  SupportSets(const PolyhedronPair& pair, std::pmr::memory_resource* memory)
-      : a(pair.a, memory), b(pair.b, memory) {}
+  SupportSets(const PolyhedronPair& pair, Arena* memory) : a(pair.a, memory), b(pair.b, memory) {}
 
   void gather(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n, double noise_m,
               double shift_m) {
@@ -263,14 +260,14 @@ bool comesBefore(const PolyhedronPair& pair, const FeaturePair& x, const Feature
 bool makeCanonical(const PolyhedronPair& pair, CoreAnswer& answer, double noise_m, double shift_m) {
   const CoreAnswer given = answer;
   StackArena<kSupportBytes> arena;
-  SupportSets sets(pair, arena.resource());
+  SupportSets sets(pair, &arena);
   const auto takeLowest = [&] {
     sets.gather(pair, given.features, answer.normal, noise_m, shift_m);
     return takeLowestVertex(pair, sets, answer) || takeLowestCrossing(pair, sets, answer);
   };
   const double slab = slabAlong(pair, given.features, given.normal);
   if (definesNormal(given.features) && std::abs(slab - given.gap_m) <= kEqual * noise_m) return takeLowest();
-  MinimumTranslations axes(arena.resource());
+  MinimumTranslations axes(&arena);
   gatherLevelAxes(pair, given, noise_m, axes);
   const MinimumTranslation* widest = nullptr;
   for (const double tolerance_m : {kEqual * noise_m, noise_m})

@@ -36,7 +36,7 @@ constexpr double kUnproven = 0x1p-41;
 constexpr double kTouching = 1e-14;
 // Bytes for facets in exact ties, and for the polytope of a pair that has no memory of its own.
 constexpr std::size_t kFacetsBytes = 64 * sizeof(MinimumTranslation);
-constexpr std::size_t kPolytopeBytes = std::size_t{256} << 10;
+constexpr std::size_t kPolytopeBytes = std::size_t{64} << 10;
 
 // What lengths are compared with, metres.
 struct Scale {
@@ -60,9 +60,22 @@ CoreAnswer answerFrom(const MinimumTranslation& m) {
   return {m.gap_m, m.normal, m.p_a, m.p_b, m.features};
 }
 
-MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m, InnerPolytope& polytope) {
+// The polytope that proves a depth: the pair's own, or one of this query alone, made where it is needed
+// first.
+struct DepthProof {
+  InnerPolytope* polytope = nullptr;
+  Arena* arena = nullptr;
+  std::optional<InnerPolytope> own{};
+
+  InnerPolytope& get() {
+    if (polytope == nullptr) polytope = &own.emplace(arena);
+    return *polytope;
+  }
+};
+
+MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m, DepthProof& proof) {
   const bool solid = pair.a.faceCount() > 0 || pair.b.faceCount() > 0;
-  return solid ? polytope.minimumTranslation(pair, noise_m) : largestGap(pair);
+  return solid ? proof.get().minimumTranslation(pair, noise_m) : largestGap(pair);
 }
 
 // The canonical features of a depth; of facets that are equally near, the lowest. Where rounding leaves no
@@ -70,7 +83,7 @@ MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m
 void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPolytope& polytope, bool tracked,
                         CoreAnswer& answer) {
   StackArena<kFacetsBytes> arena;
-  MinimumTranslations facets(arena.resource());
+  MinimumTranslations facets(&arena);
   facets.assign(1, {answer.gap_m, answer.normal, answer.features, answer.p_a, answer.p_b});
   if (!tracked && polytope.triangleCount() > 0) polytope.equalFacets(pair, facets);
   std::optional<CoreAnswer> lowest;
@@ -95,7 +108,7 @@ struct WalkEnd {
   const std::optional<MinimumTranslation>& axes;  // the minimum translation, if it has been asked for
 };
 
-void settle(const PolyhedronPair& pair, const WalkEnd& end, const Scale& scale, InnerPolytope& polytope,
+void settle(const PolyhedronPair& pair, const WalkEnd& end, const Scale& scale, DepthProof& proof,
             CoreAnswer& answer) {
   const FeatureWalk& walk = end.walk;
   const FeatureDistance& found = walk.here();
@@ -106,9 +119,9 @@ void settle(const PolyhedronPair& pair, const WalkEnd& end, const Scale& scale, 
     makeCanonical(pair, answer, scale.noise_m, scale.shift_m);
     return;
   }
-  const MinimumTranslation m = end.axes ? *end.axes : minimumTranslation(pair, scale.noise_m, polytope);
+  const MinimumTranslation m = end.axes ? *end.axes : minimumTranslation(pair, scale.noise_m, proof);
   answer = answerFrom(m);
-  if (m.gap_m < -scale.noise_m) return makeDepthCanonical(pair, scale, polytope, false, answer);
+  if (m.gap_m < -scale.noise_m) return makeDepthCanonical(pair, scale, proof.get(), false, answer);
   if (end.inside) {  // they touch, to rounding
     answer.p_a = walk.commonPoint();
     answer.p_b = walk.commonPoint() + m.gap_m * m.normal;
@@ -160,7 +173,7 @@ bool followDepth(const PolyhedronPair& pair, const Scale& scale, PairMemory& mem
 // variable is returned everywhere: it is then built in its place, and what has just been written is not
 // copied.
 CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeaturePair tracked,
-                        InnerPolytope& polytope, Visits& visits) {
+                        DepthProof& proof, Visits& visits) {
   CoreAnswer answer;
   // Walks are short; the bound is the number of features, which a strictly falling sequence of neighbours
   // never needs.
@@ -182,10 +195,10 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     }
     // A walk with no way on, or a long one (around large faces of bodies that intersect it can be): the axes
     // tell whether the bodies intersect, and lead on if not.
-    axes = minimumTranslation(pair, scale.noise_m, polytope);
+    axes = minimumTranslation(pair, scale.noise_m, proof);
     if (axes->gap_m < -scale.noise_m) {
       answer = answerFrom(*axes);
-      makeDepthCanonical(pair, scale, polytope, false, answer);
+      makeDepthCanonical(pair, scale, proof.get(), false, answer);
       return answer;
     }
     if (move == Move::kInside && (axes->gap_m <= scale.noise_m || walk.here().distance() <= scale.shift_m))
@@ -198,13 +211,13 @@ CoreAnswer closestCores(const PolyhedronPair& pair, const Scale& scale, FeatureP
     restarted = true;
     walk.restart(axes->features);
   }
-  settle(pair, {walk, move == Move::kInside, axes}, scale, polytope, answer);
+  settle(pair, {walk, move == Move::kInside, axes}, scale, proof, answer);
   // The support planes leave no margin for a shorter way, or a longer search has to find it.
   visits.reached_limit =
       std::abs(answer.gap_m - slabAlong(pair, answer.features, answer.normal)) > kUnproven * scale.size_m;
   if (!visits.reached_limit) return answer;
   walk.startFrom(exhaustiveSearch(pair));
-  settle(pair, {walk, walk.here().crossing, std::nullopt}, scale, polytope, answer);
+  settle(pair, {walk, walk.here().crossing, std::nullopt}, scale, proof, answer);
   return answer;
 }
 
@@ -236,19 +249,27 @@ ClosestFeatures answerOf(const PosedParts& parts, const PlacedGap& gap, const Sc
 }
 
 // An answer seen from A's origin, its features left for the next query.
-PlacedGap keepFeatures(const CoreAnswer& core, const Pose& X_WA, PairMemory& memory) {
-  memory.features = core.features;
+PlacedGap keepFeatures(const CoreAnswer& core, const Pose& X_WA, FeaturePair& features) {
+  features = core.features;
   const Rotation R_WA(X_WA.rotation);
   return {core.gap_m, R_WA * core.normal, R_WA * core.p_a};
 }
 
 // What is not clear in place: from the features that led there on.
-ClosestFeatures search(const PosedParts& parts, const Scale& scale, int visited, PairMemory& memory) {
+ClosestFeatures search(const PosedParts& parts, const Scale& scale, int visited, FeaturePair& features,
+                       DepthProof& proof) {
   Visits visits;
   const PolyhedronPair pair(parts.a.core, parts.X_WA, parts.b.core, parts.X_WB);
-  const CoreAnswer core = closestCores(pair, scale, memory.features, memory.penetration, visits);
+  const CoreAnswer core = closestCores(pair, scale, features, proof, visits);
   visits.states += visited;
-  return answerOf(parts, keepFeatures(core, parts.X_WA, memory), scale, core.features, visits);
+  return answerOf(parts, keepFeatures(core, parts.X_WA, features), scale, core.features, visits);
+}
+
+// Apart, so that a query that is answered in place has less to clear up.
+[[gnu::noinline]] ClosestFeatures searchFromMemory(const PosedParts& parts, const Scale& scale, int visited,
+                                                   PairMemory& memory) {
+  DepthProof proof{&memory.penetration};
+  return search(parts, scale, visited, memory.features, proof);
 }
 
 ClosestFeatures query(const PosedParts& parts, PairMemory& memory) {
@@ -258,11 +279,11 @@ ClosestFeatures query(const PosedParts& parts, PairMemory& memory) {
     const PolyhedronPair pair(parts.a.core, parts.X_WA, parts.b.core, parts.X_WB);
     CoreAnswer core;
     if (followDepth(pair, scale, memory, core))
-      return answerOf(parts, keepFeatures(core, parts.X_WA, memory), scale, core.features, {});
+      return answerOf(parts, keepFeatures(core, parts.X_WA, memory.features), scale, core.features, {});
   }
   const PairsInPlace in_place = findInPlace(parts, scale.shift_m, memory.features, gap);
   if (in_place.found) return answerOf(parts, gap, scale, memory.features, {in_place.visited, false});
-  return search(parts, scale, in_place.visited, memory);
+  return searchFromMemory(parts, scale, in_place.visited, memory);
 }
 
 // Debug builds hold every answer against its proof.
@@ -276,14 +297,25 @@ void holdAgainstItsProof([[maybe_unused]] const ClosestFeatures& answer,
 #endif
 }
 
+// Of a query that what was closest last time, or what it leads on to, has answered: no depth, so no memory of
+// one.
+ClosestFeatures answerInPlace(const PosedParts& parts, const PlacedGap& gap, const Scale& scale,
+                              const FeaturePair& features, int visited) {
+  const ClosestFeatures result = answerOf(parts, gap, scale, features, {visited, false});
+  holdAgainstItsProof(result, parts, nullptr);
+  return result;
+}
+
 // The rest of a query by features alone: what it may need to prove a depth is its own.
 ClosestFeatures searchByFeatures(const PosedParts& parts, const Scale& scale, int visited,
                                  FeaturePair& tracked) {
   StackArena<kPolytopeBytes> arena;
-  PairMemory memory{tracked, InnerPolytope(arena.resource())};
-  const ClosestFeatures result = search(parts, scale, visited, memory);
-  holdAgainstItsProof(result, parts, &memory);
-  tracked = memory.features;
+  DepthProof proof{nullptr, &arena};
+  const ClosestFeatures result = search(parts, scale, visited, tracked, proof);
+#ifndef NDEBUG
+  const PairMemory left{tracked, proof.polytope != nullptr ? *proof.polytope : InnerPolytope()};
+  holdAgainstItsProof(result, parts, &left);
+#endif
   return result;
 }
 
@@ -304,9 +336,7 @@ ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const Con
   PlacedGap gap;
   const PairsInPlace in_place = findInPlace(parts, scale.shift_m, tracked, gap);
   if (!in_place.found) return searchByFeatures(parts, scale, in_place.visited, tracked);
-  const ClosestFeatures result = answerOf(parts, gap, scale, tracked, {in_place.visited, false});
-  holdAgainstItsProof(result, parts, nullptr);
-  return result;
+  return answerInPlace(parts, gap, scale, tracked, in_place.visited);
 }
 
 }  // namespace carom

@@ -33,7 +33,7 @@ KeptCorners formerCorners(const ContactPolygon& polygon, FormerPoints former) {
 ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts& parts,
                                 const CollisionWindow& window, FormerPoints former) {
   StackArena<kPolygonBytes> arena;
-  ContactPolygon polygon{Vec3::UnitZ(), std::pmr::vector<PolygonCorner>(arena.resource())};
+  ContactPolygon polygon{Vec3::UnitZ(), ArenaVector<PolygonCorner>(&arena)};
   contactPolygon(closest, parts, window, polygon);
   const KeptCorners kept =
       reducePolygon(polygon, sameCorner_m(parts.X_WA, parts.X_WB, window),

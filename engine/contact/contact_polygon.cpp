@@ -192,7 +192,7 @@ void loadSubject(const Placed& subject, const Lying& lying, ClipPolygon& polygon
 
 // B's face looks against the normal: its loop is clockwise here. Turned round, each corner's way on is the
 // way that led to it.
-void turnRound(std::pmr::vector<ClipCorner>& corners) {
+void turnRound(ArenaVector<ClipCorner>& corners) {
   std::reverse(corners.begin(), corners.end());
   const int first = corners.front().subject_edge;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) corners[i].subject_edge = corners[i + 1].subject_edge;
@@ -268,7 +268,7 @@ void clippedPolygon(const PlacedPair& pair, const Lying& lying, ContactPolygon& 
   const std::size_t most = cornersOfSubject(subject.core, lying) +
                            clip.core.faceEdges(lying.clip_face).size() + 2;  // a cut adds one corner at most
   StackArena<kClipBytes> arena;
-  ClipPolygon clipped(most, arena.resource());
+  ClipPolygon clipped(most, &arena);
   loadSubject(subject, lying, clipped);
   if (lying.subject_face >= 0 && lying.subject_is_b) turnRound(clipped.corners);
   clipBySides(clip, lying.clip_face, lying.subject_is_b, subject_face, pair.same_m, clipped);
@@ -366,7 +366,7 @@ void sharedStretch(const PlacedPair& pair, int e_a, int e_b, ContactPolygon& pol
 }
 
 // The polygon begins with the corner whose name is lowest.
-void beginWithLowestName(std::pmr::vector<PolygonCorner>& corners) {
+void beginWithLowestName(ArenaVector<PolygonCorner>& corners) {
   const auto lowest =
       std::min_element(corners.begin(), corners.end(), [](const PolygonCorner& x, const PolygonCorner& y) {
         return symmetricKey(x.features) < symmetricKey(y.features);

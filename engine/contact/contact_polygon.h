@@ -6,11 +6,9 @@
 // two are, or on motion well below the tolerance `sameCorner_m`. Tested in
 // tests/engine/contact/contact_polygon_test.cpp.
 
-#include <memory_resource>
-#include <vector>
-
 #include "engine/contact/collision_window.h"
 #include "engine/contact/contact_state.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 
@@ -27,7 +25,7 @@ struct ContactPolygon {
   Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
   /// Counter-clockwise seen from the tip of `n_W`. Two corners are a stretch, one is a point; none: nothing
   /// of the two parts lies flat, and the closest points are all the contact there is.
-  std::pmr::vector<PolygonCorner> corners;
+  ArenaVector<PolygonCorner> corners;
 };
 
 /// Normals whose cosine is this near to 1 are one direction; faces whose cosines to a direction are this near

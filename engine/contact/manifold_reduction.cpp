@@ -33,7 +33,7 @@ struct FlatCorner {
   bool deepest = false;
 };
 
-using FlatCorners = std::pmr::vector<FlatCorner>;
+using FlatCorners = ArenaVector<FlatCorner>;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -181,9 +181,9 @@ bool toUnitFrame(FlatCorners& corners, const FlatCorner& p, const FlatCorner& q)
 
 // The thinning of one chain, ends included in `stands` already: what stands out farthest from the chord
 // stays, and so on in both halves. `open`: the memory of its stack.
-using Halves = std::pmr::vector<std::pair<std::size_t, std::size_t>>;
+using Halves = ArenaVector<std::pair<std::size_t, std::size_t>>;
 void thinChain(std::span<const FlatCorner> corners, std::size_t begin, std::size_t end,
-               std::pmr::vector<char>& stands, Halves& open) {
+               ArenaVector<char>& stands, Halves& open) {
   const auto at = [&](std::size_t i) -> const FlatCorner& {
     return corners[i < corners.size() ? i : i - corners.size()];
   };
@@ -216,9 +216,9 @@ void thinChain(std::span<const FlatCorner> corners, std::size_t begin, std::size
 // stretch is by corners of its own.
 void thin(FlatCorners& corners, const FlatCorner& p, const FlatCorner& q) {
   const std::size_t n = corners.size();
-  std::pmr::memory_resource* memory = corners.get_allocator().resource();
-  std::pmr::vector<char> stands(n, 0, memory);
-  std::pmr::vector<std::size_t> fixed(memory);
+  Arena* memory = corners.get_allocator().arena();
+  ArenaVector<char> stands(n, 0, memory);
+  ArenaVector<std::size_t> fixed(memory);
   Halves open(memory);
   stands[static_cast<std::size_t>(p.index)] = stands[static_cast<std::size_t>(q.index)] = 1;
   for (std::size_t i = 0; i < n; ++i)
@@ -292,7 +292,7 @@ KeptCorners reducePolygon(const ContactPolygon& polygon, double same_gap_m, cons
     return kept;
   }
   StackArena<kReductionBytes> arena;
-  FlatCorners corners(arena.resource());
+  FlatCorners corners(&arena);
   flatten(polygon, same_gap_m, corners);
   const FlatCorner deepest =
       *std::min_element(corners.begin(), corners.end(), [](const FlatCorner& x, const FlatCorner& y) {

@@ -50,8 +50,7 @@ Touched touchedBy(std::span<const ClipCorner> corners, double same_m) {
 }
 
 // Puts `fresh` in the place of the touched corners; the others stay where they are.
-void splice(std::pmr::vector<ClipCorner>& corners, const Touched& touched,
-            std::pmr::vector<ClipCorner>& fresh) {
+void splice(ArenaVector<ClipCorner>& corners, const Touched& touched, ArenaVector<ClipCorner>& fresh) {
   if (touched.begin == 0 && touched.end == corners.size()) return std::swap(corners, fresh);
   const auto at = [&](std::size_t i) { return corners.begin() + static_cast<std::ptrdiff_t>(i); };
   const std::size_t common = std::min(fresh.size(), touched.end - touched.begin);
@@ -74,8 +73,8 @@ void joinWays(std::span<ClipCorner> corners) {
 // cut to the features of a corner that lies on it; `cut_edge` is the clipping edge that the cut runs along.
 template <typename Name, typename Rename>
 void cut(ClipPolygon& polygon, int cut_edge, double same_m, Name&& name, Rename&& rename) {
-  std::pmr::vector<ClipCorner>& corners = polygon.corners;
-  std::pmr::vector<ClipCorner>& fresh = polygon.scratch;
+  ArenaVector<ClipCorner>& corners = polygon.corners;
+  ArenaVector<ClipCorner>& fresh = polygon.scratch;
   fresh.clear();
   const std::size_t n = corners.size();
   const auto alongTheCut = [&](ClipCorner& corner) {

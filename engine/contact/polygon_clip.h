@@ -5,10 +5,8 @@
 // meet within `same_m` of it, so that a corner exactly on a side has one name however rounding falls.
 // Tested in tests/engine/contact/contact_polygon_test.cpp.
 
-#include <memory_resource>
-#include <vector>
-
 #include "engine/closest_features/pair/feature.h"
+#include "engine/foundation/stack_arena.h"
 #include "engine/solid/convex_polyhedron.h"
 
 namespace carom {
@@ -26,13 +24,13 @@ struct ClipCorner {
 /// Corners in order; two are a segment, one is a point.
 struct ClipPolygon {
   /// With memory for as many corners.
-  ClipPolygon(std::size_t most, std::pmr::memory_resource* memory) : corners(memory), scratch(memory) {
+  ClipPolygon(std::size_t most, Arena* memory) : corners(memory), scratch(memory) {
     corners.reserve(most);
     scratch.reserve(most);
   }
 
-  std::pmr::vector<ClipCorner> corners;
-  std::pmr::vector<ClipCorner> scratch;
+  ArenaVector<ClipCorner> corners;
+  ArenaVector<ClipCorner> scratch;
 };
 
 /// The inner side of a line: `into` is unit, inside where into . p > offset_m.

@@ -23,8 +23,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
-#include <vector>
 
 #include "engine/closest_features/penetrating/penetration.h"
 
@@ -33,7 +31,7 @@ namespace carom {
 class InnerPolytope {
  public:
   /// Its memory comes from `memory`, that of a copy from the heap.
-  explicit InnerPolytope(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit InnerPolytope(Arena* memory = nullptr)
       : corners_(memory),
         triangles_(memory),
         reach_(memory),
@@ -136,13 +134,13 @@ class InnerPolytope {
   void connect(int triangle, int from, int neighbour);
   double boundNow(std::size_t triangle) const { return reach_[triangle] - odometer_m_; }
 
-  std::pmr::vector<Corner> corners_;
-  std::pmr::vector<Triangle> triangles_;
-  std::pmr::vector<double> reach_;  // by triangle: the odometer at which it may have come to the origin
-  std::pmr::vector<int> free_;      // places of removed triangles
-  std::pmr::vector<int> visible_;
-  std::pmr::vector<int> low_;
-  std::pmr::vector<HorizonEdge> horizon_;
+  ArenaVector<Corner> corners_;
+  ArenaVector<Triangle> triangles_;
+  ArenaVector<double> reach_;  // by triangle: the odometer at which it may have come to the origin
+  ArenaVector<int> free_;      // places of removed triangles
+  ArenaVector<int> visible_;
+  ArenaVector<int> low_;
+  ArenaVector<HorizonEdge> horizon_;
   std::size_t corners_when_built_ = 0;
   int query_ = 0;
   int expansions_ = 0;

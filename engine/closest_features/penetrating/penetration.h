@@ -5,11 +5,10 @@
 // (faces x support + edges x edges) that answers where the tracked search (inner_polytope.h) has nothing to
 // grow in. Tested in tests/engine/closest_features/penetrating/penetration_test.cpp.
 
-#include <memory_resource>
 #include <optional>
-#include <vector>
 
 #include "engine/closest_features/pair/feature_distance.h"
+#include "engine/foundation/stack_arena.h"
 
 namespace carom {
 
@@ -23,7 +22,7 @@ struct MinimumTranslation {
   Vec3 p_b = Vec3::Zero();  ///< On B's surface; p_b - p_a = gap * normal.
 };
 /// Several of them, in memory of the caller's choice (stack_arena.h).
-using MinimumTranslations = std::pmr::vector<MinimumTranslation>;
+using MinimumTranslations = ArenaVector<MinimumTranslation>;
 
 /// Of the faces at a vertex, the one that faces `direction` most; -1 on a point or segment.
 int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction);

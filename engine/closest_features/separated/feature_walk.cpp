@@ -206,7 +206,7 @@ Move FeatureWalk::moveToEntry(int face, bool entered_a) {
 // The features of a slab wider than the present one are closer than the present ones, if they hold it.
 bool FeatureWalk::moveToLevelAxis() {
   StackArena<kAxesBytes> arena;
-  MinimumTranslations axes(arena.resource());
+  MinimumTranslations axes(&arena);
   gatherLevelAxes(pair_, answerFrom(pair_, here()), noise_m_, axes);
   bool moved = false;
   for (const MinimumTranslation& axis : axes) moved = moveTo(axis.features) || moved;

@@ -23,7 +23,7 @@ double fourArea(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 double largestArea(const ContactPolygon& polygon, bool with_deepest) {
-  const std::pmr::vector<PolygonCorner>& c = polygon.corners;
+  const ArenaVector<PolygonCorner>& c = polygon.corners;
   double least = c[0].gap_m;
   for (const PolygonCorner& x : c) least = std::min(least, x.gap_m);
   const auto deepest = [&](std::size_t i) { return c[i].gap_m <= least + kSameGap; };

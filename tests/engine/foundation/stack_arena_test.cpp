@@ -9,7 +9,7 @@ namespace {
 
 TEST(StackArena, AVectorThatFits_LiesInTheArena) {
   StackArena<1024> arena;
-  std::pmr::vector<int> numbers(200, 7, arena.resource());
+  ArenaVector<int> numbers(200, 7, &arena);
   const auto* begin = reinterpret_cast<const std::byte*>(&arena);
   const auto* place = reinterpret_cast<const std::byte*>(numbers.data());
   EXPECT_GE(place, begin);
@@ -18,7 +18,7 @@ TEST(StackArena, AVectorThatFits_LiesInTheArena) {
 
 TEST(StackArena, WhatOutgrowsIt_GoesOnInTheHeapAndKeepsItsContent) {
   StackArena<256> arena;
-  std::pmr::vector<double> numbers(arena.resource());
+  ArenaVector<double> numbers(&arena);
   for (int i = 0; i < 1000; ++i) numbers.push_back(i);
   const auto* begin = reinterpret_cast<const std::byte*>(&arena);
   const auto* place = reinterpret_cast<const std::byte*>(numbers.data());
@@ -28,8 +28,8 @@ TEST(StackArena, WhatOutgrowsIt_GoesOnInTheHeapAndKeepsItsContent) {
 
 TEST(StackArena, VectorsOfSeveralTypes_AreAligned) {
   StackArena<1024> arena;
-  const std::pmr::vector<char> odd(3, 'x', arena.resource());
-  const std::pmr::vector<double> wide(3, 1.0, arena.resource());
+  const ArenaVector<char> odd(3, 'x', &arena);
+  const ArenaVector<double> wide(3, 1.0, &arena);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(wide.data()) % alignof(double), 0u);
 }
 
