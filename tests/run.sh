@@ -1,9 +1,30 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, runs the tests. Arguments go to ctest (for example: -R Frame).
+# Installs what is missing, builds everything, runs the tests. Arguments go to ctest (for example: -R Frame). With --all: the
+# tools too without which tests are skipped, and after the tests what checks.sh lists, as far as an hour is enough for it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
 
+CAROM_CHECKS_BEGAN=$(date +%s)
+all=false
+if [ "${1-}" = --all ]; then all=true; shift; fi
 install_missing_packages
+if $all; then
+  # What cannot be had leaves its tests skipped.
+  install_missing_packages openimageio-tools chromium python3-numpy doxygen glslang-tools pngcheck zsh fish groff ||
+    echo "tests of the tools that are missing are skipped" >&2
+  if command -v npm >/dev/null; then
+    npm install --silent --no-audit --no-fund --prefix "$(build_folder npm)" gltf-validator >/dev/null 2>&1 ||
+      echo "without gltf-validator its test is skipped" >&2
+    NODE_PATH="$(realpath -m "$(build_folder npm)/node_modules")${NODE_PATH:+:$NODE_PATH}"
+    export NODE_PATH
+  fi
+fi
 build_release all
-ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@"
+code=0
+ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@" || code=$?
+if $all; then
+  export CAROM_CHECKS_BEGAN CAROM_CHECKS_END_S=${CAROM_CHECKS_END_S:-3000}
+  bash tests/checks.sh || code=$?
+fi
+exit $code
