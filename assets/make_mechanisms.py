@@ -82,10 +82,12 @@ def turntable():
           "green ones at 0.6, 0.8 and 0.97.",
           "on a turntable friction holds what is within mu g / w^2: green blocks ride, red ones slide off",
           {"floor": FLOOR, "rubber": {"staticFriction": friction, "density": 800}},
-          bodies, main_camera([0.15, -2.3, 1.75], [0.03, 0.02, 0.22], 37), 3.5, FOLDER,
+          bodies, main_camera([0.15, -2.4, 1.85], [0.05, -0.03, 0.16], 38), 3.5, FOLDER,
           group="sliding and resting",
           lookFor="Green blocks ride along for ever, red ones slide off: the limit lies between 0.97 and 1.03.",
-          caption="held within μg/ω² = {=0.25*9.81/2^2:3} m   from the axis: {=sqrt([at 0.97 of the radius.x]^2+[at 0.97 of the radius.y]^2):3} m rides, {=sqrt([at 1.03 of the radius.x]^2+[at 1.03 of the radius.y]^2):3} m slid")
+          caption="μg/ω² = {=0.25*9.81/2^2:3} m holds   from the axis: {=sqrt([at 0.97 of the "
+                  "radius.x]^2+[at 0.97 of the radius.y]^2):3} and {=sqrt([at 1.03 of the radius.x]^2+[at "
+                  "1.03 of the radius.y]^2):3} m")
 
 
 def involute_gear(teeth, module, backlash=0.02, addendum=0.8, dedendum=1.0, flank=4):
@@ -135,7 +137,8 @@ def gears():
           bodies, main_camera([0.4, -3.9, 3.5], [0, -0.1, 0.2], 44), 5, FOLDER,
           group="machines",
           lookFor="The idler turns the other way, at 18/27 of the rate.",
-          caption="ω = 1.5 rad/s, ×18/27 = {=1.5*18/27:3}   measured: idler {=-[idler.wz]:3}, last {body:driven.wz:3} rad/s")
+          caption="ω = 1.5 rad/s, ×18/27 = {=1.5*18/27:3}   measured: idler {=-[idler.wz]:3}, last "
+                  "{body:driven.wz:3} rad/s")
 
 
 def bowl_profile(radius, wall, segments):

@@ -137,7 +137,8 @@ def double_cone():
           {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.8}, "wood": {"staticFriction": 0.8, "density": 600}},
           bodies, main_camera([1.2, -5.6, 2.4], [0.05, 0, 0.8], 36), 4, FOLDER, 480, group="accuracy beside theory",
           lookFor="The rails rise to the right, the cone rolls to the right, and its axle sinks.",
-          caption="tan(rise) = {=tan(3.2):3} < {=tan(17)*0.55/1.15:3} = tan φ tan β: it rolls up   axle {=1000*([double cone.z]-z0):0} mm",
+          caption="tan(rise) = {=tan(3.2):3} < {=tan(17)*0.55/1.15:3} = tan φ tan β: it rolls up   axle "
+                  "{=1000*([double cone.z]-z0):0} mm",
           set={"z0": z})
 
 
@@ -239,7 +240,7 @@ def ring_toss():
               body("post", {"capsule": {"radius": 0.09, "length": 1.15}}, [0, 0, 0.12 + 0.62], static=True, material="wood",
                    color=OAK)]
     for k, color in enumerate((RED, SKY, ORANGE, GREEN, PINK)):
-        flight = 0.6 + 0.3 * k
+        flight = 0.6 + 0.38 * k
         start, goal = [-2.6, 1.1 * (k - 2), 0.6], 1.45
         bodies.append(body(f"ring {k + 1}", mesh("ring.obj"), start, rotation=turn([0, 0, 1], 40 * k),
                            linearVelocity=[-start[0] / flight, -start[1] / flight,
@@ -250,9 +251,9 @@ def ring_toss():
           "ring is a mesh with a hole, and the post goes through it.",
           "five rings come down over a post, one after the other",
           {"floor": FLOOR, "wood": {"staticFriction": 0.4}, "rubber": {"staticFriction": 0.5, "restitution": 0.1, "density": 1100}},
-          bodies, main_camera([1.5, -5.4, 2.6], [-0.8, 0, 1.35], 42), 3, FOLDER, 240, group="meshes",
+          bodies, main_camera([1.5, -5.4, 2.6], [-0.8, 0, 1.5], 45), 3.4, FOLDER, 240, group="meshes",
           lookFor="The rings stay on the post: what goes through a hole is never lost to it.",
-          caption="rings over the post: the last one flies {=0.6+4*0.3:2} s   t = {=time:2} s")
+          caption="rings over the post: the last one flies {=0.6+4*0.38:2} s   t = {=time:2} s")
 
 
 def roller_conveyor():
@@ -425,7 +426,7 @@ def iceberg():
                    "waves": [{"amplitude": 0.03, "wavelength": 4.0, "direction": [1, 0.3]}]}])
 
 
-def avalanche(count=160):
+def avalanche(count=240):
     """Stones behind a gate on a slope; the gate is lifted."""
     slope, long, wide = 33.0, 15.0, 6.0
     a = math.radians(slope)

@@ -111,7 +111,8 @@ def dzhanibekov():
           {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.3, "density": density}},
           bodies, main_camera([1.3, -4.8, 2.2], [0, 0, 1.33], 29), 3 * (second - first) + first + 0.3, FOLDER,
           gravity=[0, 0, 0], group="accuracy beside theory",
-          lookFor="The stem points down, turns over within a moment, points up, and comes back: always after the same time.",
+          lookFor="The stem points down, turns over within a moment, points up, and comes back: always "
+                  "after the same time.",
           caption="flips at {=t1:2} s and every {=T:2} s (Euler)   t = {=time:2} s, stem {=180-[handle.tilt]:0}° from up   "
                   "energy {=100*energy/E0:4} %",
           set={"t1": first, "T": second - first, "E0": energy})
@@ -178,14 +179,14 @@ def under(points, radius):
 
 
 def brachistochrone():
-    """Three beads without friction, from one height to one place: straight, along a cycloid, along an ellipse."""
+    """Three beads without friction, from one height to one place: straight, along a cycloid, along a deeper curve."""
     a, bead, pieces = 4.0, 0.3, 96
     width, drop = math.pi * a, 2 * a
     ways = {"straight": [(0.0, 0.0), (width, -drop)],
             "cycloid": [(a * (t - math.sin(t)), -a * (1 - math.cos(t))) for t in
                         (math.pi * k / pieces for k in range(pieces + 1))],
-            "ellipse": [(width * (1 - math.cos(t)), -drop * math.sin(t)) for t in
-                        (math.pi / 2 * k / pieces for k in range(pieces + 1))]}
+            "deep": [(width * (1 - math.cos(t) ** (2 / 3)), -drop * math.sin(t) ** (2 / 3)) for t in
+                     (math.pi / 2 * k / pieces for k in range(pieces + 1))]}
     times = {name: 0.0 for name in ways}
     for name, way in ways.items():  # exact on each straight piece
         speed = 0.0
@@ -194,7 +195,7 @@ def brachistochrone():
             times[name] += 2 * math.hypot(x1 - x0, z1 - z0) / (speed + after)
             speed = after
     bodies, top = [floor()], drop + bead + 0.6
-    for lane, (name, color) in enumerate((("straight", RED), ("cycloid", GREEN), ("ellipse", BLUE))):
+    for lane, (name, color) in enumerate((("straight", RED), ("cycloid", GREEN), ("deep", BLUE))):
         y, x = 1.5 * (1 - lane), -width / 2
         bodies.append(body(f"{name} track", {"compound": track_of(under(ways[name], bead + 0.0005), 0.2, 0.5)}, [x, y, top],
                            static=True, material="steel", color="#c9d0d6"))
@@ -204,17 +205,17 @@ def brachistochrone():
         bodies.append(body(name, {"sphere": {"radius": bead}}, [x, y, top], locked=["y"], material="bead", color=color))
     write("brachistochrone",
           "Without friction the quickest way down is no straight line but a cycloid: T = pi sqrt(a/g), here "
-          f"{times['cycloid']:.3f} s, against {times['straight']:.3f} s straight and {times['ellipse']:.3f} s along an "
-          "ellipse, which is steeper at first and longer.",
-          "beads race down a straight line, a cycloid and an ellipse; the cycloid wins",
+          f"{times['cycloid']:.3f} s, against {times['straight']:.3f} s straight and {times['deep']:.3f} s along a "
+          "deeper curve, which is steeper at first and longer.",
+          "beads race down a straight line, a cycloid and a deeper curve; the cycloid wins",
           {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0, "restitution": 1}, "rubber": {"staticFriction": 0.9},
            "bead": {"staticFriction": 0, "density": 2500}},
           bodies, main_camera([7.0, -20.5, 8.8], [0.75, 0, 3.6], 33), 3.4, FOLDER, group="accuracy beside theory",
           lookFor="The green bead on the cycloid arrives first, though its way is longer than the red one's.",
-          caption="theory: straight {=t1:2} s, cycloid π√(a/g) = {=t2:2} s, ellipse {=t3:2} s   t = {=time:2} s   "
+          caption="theory: straight {=t1:2} s, cycloid π√(a/g) = {=t2:2} s, deeper {=t3:2} s   t = {=time:2} s   "
                   "gone: {=min(100, 50+100*[straight.x]/w):0}, {=min(100, 50+100*[cycloid.x]/w):0}, "
-                  "{=min(100, 50+100*[ellipse.x]/w):0} %",
-          set={"t1": times["straight"], "t2": times["cycloid"], "t3": times["ellipse"], "w": width})
+                  "{=min(100, 50+100*[deep.x]/w):0} %",
+          set={"t1": times["straight"], "t2": times["cycloid"], "t3": times["deep"], "w": width})
 
 
 def stand(name, y, high):
@@ -250,7 +251,8 @@ def seesaw():
           "beams in balance, just out of it, and far from it",
           {"floor": FLOOR, "concrete": {"staticFriction": 0.5}, "wood": {"staticFriction": 0.6, "density": 500}},
           bodies, main_camera([1.7, -6.8, 3.2], [0.1, 0, 0.9], 34), 4, FOLDER, group="machines",
-          lookFor="The far beam stays level, the middle one, 5 % out of balance, tips, the near one throws its load up.",
+          lookFor="The far beam stays level, the middle one, 5 % out of balance, tips, the near one throws "
+                  "its load up.",
           caption="10 kg · 1.30 m = 20 kg · 0.65 m: tilt {body:even beam.tilt:3}°   21 kg: {body:uneven beam.tilt:1}°   "
                   "the jumper: {body:jumper.z:2} m")
 

@@ -156,7 +156,7 @@ struct CommandLine {
   bool wants_fish = false;
   std::string help_of;
   std::string size;
-  std::string caption = "on";
+  std::string caption;
   std::string budget_size;
   std::string figures_size;
   std::string budget_tolerance;
@@ -356,7 +356,10 @@ void CommandLine::addOverlayOptions() {
       "Drawn over each frame, comma separated (--overlay help says what each is):\n" + names);
   render_command->add_option("--focus", render_options.focus,
                              "Overlays speak of these bodies only; of one, all its pairs");
-  render_command->add_option("--caption", caption, "on, off: the scene's line of text over each frame (on)")
+  render_command
+      ->add_option("--caption", caption,
+                   "on, off: the scene's line of text over each frame (on; with --portable off, for it "
+                   "depends on fonts)")
       ->check(CLI::IsMember({"on", "off"}));
 }
 
@@ -779,7 +782,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   }
   checkValues(line);
   for (int i = 1; i < argc; ++i) line.budget_options.words.emplace_back(argv[i]);
-  line.render_options.caption = line.caption == "on";
+  line.render_options.caption = line.caption.empty() ? !line.render_options.portable : line.caption == "on";
   line.render_options.states = line.render_options.states || line.render_options.portable;
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);
