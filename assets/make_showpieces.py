@@ -426,7 +426,7 @@ def iceberg():
                    "waves": [{"amplitude": 0.03, "wavelength": 4.0, "direction": [1, 0.3]}]}])
 
 
-def avalanche(count=240):
+def avalanche(count=216):
     """Stones behind a gate on a slope; the gate is lifted."""
     slope, long, wide = 33.0, 15.0, 6.0
     a = math.radians(slope)
@@ -469,7 +469,7 @@ def avalanche(count=240):
           f"{count} stones come down a slope when a gate is lifted",
           {"floor": FLOOR, "rock": {"staticFriction": 0.45}, "steel": {"staticFriction": 0.05},
            "stone": {"staticFriction": 0.45, "restitution": 0.1, "density": 2400}},
-          bodies, main_camera([11.0, -12.5, 7.6], [-1.4, 0, 2.4], 36), 5, FOLDER, 120, group="large",
+          bodies, main_camera([11.0, -13.5, 8.4], [-2.6, 0, 2.9], 37), 5, FOLDER, 120, group="large",
           lookFor="The front runs out on the floor, the tail still slides: the heap stops from the front backwards.",
           caption=f"{count} hulls   tan 33° = {{=tan(33):2}} against μ = 0.45")
 
