@@ -8,10 +8,10 @@ Usage: python3 assets/make_showpieces.py        (needs nothing but Python 3)
 import math
 import random
 
-from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, STEEL, YELLOW, FLOOR
+from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, YELLOW, FLOOR
 from make_scenes import body, floor, main_camera, turn, write
 from make_mechanisms import mesh
-from make_theory import DARK_OAK, OAK, SAND_FLOOR, SLATE_FLOOR, part
+from make_theory import DARK_OAK, OAK, SLATE_FLOOR, part
 
 CANDY = [RED, ORANGE, YELLOW, GREEN, SKY, BLUE, PINK]
 
@@ -288,30 +288,6 @@ def roller_conveyor():
           set={"w": spin, "r": radius})
 
 
-def wave_of_pistons():
-    """Pistons in a travelling wave, and balls that ride on it."""
-    count, pitch, wide, stroke, period = 16, 0.42, 1.4, 0.34, 2.4
-    bodies = [floor()]
-    for k in range(count):
-        keyframes = []
-        for i in range(17):
-            phase = 2 * math.pi * (i / 16 - k / 8)
-            keyframes.append({"time": period * i / 16, "position": [(k - (count - 1) / 2) * pitch, 0, 0.72 + stroke * math.sin(phase)]})
-        bodies.append(body(f"piston {k + 1}", {"box": [pitch - 0.03, wide, 0.8]}, [0, 0, 0], material="steel",
-                           color=[BLUE, "#3d8bc0", SKY, "#3d8bc0"][k % 4],
-                           kinematic={"keyframes": keyframes, "interpolation": "smooth", "repeats": True}))
-        del bodies[-1]["position"]
-    for side in (-1, 1):
-        bodies.append(body(f"{'near' if side < 0 else 'far'} wall", {"box": [count * pitch + 0.4, 0.08, 1.25 if side < 0 else 2.2]},
-                           [0, side * (wide / 2 + 0.06), 0.63 if side < 0 else 1.1], static=True, material="wood", color=DARK_OAK))
-        bodies.append(body(f"{'left' if side < 0 else 'right'} end", {"box": [0.15, wide + 0.2, 2.2]},
-                           [side * (count * pitch / 2 + 0.1), 0, 1.1], static=True, material="wood", color=DARK_OAK))
-    for k in range(10):
-        bodies.append(body(f"ball {k + 1}", {"sphere": {"radius": 0.24}}, [-3.0 + 0.66 * k, 0.3 * (-1) ** k, 2.1], material="rubber",
-                           color=CANDY[k % 7]))
-    return bodies
-
-
 def catapult():
     """A weight falls on the lower end of a beam; the ball on the upper one flies into a wall of boxes."""
     high, long, thick, degrees = 1.6, 3.6, 0.12, 24.0
@@ -352,22 +328,6 @@ def catapult():
           bodies, main_camera([-0.4, -9.4, 3.3], [-1.15, 0, 2.1], 38), 2.8, FOLDER, 240, group="machines",
           lookFor="The weight falls on the far end; what the ball gets of it takes it right into the wall.",
           caption="the ball: {body:shot.speed:1} m/s, {body:shot.z:1} m high")
-
-
-def wrecking_ball():
-    """A chain of links with a heavy ball on its end, held aside, and a wall."""
-    scale = 2.0
-    inside = (0.07 + 0.08 - 0.03) * scale
-    pitch = 2 * (inside - 0.008)
-    hook, count = 5.2, 9
-    lean = math.radians(68)
-    d = (-math.sin(lean), -math.cos(lean))
-    bodies = [floor(), body("hook", {"capsule": {"radius": 0.07, "length": 1.6}}, [0, 0, hook + 0.0],
-                            rotation=turn([1, 0, 0], 90), static=True, material="steel", color=SLATE)]
-    for y in (-1, 1):
-        bodies.append(body(f"{'near' if y < 0 else 'far'} mast", {"box": [0.25, 0.25, hook + 0.3]}, [0, y * 0.95, (hook + 0.3) / 2],
-                           static=True, material="steel", color="#e0a43a"))
-    return bodies, d, pitch, inside, count
 
 
 def raft_in_waves():
@@ -426,7 +386,7 @@ def iceberg():
                    "waves": [{"amplitude": 0.03, "wavelength": 4.0, "direction": [1, 0.3]}]}])
 
 
-def avalanche(count=216):
+def avalanche(count=208):
     """Stones behind a gate on a slope; the gate is lifted."""
     slope, long, wide = 33.0, 15.0, 6.0
     a = math.radians(slope)
@@ -469,7 +429,7 @@ def avalanche(count=216):
           f"{count} stones come down a slope when a gate is lifted",
           {"floor": FLOOR, "rock": {"staticFriction": 0.45}, "steel": {"staticFriction": 0.05},
            "stone": {"staticFriction": 0.45, "restitution": 0.1, "density": 2400}},
-          bodies, main_camera([11.0, -13.5, 8.4], [-2.6, 0, 2.9], 37), 5, FOLDER, 120, group="large",
+          bodies, main_camera([11.0, -14.2, 8.4], [-1.7, 0, 1.9], 38), 5, FOLDER, 120, group="large",
           lookFor="The front runs out on the floor, the tail still slides: the heap stops from the front backwards.",
           caption=f"{count} hulls   tan 33° = {{=tan(33):2}} against μ = 0.45")
 

@@ -9,14 +9,12 @@ tests/demos/scene/theory_scenes_test.cpp.
 
 import math
 
-from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, STEEL, YELLOW, FLOOR
+from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, YELLOW, FLOOR
 from make_scenes import body, floor, main_camera, turn, write
 from make_mechanisms import mesh, revolved, write_mesh
 
 SLATE_FLOOR = {**FLOOR, "color": "#7f8a94"}
-SAND_FLOOR = {**FLOOR, "color": "#e2d3b6"}
 OAK, DARK_OAK = "#c49a6c", "#8a6038"
-IN_PLANE = ["x", "z", "turnY"]
 
 
 def part(shape, position=(0, 0, 0), rotation=None):
