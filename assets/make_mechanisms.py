@@ -191,7 +191,7 @@ def marble_in_a_funnel():
           "and end in the cup that stands below it on the floor.",
           "marbles spiral down a funnel, and fall through its spout into a cup",
           {"floor": FLOOR, "wood": {"staticFriction": 0.3, "restitution": 0.3, "rollingResistance": 0.004, "density": 700}},
-          bodies, main_camera([0.8, -1.9, 3.35], [0, 0.0, 0.98], 37), 5, FOLDER,
+          bodies, main_camera([0.8, -1.9, 3.35], [0, 0.0, 0.98], 37), 6.8, FOLDER,
           group="meshes",
           lookFor="Each round is lower than the one before, until the spout.",
           caption="marbles at {body:marble 1.speed:2}, {body:marble 2.speed:2}, {body:marble 3.speed:2} m/s")
