@@ -386,7 +386,7 @@ def iceberg():
                    "waves": [{"amplitude": 0.03, "wavelength": 4.0, "direction": [1, 0.3]}]}])
 
 
-def avalanche(count=208):
+def avalanche(count=130):
     """Stones behind a gate on a slope; the gate is lifted."""
     slope, long, wide = 33.0, 15.0, 6.0
     a = math.radians(slope)
@@ -407,21 +407,19 @@ def avalanche(count=208):
         {"time": 1.1, "position": [g + u for g, u in zip(gate, up)], "rotation": turn([0, 1, 0], slope)}]}))
     del bodies[-1]["position"]
     rng = random.Random(4)
-    shapes = [("gem", "meshes/gem.obj", 0.42), ("stone", "meshes/dodecahedron.ply", 0.42), ("rock", "meshes/icosahedron.off", 0.4),
-              ("wedge", "meshes/wedge.stl", 0.36)]
-    grey = ["#9aa3ab", "#7d858d", "#b6a48b", "#8c7a66", "#a9b2ba", "#6f7780"]
+    shapes = [("gem", "meshes/gem.obj", 0.58), ("stone", "meshes/dodecahedron.ply", 0.56), ("rock", "meshes/icosahedron.off", 0.54)]
     number = 0
     for layer in range(20):
-        for row in range(9):
-            for k in range(11):
+        for row in range(7):
+            for k in range(8):
                 if number >= count:
                     break
-                name, file, fit = shapes[number % 4]
-                d, h = 9.75 + 0.5 * row, 0.32 + 0.5 * layer
+                name, file, fit = shapes[number % 3]
+                d, h = 9.85 + 0.68 * row, 0.4 + 0.68 * layer
                 bodies.append(body(f"{name} {number + 1}", {"hull": {"file": file, "fit": fit}},
-                                   along(d + rng.uniform(-0.02, 0.02), h, (k - 5) * 0.5 + rng.uniform(-0.02, 0.02)),
+                                   along(d + rng.uniform(-0.02, 0.02), h, (k - 3.5) * 0.7 + rng.uniform(-0.02, 0.02)),
                                    rotation=turn([rng.uniform(-1, 1), rng.uniform(-1, 1), 0.5], rng.uniform(0, 90)), material="stone",
-                                   color=grey[number * 7 % 6] if number % 9 else ORANGE))
+                                   color=CANDY[number * 5 % 7]))
                 number += 1
     write("avalanche",
           f"{count} stones lie behind a gate on a slope of {slope:.0f} degrees, steeper than their friction holds. The gate "
@@ -429,7 +427,7 @@ def avalanche(count=208):
           f"{count} stones come down a slope when a gate is lifted",
           {"floor": FLOOR, "rock": {"staticFriction": 0.45}, "steel": {"staticFriction": 0.05},
            "stone": {"staticFriction": 0.45, "restitution": 0.1, "density": 2400}},
-          bodies, main_camera([11.0, -14.2, 8.4], [-1.7, 0, 1.9], 38), 5, FOLDER, 120, group="large",
+          bodies, main_camera([11.0, -14.2, 8.4], [-1.7, 0, 1.9], 38), 5, FOLDER, 120, group="many contacts",
           lookFor="The front runs out on the floor, the tail still slides: the heap stops from the front backwards.",
           caption=f"{count} hulls   tan 33° = {{=tan(33):2}} against μ = 0.45")
 
