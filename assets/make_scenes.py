@@ -539,7 +539,7 @@ def pyramid(folder):
           "stays.",
           "a pyramid of 210 boxes, and a ball that takes its top away",
           {"floor": FLOOR, "brick": {"staticFriction": 0.6, "density": 700}},
-          bodies, main_camera([1.8, -14.8, 4.3], [-0.2, 0, 2.6], 31), 3.4, folder, 60,
+          bodies, main_camera([2.5, -15.5, 4.9], [-0.1, 0, 3.0], 31), 3.4, folder, 60,
           group="large",
           lookFor="The top goes, the rest of the 210 boxes stays as it was.",
           caption="210 boxes in 20 rows   the ball: {body:ball.speed:1} m/s")
