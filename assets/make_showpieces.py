@@ -351,7 +351,7 @@ def raft_in_waves():
           {"floor": FLOOR, "wood": {"staticFriction": 0.5, "density": 500}, "cardboard": {"staticFriction": 0.35, "density": 180}},
           bodies, main_camera([3.6, -6.0, 2.9], [0.1, 0, 0.35], 36), 8, FOLDER, 120, group="air and water",
           lookFor="The raft follows the slope of the water, and the pile leans, shifts and begins to slide.",
-          caption="wave steepness up to {=360*0.16/5.2+360*0.05/2.3:0}°, friction holds up to 22°   raft at {body:raft.tilt:1}°", air={},
+          caption="wave steepness up to {=360*0.16/5.2+360*0.05/2.3:0}°, friction holds 19° in the pile, 22° on the deck   raft at {body:raft.tilt:1}°", air={},
           fluids=[{"name": "sea", "level": 0, "addedMass": 0.4, "linearDrag": 0.15, "color": "#5fb0b8",
                    "waves": [{"amplitude": 0.16, "wavelength": 5.2, "direction": [1, 0.35]},
                              {"amplitude": 0.05, "wavelength": 2.3, "direction": [0.5, 1], "phaseDegrees": 60}]}])

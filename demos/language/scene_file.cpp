@@ -348,7 +348,8 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
 /// Adds to `grown` how many values the scene was made into, also where it is refused.
 Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
   written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
-                    "materials", "air", "fluids", "bodies", "cameras", "duration", "group", "lookFor", "caption"});
+                    "materials", "air", "fluids", "bodies", "cameras", "duration", "group", "lookFor",
+                    "caption"});
   readFormat(written);
   const ExpandedScene expanded = expandScene(written, path, grown);
   const Json& json = expanded.scene;
@@ -377,7 +378,8 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   if (const Json* value = json.find("cameras"))
     for (const auto& [name, camera] : value->members())
       scene.cameras[name] = readCamera(camera, names, scene.duration_s);
-  if (const Json* value = json.find("caption")) scene.caption = readCaptionOf(*value, expanded.numbers, names);
+  if (const Json* value = json.find("caption"))
+    scene.caption = readCaptionOf(*value, expanded.numbers, names);
   if (scene.cameras.empty()) scene.cameras["main"] = SceneCamera();
   return scene;
 }
