@@ -121,7 +121,8 @@ CameraPath::CameraPath(const SceneCamera& camera, const SceneWorld& start, doubl
     if (dolly->body) body_ = bodyNamed(*dolly->body, start.names);
     curve_.emplace(dolly->points);
   } else if (const auto* moving = std::get_if<FrameMoving>(&camera_.motion)) {
-    const std::vector<Vec3> points = start.movedPoints();
+    std::vector<Vec3> points = start.movedPoints();
+    if (points.empty()) points = fittedPoints(start);  // Nothing moves.
     standAt({moving->direction, camera_.fov_degrees, aspect, moving->fill, kFewBeyond}, points);
   } else if (const auto* fit = std::get_if<FitView>(&camera_.motion)) {
     standAt({fit->direction, camera_.fov_degrees, aspect}, fittedPoints(start));

@@ -1,7 +1,8 @@
 #pragma once
 // Where a scene's camera is in a frame: a function of the frame's time and of the bodies' states there, and
-// of the bodies at the start, so that any frame can be drawn without those before it, from a recording as
-// well. Tested in tests/demos/scene/camera_path_test.cpp.
+// of the scene, so that any frame can be drawn without those before it, from a recording as well. Tested in
+// tests/demos/scene/camera_path_test.cpp, tests/demos/scene/moving_cameras_test.cpp and
+// tests/demos/scene/run_extent_test.cpp.
 
 #include <optional>
 #include <span>
@@ -30,7 +31,7 @@ std::vector<Vec3> fittedPoints(const SceneWorld& start);
 class CameraPath {
  public:
   /// `start` is the world as it is at the start; it need not outlive this. Throws InputError for a body that
-  /// is not there.
+  /// is not there. A camera that frames what moves runs the scene once, here.
   CameraPath(const SceneCamera& camera, const SceneWorld& start, double aspect);
 
   /// The camera at a time, with the bodies in the states that they have then.

@@ -59,5 +59,18 @@ TEST(CameraThatFramesWhatMoves, FillsTwoThirdsOfThePicture) {
   }
 }
 
+TEST(CameraThatFramesWhatMoves, FramesWhatStandsWhereNothingMoves) {
+  const Scene scene = parseScene(R"({ "format": 1, "bodies": [
+      { "name": "post", "shape": { "box": [1, 1, 3] }, "position": [40, 2, 3], "static": true } ] })",
+                                 "standing.json");
+  const SceneWorld made = makeSceneWorld(scene, std::nullopt);
+  SceneCamera camera;
+  camera.motion = FrameMoving{};
+  const renderer::Camera stands = CameraPath(camera, made, 16.0 / 9.0).at(0.0, made.world.states());
+  const auto pixel = renderer::projectToPixel(stands, 1600, 900, Vec3(40, 2, 3));
+  ASSERT_TRUE(pixel.has_value());
+  EXPECT_LT((*pixel - Vec2(800, 450)).norm(), 60.0);
+}
+
 }  // namespace
 }  // namespace carom::demos
