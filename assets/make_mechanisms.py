@@ -82,7 +82,12 @@ def turntable():
           "green ones at 0.6, 0.8 and 0.97.",
           "on a turntable friction holds what is within mu g / w^2: green blocks ride, red ones slide off",
           {"floor": FLOOR, "rubber": {"staticFriction": friction, "density": 800}},
-          bodies, main_camera([0.2, -2.6, 2.1], [0, 0, 0.1], 38), 5, FOLDER)
+          bodies, main_camera([0.15, -2.4, 1.85], [0.05, -0.03, 0.16], 38), 3.5, FOLDER,
+          group="sliding and resting",
+          lookFor="Green blocks ride along for ever, red ones slide off: the limit lies between 0.97 and 1.03.",
+          caption="μg/ω² = {=0.25*9.81/2^2:3} m holds   from the axis: {=sqrt([at 0.97 of the "
+                  "radius.x]^2+[at 0.97 of the radius.y]^2):3} and {=sqrt([at 1.03 of the radius.x]^2+[at "
+                  "1.03 of the radius.y]^2):3} m")
 
 
 def involute_gear(teeth, module, backlash=0.02, addendum=0.8, dedendum=1.0, flank=4):
@@ -129,7 +134,11 @@ def gears():
           "their play.",
           "gears of 18, 27 and 18 teeth: the first is turned, the others are driven by their teeth",
           {"floor": FLOOR, "steel": {"staticFriction": 0.1, "density": 7800}},
-          bodies, main_camera([0.6, -4.6, 4.2], [0, 0, 0.2], 42), 6, FOLDER)
+          bodies, main_camera([0.4, -3.9, 3.5], [0, -0.1, 0.2], 44), 5, FOLDER,
+          group="machines",
+          lookFor="The idler turns the other way, at 18/27 of the rate.",
+          caption="ω = 1.5 rad/s, ×18/27 = {=1.5*18/27:3}   measured: idler {=-[idler.wz]:3}, last "
+                  "{body:driven.wz:3} rad/s")
 
 
 def bowl_profile(radius, wall, segments):
@@ -147,6 +156,7 @@ def ball_in_a_bowl():
     write_mesh("bowl.obj", *revolved(bowl_profile(radius, 0.08, 8), 32))
     a = math.radians(start)
     reach = radius * 0.98 - ball - 0.02
+    mass = 2500 * 4 / 3 * math.pi * ball ** 3
     bodies = [floor(),
               body("bowl", mesh("bowl.obj"), [0, 0, 1.1], static=True, material="glass", color=STEEL),
               body("ball", {"sphere": {"radius": ball}}, [reach * math.sin(a), 0, 1.1 - reach * math.cos(a)],
@@ -155,7 +165,11 @@ def ball_in_a_bowl():
           "A ball in a bowl without friction that bounces without loss: it loses no energy, and stays in the bowl.",
           "an elastic ball in a bowl without friction: its energy stays",
           {"floor": FLOOR, "glass": {"staticFriction": 0, "restitution": 1, "density": 2500}},
-          bodies, main_camera([1.2, -2.6, 2.9], [0, 0, 0.6], 40), 6, FOLDER)
+          bodies, main_camera([0.9, -1.9, 2.55], [0, 0, 0.72], 38), 6, FOLDER,
+          group="accuracy beside theory",
+          lookFor="It never rises higher than where it set out, and never loses a joule.",
+          caption="energy kept to {=100*energy/E0:4} %",
+          set={"E0": mass * (GRAVITY * (1.1 - reach * math.cos(a)) + 0.8 ** 2 / 2)})
 
 
 def marble_in_a_funnel():
@@ -177,7 +191,10 @@ def marble_in_a_funnel():
           "and end in the cup that stands below it on the floor.",
           "marbles spiral down a funnel, and fall through its spout into a cup",
           {"floor": FLOOR, "wood": {"staticFriction": 0.3, "restitution": 0.3, "rollingResistance": 0.004, "density": 700}},
-          bodies, main_camera([1.6, -3.2, 2.7], [0, 0, 0.85], 38), 8, FOLDER)
+          bodies, main_camera([0.8, -1.9, 3.35], [0, 0.0, 0.98], 37), 6.8, FOLDER,
+          group="meshes",
+          lookFor="Each round is lower than the one before, until the spout.",
+          caption="marbles at {body:marble 1.speed:2}, {body:marble 2.speed:2}, {body:marble 3.speed:2} m/s")
 
 
 def linked_rings():
@@ -188,13 +205,16 @@ def linked_rings():
               body("upper ring", mesh("ring.obj"), [0, 0, 1.8], rotation=turn([1, 0, 0], 90), static=True,
                    material="brass", color=STEEL),
               body("lower ring", mesh("ring.obj"), [0.0, 0, 1.8 - 2 * inner + 0.06],
-                   rotation=[0.5, 0.5, 0.5, 0.5], angularVelocity=[0, 2.5, 0], material="brass", color=ORANGE)]
+                   rotation=[0.5, 0.5, 0.5, 0.5], angularVelocity=[0, 5, 0], material="brass", color=ORANGE)]
     write("linked-rings",
           "One ring hangs in another, which is fixed; it swings, rolls in it and comes to rest below, and never leaves "
           "it: two rings that are linked stay so.",
           "a ring hangs and swings in another one",
-          {"floor": FLOOR, "brass": {"staticFriction": 0.3, "restitution": 0.1, "density": 8500}},
-          bodies, main_camera([1.5, -2.8, 1.9], [0, 0, 1.4], 38), 6, FOLDER)
+          {"floor": FLOOR, "brass": {"staticFriction": 0.05, "restitution": 0.1, "density": 8500}},
+          bodies, main_camera([1.1, -2.5, 1.75], [0, 0, 1.33], 38), 4, FOLDER,
+          group="meshes",
+          lookFor="The ring rolls in the other and never leaves it.",
+          caption="what is linked stays linked   swing {body:lower ring.vx:2} m/s")
 
 
 def stadium_link(half_length, radius, tube, tube_sides=6, bend=5):
@@ -239,7 +259,9 @@ def chain():
           "another, and none is lost.",
           "a chain of ten links on a hook, struck by a ball",
           {"floor": FLOOR, "iron": {"staticFriction": 0.3, "restitution": 0.1, "density": 7800}},
-          bodies, main_camera([2.6, -4.6, 2.4], [0, 0, 1.8], 40), 5, FOLDER)
+          bodies, main_camera([1.9, -4.0, 1.95], [0.05, 0, 1.93], 38), 4, FOLDER,
+          group="meshes",
+          lookFor="No link leaves another, however hard the blow.")
 
 
 def main():

@@ -157,6 +157,7 @@ struct CommandLine {
   bool wants_fish = false;
   std::string help_of;
   std::string size;
+  std::string caption;
   std::string budget_size;
   std::string figures_size;
   std::string budget_tolerance;
@@ -205,7 +206,8 @@ void CommandLine::groupOptions() {
         "--npy",         "--audit",   "--json",   "--trace",  "--plot",   "--report", "--report-pairs",
         "--differences", "--amplify", "--junit",  "--update", "--accept", "--undo"}},
       {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
-      {"How it looks", {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--portable"}},
+      {"How it looks",
+       {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--caption", "--portable"}},
       {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--gl"}},
       {"What is asked",
        {"--budget", "--percentile", "--replays", "--baseline", "--against", "--paced", "--clock",
@@ -279,8 +281,9 @@ void CommandLine::addRender() {
       ->capture_default_str();
   render_command->get_option("--from")->excludes(render_command->get_option("--fps"));
   render_command->add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
-  render_command->add_option("--camera", render_options.camera,
-                             "One of the scene's cameras (main, or its first), fit, orbit or follow:BODY");
+  render_command->add_option(
+      "--camera", render_options.camera,
+      "One of the scene's cameras (main, or its first), auto, fit, orbit or follow:BODY");
   addLookOptions();
   addOverlayOptions();
   render_command->add_flag("--portable", render_options.portable,
@@ -354,6 +357,11 @@ void CommandLine::addOverlayOptions() {
       "Drawn over each frame, comma separated (--overlay help says what each is):\n" + names);
   render_command->add_option("--focus", render_options.focus,
                              "Overlays speak of these bodies only; of one, all its pairs");
+  render_command
+      ->add_option("--caption", caption,
+                   "on, off: the scene's line of text over each frame (on; with --portable off, for it "
+                   "depends on fonts)")
+      ->check(CLI::IsMember({"on", "off"}));
 }
 
 void CommandLine::addSimulate() {
@@ -775,6 +783,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   }
   checkValues(line);
   for (int i = 1; i < argc; ++i) line.budget_options.words.emplace_back(argv[i]);
+  line.render_options.caption = line.caption.empty() ? !line.render_options.portable : line.caption == "on";
   line.render_options.states = line.render_options.states || line.render_options.portable;
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);

@@ -35,6 +35,7 @@ renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record)
   if (manifest.preset != renderer::Preset::kRealtime) text.emplace_back("Preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) text.emplace_back("Style", nameOf(manifest.style));
   if (!manifest.overlays.empty()) text.emplace_back("Overlays", manifest.overlays);
+  if (manifest.has_caption) text.emplace_back("Caption", "on");
   return text;
 }
 

@@ -45,6 +45,7 @@ void addUnusual(const Manifest& manifest, Json& json) {
   if (manifest.preset != renderer::Preset::kRealtime) json.set("preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) json.set("style", nameOf(manifest.style));
   if (!manifest.overlays.empty()) json.set("overlays", manifest.overlays);
+  if (manifest.has_caption) json.set("caption", true);
   if (manifest.outputs.kind() != Json::Kind::kNull) json.set("outputs", manifest.outputs);
 }
 

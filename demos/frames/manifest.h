@@ -55,6 +55,7 @@ struct Manifest {
   Json meshes;           ///< What was made of mesh files; null: there are none.
   Json outputs;          ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
   std::string overlays;  ///< Names and focus; empty: none.
+  bool has_caption = false;
   renderer::ContextInfo gl;
   int frames_planned = 0;
   double wall_s = 0.0;

@@ -40,11 +40,14 @@ Scene chosenScene(const SceneChoice& choice) {
 
 namespace {
 
-/// The cameras that every scene has, unless it has its own of that name: "fit", "orbit" and "follow:BODY".
+/// The cameras that every scene has, unless it has its own of that name: "auto", "fit", "orbit" and
+/// "follow:BODY".
 std::optional<SceneCamera> builtInCamera(const Scene& scene, const std::string& name) {
   constexpr std::string_view kFollow = "follow:";
   SceneCamera camera;
-  if (name == "fit") {
+  if (name == "auto") {
+    camera.motion = FrameMoving{};
+  } else if (name == "fit") {
     camera.motion = FitView{};
   } else if (name == "orbit") {
     camera.motion = Orbit{.fits = true};
@@ -73,7 +76,7 @@ NamedCamera chosenCamera(const Scene& scene, const std::string& name) {
   if (const std::optional<SceneCamera> camera = builtInCamera(scene, name)) return {name, *camera};
   std::vector<std::string> names;
   for (const auto& [known, unused] : scene.cameras) names.push_back(known);
-  names.insert(names.end(), {"fit", "orbit", "follow:BODY"});
+  names.insert(names.end(), {"auto", "fit", "orbit", "follow:BODY"});
   throw UsageError("--camera " + name + ": no such camera in " + scene.file.string() +
                    acceptedNames(name, names));
 }

@@ -29,8 +29,8 @@ struct NamedCamera {
   SceneCamera camera;
 };
 /// The scene's camera of that name; for an empty name "main", else its first. Where the scene has none of
-/// that name: "fit" shows everything, "orbit" circles about it, "follow:BODY" looks at a body. Throws
-/// UsageError.
+/// that name: "auto" frames what moves in the run, "fit" shows everything, "orbit" circles about it,
+/// "follow:BODY" looks at a body. Throws UsageError.
 NamedCamera chosenCamera(const Scene& scene, const std::string& name);
 
 }  // namespace carom::demos

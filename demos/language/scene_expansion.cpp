@@ -10,7 +10,7 @@
 
 #include "demos/asset/asset_path.h"
 #include "demos/format/nearest_name.h"
-#include "demos/language/arithmetic.h"
+#include "demos/formula/arithmetic.h"
 #include "demos/language/scene_values.h"
 #include "demos/system/exit_code.h"
 
@@ -165,6 +165,16 @@ Json resolved(const Json& json, Scope& scope) {
   }
 }
 
+/// Whether the name stands in the text by itself, not as a part of a longer one.
+bool hasWord(const std::string& text, const std::string& name) {
+  const auto isPart = [&](std::size_t at) {
+    return at < text.size() && isArithmeticName("a" + text.substr(at, 1));
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    if (!(at > 0 && isPart(at - 1)) && !isPart(at + name.size())) return true;
+  return false;
+}
+
 void requireName(const Json& place, const std::string& name) {
   if (!isArithmeticName(name) || isArithmeticWord(name))
     place.fail("\"" + name +
@@ -185,8 +195,10 @@ class Expander {
     for (const auto& [key, value] : json.members()) {
       if (key == "set" || key == "include" || key == "bodies" || key == "materials" || key == "$schema")
         continue;
-      out_.scene.set(key, key == "description" ? value : resolved(value, scope));
+      const bool is_plain = key == "description" || key == "group" || key == "lookFor" || key == "caption";
+      out_.scene.set(key, is_plain ? value : resolved(value, scope));
     }
+    takeNumbers(json.find("caption"), scope);
     if (const Json* own = json.find("materials")) {
       Json all = resolved(*own, scope);
       for (const auto& [name, value] : materials)
@@ -222,6 +234,16 @@ class Expander {
       place.fail(message);
     } catch (const InputError& warning) {
       out_.warnings.push_back(warning.what());
+    }
+  }
+
+  /// For the caption, whose figures are reckoned out in each frame: what it names is used.
+  void takeNumbers(const Json* caption, Scope& scope) {
+    const bool is_text = caption != nullptr && caption->kind() == Json::Kind::kString;
+    for (const std::string& name : scope.names()) {
+      const bool is_named = is_text && hasWord(caption->asString(), name);
+      const Json* value = is_named ? scope.find(name) : nullptr;
+      if (value != nullptr && value->kind() == Json::Kind::kNumber) out_.numbers[name] = value->asNumber();
     }
   }
 

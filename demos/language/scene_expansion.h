@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct ExpandedScene {
   bool has_bodies = false;
   Json bodies;  ///< The list as it was written, for messages.
   std::vector<ExpandedBody> expanded;
+  std::map<std::string, double> numbers;  ///< The variables of "set" that are numbers.
   std::vector<std::filesystem::path> included;
   std::vector<std::string> warnings;  ///< "file:line:column: path: what is written and has no effect".
 };

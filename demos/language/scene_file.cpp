@@ -8,6 +8,7 @@
 #include "demos/format/json.h"
 #include "demos/format/nearest_name.h"
 #include "demos/language/common_shapes.h"
+#include "demos/language/scene_cameras.h"
 #include "demos/language/scene_expansion.h"
 #include "demos/language/scene_mistakes.h"
 #include "demos/language/scene_motion.h"
@@ -315,79 +316,18 @@ std::vector<NamedFluid> readFluids(const Json& json, const std::filesystem::path
   return fluids;
 }
 
-// Cameras: one of "eye" and "target", "fit", "follow", "orbit".
-
-void readStillCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"eye", "target", "fovDegrees"});
-  camera.eye = readVec3(json.at("eye"), kCoordinate);
-  camera.target = readVec3(json.at("target"), kCoordinate);
-  if (!((camera.eye - camera.target).norm() > kSmallestLength_m)) json.fail("eye and target coincide");
-}
-
-Vec3 readOffset(const Json& json) {
-  const Vec3 offset = readVec3(json, kCoordinate);
-  if (!(offset.norm() > kSmallestLength_m))
-    json.fail(json.shown() + " has no direction; accepted: a vector of some length");
-  return offset;
-}
-
-void readFitCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"fit", "direction", "fovDegrees"});
-  if (!json.at("fit").asBoolean()) json.at("fit").fail("accepted: true, or another kind of camera");
-  FitView fit;
-  if (const Json* direction = json.find("direction")) fit.direction = readOffset(*direction);
-  camera.motion = fit;
-}
-
-/// The names of all copies, in the order of the scene and sorted.
-struct BodyNames {
-  explicit BodyNames(const std::vector<Body>& bodies) {
-    for (const Body& body : bodies)
-      for (int copy = 0; copy < body.repeat.total(); ++copy) in_order.push_back(nameOfCopy(body, copy));
-    sorted = in_order;
-    std::sort(sorted.begin(), sorted.end());
+CaptionText readCaptionOf(const Json& json, const std::map<std::string, double>& variables,
+                          const BodyNames& names) {
+  const std::string& text = json.asString();
+  CaptionText caption;
+  try {
+    caption = readCaption(text, variables);
+  } catch (const InputError& error) {
+    json.fail(error.what());
   }
-  std::vector<std::string> in_order, sorted;
-};
-
-void readFollowCamera(const Json& json, const BodyNames& names, SceneCamera& camera) {
-  json.onlyKeys({"follow", "offset", "fovDegrees"});
-  FollowBody follow{json.at("follow").asString(), {}};
-  if (!std::binary_search(names.sorted.begin(), names.sorted.end(), follow.body))
-    json.at("follow").fail("unknown body " + json.at("follow").shown() +
-                           acceptedNames(follow.body, names.in_order));
-  if (const Json* offset = json.find("offset")) follow.offset_m = readOffset(*offset);
-  camera.motion = follow;
-}
-
-void readOrbitCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"orbit", "fovDegrees"});
-  const Json& path = json.at("orbit");
-  path.onlyKeys({"target", "radius", "height", "degreesPerSecond", "startDegrees"});
-  Orbit orbit;
-  camera.target = readVec3(path.at("target"), kCoordinate);
-  orbit.radius_m = readNumber(path.at("radius"), kLength);
-  if (const Json* value = path.find("height")) orbit.height_m = readNumber(*value, kCoordinate);
-  if (const Json* value = path.find("degreesPerSecond"))
-    orbit.degrees_per_second = readNumber(*value, {-36000.0, 36000.0});
-  if (const Json* value = path.find("startDegrees"))
-    orbit.start_degrees = readNumber(*value, {-36000.0, 36000.0});
-  camera.motion = orbit;
-}
-
-SceneCamera readCamera(const Json& json, const BodyNames& names) {
-  json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit"});
-  SceneCamera camera;
-  if (json.find("fit") != nullptr)
-    readFitCamera(json, camera);
-  else if (json.find("follow") != nullptr)
-    readFollowCamera(json, names, camera);
-  else if (json.find("orbit") != nullptr)
-    readOrbitCamera(json, camera);
-  else
-    readStillCamera(json, camera);
-  if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, {1.0, 150.0});
-  return camera;
+  for (const CaptionPart& part : caption.parts)
+    for (const BodyQuantity& quantity : part.bodies) names.require(quantity.body, json);
+  return caption;
 }
 
 void readFormat(const Json& json) {
@@ -408,7 +348,8 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
 /// Adds to `grown` how many values the scene was made into, also where it is refused.
 Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
   written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
-                    "materials", "air", "fluids", "bodies", "cameras", "duration"});
+                    "materials", "air", "fluids", "bodies", "cameras", "duration", "group", "lookFor",
+                    "caption"});
   readFormat(written);
   const ExpandedScene expanded = expandScene(written, path, grown);
   const Json& json = expanded.scene;
@@ -418,11 +359,14 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   scene.included = expanded.included;
   scene.warnings = expanded.warnings;
   if (const Json* value = json.find("description")) scene.description = value->asString();
+  if (const Json* value = json.find("group")) scene.group = value->asString();
+  if (const Json* value = json.find("lookFor")) scene.look_for = value->asString();
   if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
   if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
   if (const Json* value = json.find("seed"))
     scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
+  scene.written_duration_s = scene.duration_s;
   if (const Json* value = json.find("air")) scene.air = readAir(*value);
   if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
   Materials materials;
@@ -430,10 +374,12 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   written.at("bodies");
   scene.bodies = readBodies(expanded, materials, scene.warnings);
   if (const Json* value = written.find("materials")) warnOfUnused(*value, scene.bodies, path, scene.warnings);
-  if (const Json* value = json.find("cameras")) {
-    const BodyNames names(scene.bodies);
-    for (const auto& [name, camera] : value->members()) scene.cameras[name] = readCamera(camera, names);
-  }
+  const BodyNames names(scene.bodies);
+  if (const Json* value = json.find("cameras"))
+    for (const auto& [name, camera] : value->members())
+      scene.cameras[name] = readCamera(camera, names, scene.duration_s);
+  if (const Json* value = json.find("caption"))
+    scene.caption = readCaptionOf(*value, expanded.numbers, names);
   if (scene.cameras.empty()) scene.cameras["main"] = SceneCamera();
   return scene;
 }

@@ -26,6 +26,7 @@
 #include "demos/frames/manifest.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
+#include "demos/overlay/caption_painter.h"
 #include "demos/overlay/overlays.h"
 #include "demos/record/motion_recorder.h"
 #include "demos/record/recorded_scene.h"
@@ -33,6 +34,7 @@
 #include "demos/render/frame_workers.h"
 #include "demos/scene/camera_path.h"
 #include "demos/scene/drawn_water.h"
+#include "demos/scene/scene_caption.h"
 #include "demos/scene/scene_world.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/build_info.h"
@@ -135,6 +137,7 @@ struct Run {
   const SceneWorld& scene;
   FrameSource& source;
   const CameraPath& camera;
+  const SceneCaption* caption;  ///< None: no line is drawn.
   const OutputScale& scale;
   Overlays& overlays;
   Manifest& manifest;
@@ -197,6 +200,8 @@ void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob
   const renderer::Camera camera = run.camera.at(next.record.time_s, job.state.bodies);
   next.image = run.overlays.draw(pictures, job.state, job.frame, camera,
                                  drawnWater(run.plan.scene, next.record.time_s));
+  if (run.caption != nullptr)
+    next.image = withCaption(std::move(next.image), run.caption->at(next.record.time_s, job.state.bodies));
   drawOutputs(run, pictures, next);
   if (run.recorder != nullptr && run.recorder->wantsPixels(run.manifest.width, run.manifest.height))
     run.recorder->addPixels(pictures.surfaces(), run.manifest.width, run.manifest.height);
@@ -534,7 +539,9 @@ ExitCode render(const RenderOptions& options) {
   if (!made.meshes.empty()) manifest.meshes = meshesJson(made.meshes);
   Overlays overlays({shown, options.focus, recording.has_value()}, made, plan.clock);
   manifest.overlays = overlays.identity();
+  manifest.has_caption = options.caption && !plan.scene.caption.empty();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);
+  const SceneCaption caption(plan.scene, made);
   const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.world.solids(),
                                         camera.at(0.0, made.world.states()));
   if (!plan.outputs.empty()) manifest.outputs = outputsJson(plan.outputs, scale, made.names);
@@ -567,6 +574,7 @@ ExitCode render(const RenderOptions& options) {
           made,
           *source,
           camera,
+          manifest.has_caption ? &caption : nullptr,
           scale,
           overlays,
           manifest,

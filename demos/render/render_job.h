@@ -35,6 +35,7 @@ struct RenderOptions {
   std::string aov;        ///< "depth,normal,id"; empty: none.
   std::string overlays;   ///< "closest,distance"; empty: none.
   std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
+  bool caption = true;    ///< The scene's, where it has one.
   bool portable = false;  ///< The same pixels on every CPU.
   bool states = false;    ///< A record beside the frames, by which `compare` names causes.
   std::string gl = "auto";

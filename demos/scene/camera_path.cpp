@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -14,8 +15,8 @@ namespace carom::demos {
 namespace {
 
 using std::numbers::pi;
-constexpr double kMargin = 1.0 / 12.0;  // Of half the picture, on each side.
-constexpr double kRadiiAway = 6.0;      // Of a followed body.
+constexpr double kRadiiAway = 6.0;   // Of a followed body.
+constexpr double kFewBeyond = 0.01;  // Of what moves: a stray body may leave a framed picture.
 
 double radians(double degrees) {
   return degrees * pi / 180.0;
@@ -43,13 +44,23 @@ struct Slab {
   double across = 0.0;
   double most_along = 0.0;
 };
-Slab fitBetweenSides(std::span<const Vec3> points, const Vec3& across, const Vec3& along, double slope) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double low = -kInfinity, high = kInfinity;
+/// The greatest of the values, once a share of them is left out.
+double greatestBut(double left_out, std::vector<double> values) {
+  const auto beyond = static_cast<std::ptrdiff_t>(left_out * static_cast<double>(values.size()));
+  const auto at = values.begin() + beyond;
+  std::nth_element(values.begin(), at, values.end(), std::greater<>());
+  return *at;
+}
+Slab fitBetweenSides(std::span<const Vec3> points, const Vec3& across, const Vec3& along, double slope,
+                     double left_out) {
+  std::vector<double> lows, highs;
   for (const Vec3& p : points) {
-    low = std::max(low, p.dot(across) - slope * p.dot(along));
-    high = std::min(high, p.dot(across) + slope * p.dot(along));
+    lows.push_back(p.dot(across) - slope * p.dot(along));
+    highs.push_back(p.dot(across) + slope * p.dot(along));
   }
+  const double low = greatestBut(left_out, std::move(lows));
+  for (double& high : highs) high = -high;
+  const double high = -greatestBut(left_out, std::move(highs));
   return {0.5 * (low + high), (high - low) / (2.0 * slope)};
 }
 
@@ -66,9 +77,10 @@ renderer::Camera fittedCamera(std::span<const Vec3> points, const FitRequest& re
   renderer::Camera camera{request.direction, Vec3::Zero(), request.fov_degrees};
   const renderer::CameraAxes axes = renderer::cameraAxes(camera);
   const SineCosine half = sineCosine(radians(0.5 * request.fov_degrees));
-  const double up_slope = (1.0 - kMargin) * half.sine / half.cosine;
-  const Slab sides = fitBetweenSides(points, axes.right, axes.forward, up_slope * request.aspect);
-  const Slab top_and_bottom = fitBetweenSides(points, axes.up, axes.forward, up_slope);
+  const double up_slope = request.fill * half.sine / half.cosine;
+  const Slab sides =
+      fitBetweenSides(points, axes.right, axes.forward, up_slope * request.aspect, request.left_out);
+  const Slab top_and_bottom = fitBetweenSides(points, axes.up, axes.forward, up_slope, request.left_out);
   const double along = std::min(sides.most_along, top_and_bottom.most_along);
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (const Vec3& p : points) {
@@ -105,24 +117,60 @@ CameraPath::CameraPath(const SceneCamera& camera, const SceneWorld& start, doubl
     const auto solid = static_cast<std::size_t>(start.world.bodies()[body_].solid);
     if (!follow->offset_m)
       follow->offset_m = kRadiiAway * start.world.solids()[solid].radius() * FitView().direction.normalized();
-    return;
+  } else if (const auto* dolly = std::get_if<Dolly>(&camera_.motion)) {
+    if (dolly->body) body_ = bodyNamed(*dolly->body, start.names);
+    curve_.emplace(dolly->points);
+  } else if (const auto* moving = std::get_if<FrameMoving>(&camera_.motion)) {
+    std::vector<Vec3> points = start.movedPoints();
+    if (points.empty()) points = fittedPoints(start);  // Nothing moves.
+    standAt({moving->direction, camera_.fov_degrees, aspect, moving->fill, kFewBeyond}, points);
+  } else if (const auto* fit = std::get_if<FitView>(&camera_.motion)) {
+    standAt({fit->direction, camera_.fov_degrees, aspect}, fittedPoints(start));
+  } else if (auto* orbit = std::get_if<Orbit>(&camera_.motion); orbit != nullptr && orbit->fits) {
+    if (!standAt({FitView().direction, camera_.fov_degrees, aspect}, fittedPoints(start))) return;
+    const Vec3 from_target = camera_.eye - camera_.target;
+    orbit->radius_m = from_target.head<2>().norm();
+    orbit->height_m = from_target.z();
   }
-  const auto* fit = std::get_if<FitView>(&camera_.motion);
-  auto* orbit = std::get_if<Orbit>(&camera_.motion);
-  if (fit == nullptr && !(orbit != nullptr && orbit->fits)) return;
-  const std::vector<Vec3> points = fittedPoints(start);
-  if (points.empty()) return;  // Nothing but ground.
-  const Vec3 direction = fit != nullptr ? fit->direction : FitView().direction;
-  const renderer::Camera fitted = fittedCamera(points, {direction, camera_.fov_degrees, aspect});
+}
+
+bool CameraPath::standAt(const FitRequest& request, const std::vector<Vec3>& points) {
+  if (points.empty()) return false;  // Nothing but ground.
+  const renderer::Camera fitted = fittedCamera(points, request);
   camera_.eye = fitted.eye;
   camera_.target = fitted.target;
-  if (orbit == nullptr) return;
-  const Vec3 from_target = fitted.eye - fitted.target;
-  orbit->radius_m = from_target.head<2>().norm();
-  orbit->height_m = from_target.z();
+  return true;
+}
+
+renderer::Camera CameraPath::alongKeyframes(double time_s) const {
+  const auto& path = std::get<CameraKeyframes>(camera_.motion);
+  std::vector<double> times, values(path.keys.size());
+  for (const CameraKeyframes::Key& key : path.keys) times.push_back(key.time_s);
+  const auto valueOf = [&](const auto& numberOf) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = numberOf(path.keys[k].camera);
+    return path.smooth ? monotoneAt(times, values, time_s) : linearAt(times, values, time_s);
+  };
+  renderer::Camera camera;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    camera.eye[axis] = valueOf([axis](const renderer::Camera& key) { return key.eye[axis]; });
+    camera.target[axis] = valueOf([axis](const renderer::Camera& key) { return key.target[axis]; });
+  }
+  camera.fov_degrees = valueOf([](const renderer::Camera& key) { return key.fov_degrees; });
+  return camera;
+}
+
+renderer::Camera CameraPath::alongDolly(double time_s, std::span<const BodyState> bodies) const {
+  const auto& dolly = std::get<Dolly>(camera_.motion);
+  const double share = (time_s - dolly.start_s) / dolly.seconds;
+  renderer::Camera camera = camera_;
+  camera.eye = curve_->at(dolly.eased ? easedShare(share) : share);
+  if (dolly.body) camera.target = bodies[body_].X_WB.position;
+  return camera;
 }
 
 renderer::Camera CameraPath::at(double time_s, std::span<const BodyState> bodies) const {
+  if (std::holds_alternative<CameraKeyframes>(camera_.motion)) return alongKeyframes(time_s);
+  if (std::holds_alternative<Dolly>(camera_.motion)) return alongDolly(time_s, bodies);
   renderer::Camera camera = camera_;
   if (const auto* follow = std::get_if<FollowBody>(&camera_.motion)) {
     camera.target = bodies[body_].X_WB.position;

@@ -1,10 +1,13 @@
 #pragma once
 // Where a scene's camera is in a frame: a function of the frame's time and of the bodies' states there, and
-// of the bodies at the start, so that any frame can be drawn without those before it, from a recording as
-// well. Tested in tests/demos/scene/camera_path_test.cpp.
+// of the scene, so that any frame can be drawn without those before it, from a recording as well. Tested in
+// tests/demos/scene/camera_path_test.cpp, tests/demos/scene/moving_cameras_test.cpp and
+// tests/demos/scene/run_extent_test.cpp.
 
+#include <optional>
 #include <span>
 
+#include "demos/scene/curved_path.h"
 #include "demos/scene/scene_camera.h"
 #include "demos/scene/scene_world.h"
 
@@ -14,9 +17,11 @@ struct FitRequest {
   Vec3 direction = Vec3(6.0, -9.0, 4.0);  ///< Towards the eye, any length.
   double fov_degrees = 40.0;              ///< Vertical.
   double aspect = 16.0 / 9.0;             ///< Width over height of the image.
+  double fill = 11.0 / 12.0;              ///< Of the width or height, whichever the points take more of.
+  double left_out = 0.0;                  ///< The share of points that may be beyond each side of that.
 };
-/// The nearest camera with this direction that has all points in its picture, with a margin of a twelfth on
-/// the sides that bound it. At least two points that differ.
+/// The nearest camera with this direction that has all points, but those left out, within that share of its
+/// picture. At least two points that differ.
 renderer::Camera fittedCamera(std::span<const Vec3> points, const FitRequest& request);
 
 /// What a fitting camera shows: the boxes around all bodies but the grounds, as they are at the start, and
@@ -26,15 +31,20 @@ std::vector<Vec3> fittedPoints(const SceneWorld& start);
 class CameraPath {
  public:
   /// `start` is the world as it is at the start; it need not outlive this. Throws InputError for a body that
-  /// is not there.
+  /// is not there. A camera that frames what moves runs the scene once, here.
   CameraPath(const SceneCamera& camera, const SceneWorld& start, double aspect);
 
   /// The camera at a time, with the bodies in the states that they have then.
   renderer::Camera at(double time_s, std::span<const BodyState> bodies) const;
 
  private:
+  bool standAt(const FitRequest& request, const std::vector<Vec3>& points);
+  renderer::Camera alongKeyframes(double time_s) const;
+  renderer::Camera alongDolly(double time_s, std::span<const BodyState> bodies) const;
+
   SceneCamera camera_;
-  std::size_t body_ = 0;  // followed
+  std::size_t body_ = 0;  // followed, or looked at
+  std::optional<CurvedPath> curve_;
 };
 
 }  // namespace carom::demos

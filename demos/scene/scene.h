@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "demos/formula/caption_text.h"
 #include "demos/scene/scene_camera.h"
 #include "engine/foundation/frames.h"
 #include "engine/simulation/world.h"
@@ -137,10 +138,14 @@ struct Scene {
   std::string name;  ///< The file's name without its ending.
   std::filesystem::path file;
   std::string description;
+  std::string group;     ///< Of the gallery's groups, or empty.
+  std::string look_for;  ///< What to look for, in a sentence, or empty.
+  CaptionText caption;   ///< Drawn over the frames, unless empty.
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   double rate_hz = 240.0;  ///< Steps a second.
   std::uint64_t seed = 1;
   double duration_s = 5.0;
+  double written_duration_s = 5.0;  ///< The file's, whatever was asked for: the run that cameras frame.
   Air air;
   std::vector<NamedFluid> fluids;
   std::vector<Body> bodies;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "renderer/view/projection.h"
 
@@ -30,14 +31,40 @@ struct Orbit {
   bool fits = false;             ///< Target, radius and height are those of a FitView instead.
 };
 
+/// Stands where all that moves, in the whole run, fills a share of the picture, seen from `direction`.
+struct FrameMoving {
+  Vec3 direction = Vec3(6.0, -9.0, 4.0);  ///< Towards the eye, any length.
+  double fill = 2.0 / 3.0;                ///< Of the height or width, whichever it takes more of.
+};
+
+/// Exactly there at the keyframes' times; before the first where that is, after the last likewise.
+struct CameraKeyframes {
+  struct Key {
+    double time_s = 0.0;
+    renderer::Camera camera;
+  };
+  std::vector<Key> keys;  ///< Times rise.
+  bool smooth = true;     ///< Else on straight lines at constant speeds.
+};
+
+/// Goes along a smooth curve through points, at one speed or, eased, from standstill to standstill.
+struct Dolly {
+  std::vector<Vec3> points;         ///< At least two, no two neighbours in one place.
+  std::optional<std::string> body;  ///< It looks at; else the camera's target.
+  double start_s = 0.0;
+  double seconds = 5.0;
+  bool eased = true;
+};
+
 /// A renderer's camera, which stands still, or what moves it; the field of view is always the camera's own.
 struct SceneCamera : renderer::Camera {
   SceneCamera() = default;
   SceneCamera(const renderer::Camera& still) : renderer::Camera(still) {}
-  std::variant<std::monostate, FitView, FollowBody, Orbit> motion;
+  std::variant<std::monostate, FitView, FollowBody, Orbit, FrameMoving, CameraKeyframes, Dolly> motion;
 
   bool moves() const {
-    return std::holds_alternative<FollowBody>(motion) || std::holds_alternative<Orbit>(motion);
+    return std::holds_alternative<FollowBody>(motion) || std::holds_alternative<Orbit>(motion) ||
+           std::holds_alternative<CameraKeyframes>(motion) || std::holds_alternative<Dolly>(motion);
   }
 };
 

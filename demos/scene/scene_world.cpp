@@ -9,6 +9,7 @@
 #include "demos/format/content_hash.h"
 #include "demos/scene/body_palette.h"
 #include "demos/scene/random_stream.h"
+#include "demos/scene/run_extent.h"
 #include "demos/scene/shape_solid.h"
 #include "engine/broad_phase/candidate_pairs.h"
 #include "engine/foundation/contract.h"
@@ -197,6 +198,7 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   requireFewParts(made, scene);
   const std::vector<Overlap> overlaps = startedWith(made, scene);
   if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);
+  made.movedPoints = [scene, mesh, threads] { return pointsOfTheRun(scene, mesh, threads); };
   return made;
 }
 

@@ -4,6 +4,7 @@
 // gives the same scene everywhere. Tested in tests/demos/scene/scene_world_test.cpp.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,6 +25,8 @@ struct SceneWorld {
   std::vector<SurfaceLook> looks;
   std::vector<std::pair<std::string, MeshReport>> meshes =
       {};  ///< What was made of mesh files, by the body's name.
+  /// The places of what moves in the whole run (run_extent.h): runs the scene once, in a world of its own.
+  std::function<std::vector<Vec3>()> movedPoints = {};
 };
 
 /// A scene whose bodies overlap, or that touch and have no room to part.

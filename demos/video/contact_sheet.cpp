@@ -83,7 +83,7 @@ renderer::Image ContactSheet::image() const {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", times_s_[i]);
     canvas.text({offset(place % sheet_.columns, width_) + 0.5 * size_px,
-                 offset(place / sheet_.columns, height_) + height_ - size_px},
+                 offset(place / sheet_.columns, height_) + size_px},
                 time, style);
   }
   return canvas.image();

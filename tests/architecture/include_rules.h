@@ -47,6 +47,7 @@ inline const std::map<std::string, int>& folderHeights() {
                                                   {"renderer/passes", 26},
                                                   {"renderer/frame", 27},
                                                   {"demos/format", 40},
+                                                  {"demos/formula", 41},
                                                   {"demos/system", 41},
                                                   {"demos/asset", 42},
                                                   {"demos/scene", 43},

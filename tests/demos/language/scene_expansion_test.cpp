@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "demos/language/arithmetic.h"
+#include "demos/formula/arithmetic.h"
 #include "demos/language/scene_file.h"
 #include "demos/scene/scene_world.h"
 #include "demos/system/exit_code.h"

@@ -2,6 +2,8 @@
 // no code with V-Clip; the same bits in every run; and scenes that say they settle do come to rest.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +52,9 @@ TEST_P(EveryShippedScene, NeverOverlapsInAnyFrame) {
     }
     ASSERT_EQ(world.audit().last_step.iteration_limits, 0) << world.time();
   });
-  EXPECT_LT(smallest, 0.01) << "nothing ever came close: the scene shows no contact";
+  // Those that float or spin freely touch nothing, by design.
+  static const std::set<std::string> apart = {"archimedes", "dzhanibekov", "iceberg"};
+  EXPECT_EQ(smallest < 0.01, apart.count(scene.name) == 0) << "the closest: " << smallest << " m";
 }
 
 TEST_P(EveryShippedScene, HasTheSameStateInEveryRun) {

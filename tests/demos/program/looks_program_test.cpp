@@ -214,7 +214,8 @@ TEST_F(Looks, MovingCamerasGiveARecordingTheSameBytes) {
     const SceneWorld made = makeSceneWorld(readSceneFile(findScene("resting")), std::nullopt);
     first_body = made.names.back();
   }
-  for (const std::string& camera : {std::string("orbit"), "follow:" + first_body, std::string("fit")}) {
+  for (const std::string& camera :
+       {std::string("orbit"), "follow:" + first_body, std::string("fit"), std::string("auto")}) {
     fs::remove_all(file("a"));
     fs::remove_all(file("b"));
     render("a/f_%04d.png", {"--camera", camera, "--fps", "8", "--duration", "1", "--frames", "2,7"},
@@ -224,6 +225,43 @@ TEST_F(Looks, MovingCamerasGiveARecordingTheSameBytes) {
     EXPECT_NE(files("a").at("f_0002.png"), files("a").at("f_0007.png")) << camera;
     EXPECT_EQ(manifest("a/manifest.frames-2,7.json").at("camera").asString(), camera);
   }
+}
+
+TEST_F(Looks, AShardHasTheFramesOfTheWholeWithACameraThatFramesTheRun) {
+  const std::vector<std::string> framed{"--camera", "auto", "--fps", "4", "--duration", "1"};
+  std::vector<std::string> part = framed, shorter = framed;
+  part.insert(part.end(), {"--shard", "2/2", "--workers", "2"});
+  shorter.back() = "0.75";
+  render("whole/f_%04d.png", framed);
+  render("part/f_%04d.png", part);
+  render("shorter/f_%04d.png", shorter);
+  Files whole = files("whole");
+  for (const auto& [name, bytes] : files("part")) EXPECT_EQ(whole.at(name), bytes) << name;
+  for (const auto& [name, bytes] : files("shorter")) EXPECT_EQ(whole.at(name), bytes) << name;
+}
+
+TEST_F(Looks, ACaptionIsDrawnUnlessItIsTurnedOffAndIntoPortableFramesOnlyWhenAskedFor) {
+  const std::vector<std::string> one{"--frames", "0"};
+  const auto pixels = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.end(), one.begin(), one.end());
+    render(out + "/f_%04d.png", more, "resting");
+    return renderer::readPng(file(out + "/f_0000.png")).image;
+  };
+  const renderer::Image with = pixels("with", {}), without = pixels("without", {"--caption", "off"});
+  const auto rowsThatDiffer = [](const renderer::Image& a, const renderer::Image& b) {
+    std::vector<int> rows;
+    for (int y = 0; y < a.height; ++y)
+      if (!std::equal(a.pixel(0, y), a.pixel(0, y) + 3 * a.width, b.pixel(0, y))) rows.push_back(y);
+    return rows;
+  };
+  const std::vector<int> rows = rowsThatDiffer(with, without);
+  ASSERT_FALSE(rows.empty());
+  EXPECT_GT(rows.front(), kHeight / 2);
+  EXPECT_TRUE(manifest("with/manifest.frames-0.json").at("caption").asBoolean());
+  EXPECT_EQ(manifest("without/manifest.frames-0.json").find("caption"), nullptr);
+  const renderer::Image portable = pixels("portable", {"--portable"});
+  EXPECT_EQ(portable.rgb, pixels("off", {"--portable", "--caption", "off"}).rgb);
+  EXPECT_FALSE(rowsThatDiffer(portable, pixels("on", {"--portable", "--caption", "on"})).empty());
 }
 
 TEST_F(Looks, AnOrbitingCameraIsWhereTheTimeSays) {

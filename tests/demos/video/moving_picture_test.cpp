@@ -113,10 +113,10 @@ TEST(ContactSheet, HasMomentsOfTheWholeRunSideBySide) {
   const std::size_t frame_bytes = 96 * 54 * 3;
   const std::vector<int> frames = sheetFrames({3, 2}, static_cast<int>(all.size() / frame_bytes));
   for (int i = 0; i < 6; ++i) {
-    // The upper half, where no time is written.
+    // The lower half, where no time is written.
     const std::string frame =
         all.substr(frame_bytes * static_cast<std::size_t>(frames[static_cast<std::size_t>(i)]));
-    for (int y = 0; y < 27; ++y) {
+    for (int y = 27; y < 54; ++y) {
       const std::uint8_t* row = sheet.pixel(kGap + i % 3 * (96 + kGap), kGap + i / 3 * (54 + kGap) + y);
       EXPECT_EQ(std::string(row, row + 288), frame.substr(static_cast<std::size_t>(288 * y), 288))
           << i << ", " << y;

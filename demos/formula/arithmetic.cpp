@@ -1,4 +1,4 @@
-#include "demos/language/arithmetic.h"
+#include "demos/formula/arithmetic.h"
 
 #include <algorithm>
 #include <array>
