@@ -4,6 +4,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
 
-install_missing_packages
+install_missing_packages "${carom_packages[@]}" glslang-tools  # glslangValidator checks the shaders
 build_release all
 ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@"

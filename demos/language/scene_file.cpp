@@ -31,7 +31,8 @@ using Materials = std::map<std::string, NamedMaterial>;
 
 NamedMaterial readMaterial(const Json& json) {
   json.onlyKeys({"staticFriction", "dynamicFriction", "rollingResistance", "spinningResistance",
-                 "restitution", "density", "dragCoefficient", "color", "checker"});
+                 "restitution", "density", "dragCoefficient", "color", "checker", "ground", "surface",
+                 "surfaceScale"});
   NamedMaterial material;
   Material& m = material.physical;
   if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
@@ -50,11 +51,7 @@ NamedMaterial readMaterial(const Json& json) {
   if (const Json* value = json.find("density"))
     m.density_kgpm3 = readNumber(*value, {0.0, kLargestDensity_kgpm3});
   if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);
-  if (const Json* value = json.find("color")) {
-    material.look.color = readColor(*value);
-    material.look.has_color = true;
-  }
-  if (const Json* value = json.find("checker")) material.look.checker = value->asBoolean();
+  material.look = readLook(json);
   return material;
 }
 
@@ -318,7 +315,7 @@ std::vector<NamedFluid> readFluids(const Json& json, const std::filesystem::path
 // Cameras: one of "eye" and "target", "fit", "follow", "orbit".
 
 void readStillCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"eye", "target", "fovDegrees"});
+  json.onlyKeys({"eye", "target", "fovDegrees", "aperture", "focus"});
   camera.eye = readVec3(json.at("eye"), kCoordinate);
   camera.target = readVec3(json.at("target"), kCoordinate);
   if (!((camera.eye - camera.target).norm() > kSmallestLength_m)) json.fail("eye and target coincide");
@@ -332,7 +329,7 @@ Vec3 readOffset(const Json& json) {
 }
 
 void readFitCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"fit", "direction", "fovDegrees"});
+  json.onlyKeys({"fit", "direction", "fovDegrees", "aperture", "focus"});
   if (!json.at("fit").asBoolean()) json.at("fit").fail("accepted: true, or another kind of camera");
   FitView fit;
   if (const Json* direction = json.find("direction")) fit.direction = readOffset(*direction);
@@ -351,7 +348,7 @@ struct BodyNames {
 };
 
 void readFollowCamera(const Json& json, const BodyNames& names, SceneCamera& camera) {
-  json.onlyKeys({"follow", "offset", "fovDegrees"});
+  json.onlyKeys({"follow", "offset", "fovDegrees", "aperture", "focus"});
   FollowBody follow{json.at("follow").asString(), {}};
   if (!std::binary_search(names.sorted.begin(), names.sorted.end(), follow.body))
     json.at("follow").fail("unknown body " + json.at("follow").shown() +
@@ -361,7 +358,7 @@ void readFollowCamera(const Json& json, const BodyNames& names, SceneCamera& cam
 }
 
 void readOrbitCamera(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"orbit", "fovDegrees"});
+  json.onlyKeys({"orbit", "fovDegrees", "aperture", "focus"});
   const Json& path = json.at("orbit");
   path.onlyKeys({"target", "radius", "height", "degreesPerSecond", "startDegrees"});
   Orbit orbit;
@@ -376,7 +373,8 @@ void readOrbitCamera(const Json& json, SceneCamera& camera) {
 }
 
 SceneCamera readCamera(const Json& json, const BodyNames& names) {
-  json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit"});
+  json.onlyKeys(
+      {"eye", "target", "fovDegrees", "fit", "direction", "follow", "offset", "orbit", "aperture", "focus"});
   SceneCamera camera;
   if (json.find("fit") != nullptr)
     readFitCamera(json, camera);
@@ -387,6 +385,8 @@ SceneCamera readCamera(const Json& json, const BodyNames& names) {
   else
     readStillCamera(json, camera);
   if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, {1.0, 150.0});
+  if (const Json* value = json.find("aperture")) camera.aperture_m = readNumber(*value, {0.0, 1000.0});
+  if (const Json* value = json.find("focus")) camera.focus_m = readNumber(*value, kLength);
   return camera;
 }
 
@@ -408,7 +408,7 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
 /// Adds to `grown` how many values the scene was made into, also where it is refused.
 Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
   written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
-                    "materials", "air", "fluids", "bodies", "cameras", "duration"});
+                    "materials", "air", "fluids", "bodies", "cameras", "duration", "light"});
   readFormat(written);
   const ExpandedScene expanded = expandScene(written, path, grown);
   const Json& json = expanded.scene;
@@ -424,6 +424,7 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
     scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
   if (const Json* value = json.find("air")) scene.air = readAir(*value);
+  if (const Json* value = json.find("light")) scene.light = readLight(*value);
   if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);
