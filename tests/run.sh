@@ -8,10 +8,10 @@ source demos/packages.sh
 CAROM_CHECKS_BEGAN=$(date +%s)
 all=false
 if [ "${1-}" = --all ]; then all=true; shift; fi
-install_missing_packages
+install_missing_packages "${carom_packages[@]}" glslang-tools  # glslangValidator checks the shaders
 if $all; then
   # What cannot be had leaves its tests skipped.
-  install_missing_packages openimageio-tools chromium python3-numpy doxygen glslang-tools pngcheck zsh fish groff ||
+  install_missing_packages openimageio-tools chromium python3-numpy doxygen pngcheck zsh fish groff ||
     echo "tests of the tools that are missing are skipped" >&2
   if command -v npm >/dev/null; then
     npm install --silent --no-audit --no-fund --prefix "$(build_folder npm)" gltf-validator >/dev/null 2>&1 ||

@@ -145,13 +145,15 @@ std::string cameraText(const renderer::Camera& c) {
   std::string text;
   for (const Vec3* v : {&c.eye, &c.target})
     for (const double x : *v) text += numberText(x) + ' ';
-  return text + numberText(c.fov_degrees);
+  text += numberText(c.fov_degrees);
+  if (c.aperture_m > 0.0) text += ' ' + numberText(c.aperture_m) + ' ' + numberText(c.focus_m);
+  return text;
 }
 
 renderer::Camera readCamera(const std::string& text) {
   std::vector<double> n = numbersIn<double>(text);
-  n.resize(7, 0.0);
-  return {Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]), n[6]};
+  n.resize(9, 0.0);
+  return {Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]), n[6], n[7], n[8]};
 }
 
 Json bodyJson(const RecordedBody& body) {

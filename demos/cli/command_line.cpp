@@ -125,6 +125,11 @@ void addGlOption(CLI::App& command, std::string& gl) {
       ->capture_default_str();
 }
 
+void addLightOption(CLI::App& command, std::string& light) {
+  command.add_option("--light", light, "In place of the scene's own light")
+      ->check(CLI::IsMember(renderer::lightNames()));
+}
+
 void addPresetOption(CLI::App& command, std::string& preset) {
   command.add_option("--preset", preset, "How much a frame may cost")
       ->check(CLI::IsMember(renderer::presetNames()))
@@ -207,7 +212,8 @@ void CommandLine::groupOptions() {
         "--differences", "--amplify", "--junit",  "--update", "--accept", "--undo"}},
       {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
       {"How it looks",
-       {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--caption", "--portable"}},
+       {"--size", "--camera", "--preset", "--style", "--light", "--exposure", "--shutter", "--background",
+        "--overlay", "--focus", "--caption", "--portable"}},
       {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--gl"}},
       {"What is asked",
        {"--budget", "--percentile", "--replays", "--baseline", "--against", "--paced", "--clock",
@@ -311,6 +317,20 @@ void CommandLine::addLookOptions() {
   addPresetOption(render, options.preset);
   render.add_option("--style", options.style, "print: white background and ground, for paper")
       ->check(CLI::IsMember(renderer::styleNames()))
+      ->capture_default_str();
+  addLightOption(render, options.light);
+  render.add_option("--exposure", options.exposure, "Factor of all light on its way to the picture")
+      ->check(CLI::Range(0.01, 100.0));
+  render
+      .add_option(
+          "--shutter", options.shutter_degrees,
+          "Degrees of a turn a frame that the shutter is open (180: half of a frame), for the presets of\n"
+          "several exposures: what moves is blurred along its exact path")
+      ->check(CLI::Range(0.0, 360.0));
+  render
+      .add_option("--background", options.background,
+                  "none: bodies and the shadows on the ground alone, with alpha, to lay over something else")
+      ->check(CLI::IsMember({"scene", "none"}))
       ->capture_default_str();
   render.add_option(
       "--aov", options.aov,
@@ -512,6 +532,7 @@ void CommandLine::addBudget() {
   addGlOption(*budget_command, options.gl);
   budget_command->add_option("--camera", options.camera, "One of the scene's cameras (main, or its first)");
   addPresetOption(*budget_command, options.preset);
+  addLightOption(*budget_command, options.light);
   options.choice.threads = 1;  // what is measured is a frame on one thread
   addThreadsOption(*budget_command, options.choice);
   budget_command->add_option("--json", options.json,

@@ -106,7 +106,8 @@ struct BudgetOptions {
   int height = 720;
   std::string camera;
   std::string preset = "realtime";
-  std::string json;  ///< A file, "-" for standard output, or empty; so is `csv`.
+  std::string light;  ///< Empty: the scene's.
+  std::string json;   ///< A file, "-" for standard output, or empty; so is `csv`.
   std::string csv;
   std::filesystem::path trace;
   std::filesystem::path plot;  ///< .svg or .html; empty: none.

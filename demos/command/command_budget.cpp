@@ -46,7 +46,7 @@ BudgetSubject subjectOf(const BudgetOptions& options, const Scene& scene, const 
   subject.fps = options.fps;
   subject.frames = frames;
   subject.camera = camera;
-  subject.preset = options.preset;
+  subject.preset = options.preset + (options.light.empty() ? "" : " by " + options.light);
   subject.threads = threadsOf(options.choice);
   subject.machine = machineName();
   subject.build = buildName();
@@ -229,6 +229,7 @@ ExitCode budget(const BudgetOptions& options) {
   renderer::Settings settings{.width = options.width, .height = options.height};
   settings.backend = renderer::backendOf(options.gl);
   settings.preset = renderer::presetOf(options.preset);
+  settings.light = chosenLight(scene.light, options.light, {}).light;
   renderer::FrameRenderer pictures(settings, made.world.solids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   // Work is the same on every machine; times are not.

@@ -164,10 +164,17 @@ void addCamera(const renderer::Camera& actual, const renderer::Camera& golden, s
   if (actual.fov_degrees != golden.fov_degrees)
     add("the camera's field of view is " + shortNumber(actual.fov_degrees) + " degrees, was " +
         shortNumber(golden.fov_degrees));
+  if (actual.aperture_m != golden.aperture_m)
+    add("the camera's aperture is " + shortNumber(actual.aperture_m) + " m, was " +
+        shortNumber(golden.aperture_m) + " m");
+  if (actual.focus_m != golden.focus_m && actual.aperture_m > 0.0)
+    add("the camera is in focus at " + shortNumber(actual.focus_m) + " m, was " +
+        shortNumber(golden.focus_m) + " m");
 }
 
 std::string partOfLook(const std::string& fact) {
-  if (fact == "light" || fact == "size" || fact == "renderer" || fact == "program") return fact;
+  if (fact.starts_with("light")) return "light";
+  if (fact == "size" || fact == "renderer" || fact == "program") return fact;
   if (fact.starts_with("color of ")) return "material";
   return "preset";
 }
@@ -178,7 +185,7 @@ std::string partOfSource(const std::string& file) {
   if (!file.starts_with("renderer/")) return "program";
   for (const char* encoder : {"png", "quick_deflate"})
     if (file.find(encoder) != std::string::npos) return "encoder";
-  for (const char* shader : {"shader", "pass", "shadow_map", "backdrop", "edge_filter"})
+  for (const char* shader : {"shader", "glsl", "pass", "shadow_map", "backdrop", "edge_filter"})
     if (file.find(shader) != std::string::npos) return "shader";
   return "renderer";
 }
@@ -534,10 +541,10 @@ Cause causeByText(const renderer::DecodedRaster& actual, const renderer::Decoded
   if (differs("State")) return single("engine", "state", "physics moved: state " + change("State"));
   const std::string state = textOf(golden.text, "State");
   if (state.empty() || textOf(actual.text, "State").empty()) return {};
-  for (const char* key : {"Preset", "Style", "Overlays"}) {
+  for (const char* key : {"Preset", "Style", "Light", "Shutter", "Background", "Overlays"}) {
     const std::string a = textOf(actual.text, key), g = textOf(golden.text, key);
     if (a != g)
-      return single("preset", key,
+      return single(key == std::string("Light") ? "light" : "preset", key,
                     std::string("the same motion, another look: ") + key + " is " +
                         (a.empty() ? "the usual one" : a) + ", was " + (g.empty() ? "the usual one" : g));
   }

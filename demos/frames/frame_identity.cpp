@@ -8,6 +8,7 @@
 #include "demos/system/build_info.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
+#include "renderer/image/cutout.h"
 
 namespace carom::demos {
 namespace {
@@ -17,6 +18,25 @@ bool holdsExactly(const std::filesystem::path& path, const std::vector<std::uint
   const std::string held{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return std::equal(held.begin(), held.end(), bytes.begin(), bytes.end(),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+EncodedFrame encodedCutout(const renderer::Image& image, const renderer::PngText& text) {
+  const renderer::Raster raster = renderer::rasterOf(image);
+  const std::vector<std::uint8_t> bytes(raster.samples.begin(), raster.samples.end());
+  EncodedFrame frame;
+  frame.pixel_hash = ContentHash().add(bytes.data(), bytes.size()).value();
+  renderer::PngText signed_text = text;
+  signed_text.emplace_back("Pixels", hexText(frame.pixel_hash));
+  frame.bytes = renderer::encodePng(raster, signed_text, renderer::PngPacking::kQuick);
+  return frame;
+}
+
+/// A frame's file with the alpha that it may have.
+renderer::DecodedPng readFrame(const std::filesystem::path& path) {
+  renderer::DecodedRaster file = renderer::readPngRaster(path);
+  if (file.raster.channels == 4 && file.raster.bits == 8)
+    return {renderer::imageOf(file.raster), std::move(file.text)};
+  return renderer::readPng(path);
 }
 
 }  // namespace
@@ -34,6 +54,12 @@ renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record)
                             {"State", hexText(record.state_hash)}};
   if (manifest.preset != renderer::Preset::kRealtime) text.emplace_back("Preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) text.emplace_back("Style", nameOf(manifest.style));
+  if (!manifest.light.empty()) text.emplace_back("Light", manifest.light);
+  if (manifest.shutter_degrees > 0.0) {
+    std::snprintf(time, sizeof time, "%.9g degrees", manifest.shutter_degrees);
+    text.emplace_back("Shutter", time);
+  }
+  if (manifest.cutout) text.emplace_back("Background", "none");
   if (!manifest.overlays.empty()) text.emplace_back("Overlays", manifest.overlays);
   if (manifest.has_caption) text.emplace_back("Caption", "on");
   return text;
@@ -44,6 +70,7 @@ EncodedFrame encodedFrame(const renderer::Image& image, const renderer::PngText&
 }
 
 EncodedFrame FrameEncoder::encode(const renderer::Image& image, const renderer::PngText& text) {
+  if (!image.alpha.empty()) return encodedCutout(image, text);
   EncodedFrame frame;
   frame.pixel_hash = ContentHash().add(image.rgb.data(), image.rgb.size()).value();
   renderer::PngText signed_text = text;
@@ -87,7 +114,7 @@ std::optional<std::uint64_t> wanted(const std::filesystem::path& path, const ren
 
 std::optional<std::uint64_t> wantedFrame(const std::filesystem::path& path, const renderer::PngText& text,
                                          const FrameSize& size) {
-  return wanted(path, text, size, renderer::readPng, encodedFrame);
+  return wanted(path, text, size, readFrame, encodedFrame);
 }
 
 std::optional<std::uint64_t> wantedOutput(const std::filesystem::path& path, const renderer::PngText& text,

@@ -44,6 +44,9 @@ void addUnusual(const Manifest& manifest, Json& json) {
   if (manifest.speed != 1.0) json.set("speed", manifest.speed);
   if (manifest.preset != renderer::Preset::kRealtime) json.set("preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) json.set("style", nameOf(manifest.style));
+  if (!manifest.light.empty()) json.set("light", manifest.light);
+  if (manifest.shutter_degrees > 0.0) json.set("shutterDegrees", manifest.shutter_degrees);
+  if (manifest.cutout) json.set("background", "none");
   if (!manifest.overlays.empty()) json.set("overlays", manifest.overlays);
   if (manifest.has_caption) json.set("caption", true);
   if (manifest.outputs.kind() != Json::Kind::kNull) json.set("outputs", manifest.outputs);

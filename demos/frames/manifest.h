@@ -52,6 +52,9 @@ struct Manifest {
   std::string camera;
   renderer::Preset preset = renderer::Preset::kRealtime;
   renderer::Style style = renderer::Style::kDaylight;
+  std::string light;  ///< Empty: the usual one.
+  double shutter_degrees = 0.0;
+  bool cutout = false;   ///< The pictures have alpha in place of a background.
   Json meshes;           ///< What was made of mesh files; null: there are none.
   Json outputs;          ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
   std::string overlays;  ///< Names and focus; empty: none.

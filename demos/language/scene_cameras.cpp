@@ -17,7 +17,7 @@ void requireApart(const Vec3& a, const Vec3& b, const Json& json, const char* wh
 }
 
 void readStill(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"eye", "target", "fovDegrees"});
+  json.onlyKeys({"eye", "target", "fovDegrees", "aperture", "focus"});
   camera.eye = readVec3(json.at("eye"), kCoordinate);
   camera.target = readVec3(json.at("target"), kCoordinate);
   requireApart(camera.eye, camera.target, json, "eye and target coincide");
@@ -31,7 +31,7 @@ Vec3 readOffset(const Json& json) {
 }
 
 void readFit(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"fit", "direction", "fovDegrees"});
+  json.onlyKeys({"fit", "direction", "fovDegrees", "aperture", "focus"});
   if (!json.at("fit").asBoolean()) json.at("fit").fail("accepted: true, or another kind of camera");
   FitView fit;
   if (const Json* direction = json.find("direction")) fit.direction = readOffset(*direction);
@@ -39,7 +39,7 @@ void readFit(const Json& json, SceneCamera& camera) {
 }
 
 void readFrame(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"frame", "direction", "fill", "fovDegrees"});
+  json.onlyKeys({"frame", "direction", "fill", "fovDegrees", "aperture", "focus"});
   const Json& what = json.at("frame");
   if (what.asString() != "moving") what.fail(what.shown() + " is unknown; accepted: \"moving\"");
   FrameMoving frame;
@@ -49,7 +49,7 @@ void readFrame(const Json& json, SceneCamera& camera) {
 }
 
 void readFollow(const Json& json, const BodyNames& names, SceneCamera& camera) {
-  json.onlyKeys({"follow", "offset", "fovDegrees"});
+  json.onlyKeys({"follow", "offset", "fovDegrees", "aperture", "focus"});
   FollowBody follow{json.at("follow").asString(), {}};
   names.require(follow.body, json.at("follow"));
   if (const Json* offset = json.find("offset")) follow.offset_m = readOffset(*offset);
@@ -57,7 +57,7 @@ void readFollow(const Json& json, const BodyNames& names, SceneCamera& camera) {
 }
 
 void readOrbit(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"orbit", "fovDegrees"});
+  json.onlyKeys({"orbit", "fovDegrees", "aperture", "focus"});
   const Json& path = json.at("orbit");
   path.onlyKeys({"target", "radius", "height", "degreesPerSecond", "startDegrees"});
   Orbit orbit;
@@ -85,7 +85,7 @@ CameraKeyframes::Key readKey(const Json& json, double fov_degrees) {
 
 /// `fovDegrees` of the camera is that of the keyframes without their own.
 void readKeyframes(const Json& json, SceneCamera& camera) {
-  json.onlyKeys({"keyframes", "interpolation", "fovDegrees"});
+  json.onlyKeys({"keyframes", "interpolation", "fovDegrees", "aperture", "focus"});
   const Json& list = json.at("keyframes");
   if (list.items().empty() || list.items().size() > kMostPoints)
     list.fail(std::to_string(list.items().size()) + " keyframes; accepted: 1 to " +
@@ -110,7 +110,7 @@ void readKeyframes(const Json& json, SceneCamera& camera) {
 }
 
 void readDolly(const Json& json, const BodyNames& names, double duration_s, SceneCamera& camera) {
-  json.onlyKeys({"dolly", "fovDegrees"});
+  json.onlyKeys({"dolly", "fovDegrees", "aperture", "focus"});
   const Json& written = json.at("dolly");
   written.onlyKeys({"points", "target", "start", "seconds", "ease"});
   Dolly dolly;
@@ -156,9 +156,11 @@ void BodyNames::require(const std::string& name, const Json& place) const {
 
 SceneCamera readCamera(const Json& json, const BodyNames& names, double duration_s) {
   json.onlyKeys({"eye", "target", "fovDegrees", "fit", "direction", "frame", "fill", "follow", "offset",
-                 "orbit", "keyframes", "interpolation", "dolly"});
+                 "orbit", "keyframes", "interpolation", "dolly", "aperture", "focus"});
   SceneCamera camera;
   if (const Json* fov = json.find("fovDegrees")) camera.fov_degrees = readNumber(*fov, kFov);
+  if (const Json* value = json.find("aperture")) camera.aperture_m = readNumber(*value, {0.0, 1000.0});
+  if (const Json* value = json.find("focus")) camera.focus_m = readNumber(*value, kLength);
   if (json.find("fit") != nullptr)
     readFit(json, camera);
   else if (json.find("frame") != nullptr)

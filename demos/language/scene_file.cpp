@@ -32,7 +32,8 @@ using Materials = std::map<std::string, NamedMaterial>;
 
 NamedMaterial readMaterial(const Json& json) {
   json.onlyKeys({"staticFriction", "dynamicFriction", "rollingResistance", "spinningResistance",
-                 "restitution", "density", "dragCoefficient", "color", "checker"});
+                 "restitution", "density", "dragCoefficient", "color", "checker", "ground", "surface",
+                 "surfaceScale"});
   NamedMaterial material;
   Material& m = material.physical;
   if (const Json* value = json.find("staticFriction")) m.static_friction = readNumber(*value, {0.0, 100.0});
@@ -51,11 +52,7 @@ NamedMaterial readMaterial(const Json& json) {
   if (const Json* value = json.find("density"))
     m.density_kgpm3 = readNumber(*value, {0.0, kLargestDensity_kgpm3});
   if (const Json* value = json.find("dragCoefficient")) m.drag_coefficient = readNumber(*value, kFactor);
-  if (const Json* value = json.find("color")) {
-    material.look.color = readColor(*value);
-    material.look.has_color = true;
-  }
-  if (const Json* value = json.find("checker")) material.look.checker = value->asBoolean();
+  material.look = readLook(json);
   return material;
 }
 
@@ -348,7 +345,7 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
 /// Adds to `grown` how many values the scene was made into, also where it is refused.
 Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
   written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
-                    "materials", "air", "fluids", "bodies", "cameras", "duration", "group", "lookFor",
+                    "materials", "air", "fluids", "bodies", "cameras", "duration", "light", "group", "lookFor",
                     "caption"});
   readFormat(written);
   const ExpandedScene expanded = expandScene(written, path, grown);
@@ -368,6 +365,7 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
   scene.written_duration_s = scene.duration_s;
   if (const Json* value = json.find("air")) scene.air = readAir(*value);
+  if (const Json* value = json.find("light")) scene.light = readLight(*value);
   if (const Json* value = json.find("fluids")) scene.fluids = readFluids(*value, path);
   Materials materials;
   if (const Json* value = json.find("materials")) materials = readMaterials(*value);

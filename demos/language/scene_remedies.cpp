@@ -36,6 +36,8 @@ constexpr const char* kRate = "\"rate\": 240, steps a second";
 constexpr const char* kDuration = "\"duration\": 5, seconds";
 constexpr const char* kEye = "\"eye\": [x, y, z] and \"target\": [x, y, z]";
 constexpr const char* kFov = "\"fovDegrees\": 40, vertical";
+constexpr const char* kSurface = "\"surface\": \"wood\", in a material";
+constexpr const char* kLight = "\"light\": \"sunset\", or {\"direction\": [x, y, z], \"exposure\": 1.2}";
 constexpr const char* kSet = "\"set\": {\"r\": 0.5}, and then \"=2*r\" in place of a number";
 constexpr const char* kRepeat = "\"repeat\": {\"count\": 5, \"step\": [0.3, 0, 0]}";
 
@@ -52,6 +54,15 @@ constexpr std::array kWords = std::to_array<Word>({
     {"staticFriction", kMaterialOnly},
     {"dynamicFriction", kMaterialOnly},
     {"checker", kMaterialOnly},
+    {"surface", kMaterialOnly},
+    {"surfaceScale", kMaterialOnly},
+    {"texture", kSurface},
+    {"finish", kSurface},
+    {"sun", kLight},
+    {"sky", kLight},
+    {"lights", kLight},
+    {"lighting", kLight},
+    {"exposure", "\"light\": {\"exposure\": 1.5}"},
     {"weight", "\"density\", kg/m^3, in a material"},
     {"velocity", kVelocity},
     {"speed", kVelocity},

@@ -1,9 +1,11 @@
 #include "demos/language/scene_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "demos/format/nearest_name.h"
 #include "engine/foundation/elementary.h"
 
 namespace carom::demos {
@@ -103,6 +105,87 @@ renderer::Color readColor(const Json& json) {
   for (std::size_t i = 0; i < 3; ++i)
     channel[i] = static_cast<float>(16 * hexDigit(text[1 + 2 * i]) + hexDigit(text[2 + 2 * i])) / 255.0f;
   return {channel[0], channel[1], channel[2]};
+}
+
+namespace {
+
+/// The text, which must be one of the names.
+const std::string& readName(const Json& json, const std::vector<std::string>& names) {
+  const std::string& name = json.asString();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    json.fail(json.shown() + " is unknown" + acceptedNames(name, names));
+  return name;
+}
+
+Vec3 readLinear(const Json& json) {
+  const renderer::Color color = readColor(json);
+  return {renderer::linearLight(color.r), renderer::linearLight(color.g), renderer::linearLight(color.b)};
+}
+
+/// Another sky gives other light, colour by colour.
+void readSky(const Json& json, renderer::Light& light) {
+  const Vec3 before = light.horizon + light.zenith;
+  if (const Json* value = json.find("horizon")) {
+    light.horizon = readLinear(*value);
+    light.below = 0.7 * light.horizon;
+  }
+  if (const Json* value = json.find("zenith")) light.zenith = readLinear(*value);
+  light.sky_light = light.sky_light.cwiseProduct((light.horizon + light.zenith).cwiseQuotient(before));
+  if (const Json* value = json.find("skyStrength")) {
+    const double strength = readNumber(*value, {0.0, 20.0});
+    light.sky_light *= strength;
+    light.ground_light *= strength;
+  }
+}
+
+}  // namespace
+
+SurfaceLook readLook(const Json& material) {
+  SurfaceLook look;
+  if (const Json* value = material.find("color")) {
+    look.color = readColor(*value);
+    look.has_color = true;
+  }
+  if (const Json* value = material.find("checker")) look.checker = value->asBoolean();
+  if (const Json* value = material.find("ground")) {
+    look.checker = true;
+    look.pattern = *renderer::groundOf(readName(*value, renderer::groundNames()));
+  }
+  if (const Json* value = material.find("surface")) {
+    look.surface = *renderer::surfaceOf(readName(*value, renderer::surfaceNames()));
+    if (look.checker) value->fail("given together with \"ground\" or \"checker\"; accepted: one of them");
+  }
+  if (const Json* value = material.find("surfaceScale")) {
+    look.surface_scale_m = readNumber(*value, {1e-4, 1e4});
+    if (look.surface == renderer::SurfaceKind::kPlain)
+      value->fail("there is no \"surface\" to scale; accepted: with one of them");
+  }
+  return look;
+}
+
+SceneLight readLight(const Json& json) {
+  if (json.kind() == Json::Kind::kString) {
+    const std::string& name = readName(json, renderer::lightNames());
+    return {name, false, renderer::lightOf(name)};
+  }
+  json.onlyKeys(
+      {"like", "direction", "color", "strength", "softness", "horizon", "zenith", "skyStrength", "exposure"});
+  SceneLight scene;
+  scene.changed = true;
+  if (const Json* value = json.find("like")) scene.name = readName(*value, renderer::lightNames());
+  renderer::Light& light = scene.light;
+  light = renderer::lightOf(scene.name);
+  if (const Json* value = json.find("direction")) {
+    light.to_light = readVec3(*value, kCoordinate);
+    if (!(light.to_light.norm() > kSmallestLength_m))
+      value->fail(value->shown() + " has no direction; accepted: a vector of some length, towards the sun");
+  }
+  if (const Json* value = json.find("color")) light.sun = light.sun.maxCoeff() * readLinear(*value);
+  if (const Json* value = json.find("strength")) light.sun *= readNumber(*value, {0.0, 20.0});
+  if (const Json* value = json.find("softness")) light.softness = readNumber(*value, {0.0, 20.0});
+  readSky(json, light);
+  if (const Json* value = json.find("exposure")) light.exposure = readNumber(*value, kExposure);
+  return scene;
 }
 
 std::vector<renderer::Color> readColors(const Json& json) {

@@ -1,6 +1,7 @@
 #pragma once
-// Values of a scene file that stand in many places: numbers within their range, vectors, rotations, colours.
-// Each throws InputError with the value's place and what is accepted. Tested through scene_file.h.
+// Values of a scene file that stand in many places: numbers within their range, vectors, rotations, colours,
+// looks, light. Each throws InputError with the value's place and what is accepted. Tested through
+// scene_file.h.
 
 #include <filesystem>
 #include <limits>
@@ -24,7 +25,8 @@ inline constexpr Range kCoordinate{-kLargestLength_m, kLargestLength_m};
 inline constexpr Range kDensity{kSmallestDensity_kgpm3, kLargestDensity_kgpm3};
 inline constexpr Range kFactor{0.0, 1000.0};
 inline constexpr Range kResistance{0.0, 100.0};  // metres
-inline constexpr Range kSpeed{-1e5, 1e5};        // m/s and rad/s
+inline constexpr Range kExposure{0.01, 100.0};
+inline constexpr Range kSpeed{-1e5, 1e5};  // m/s and rad/s
 
 std::string plainNumber(double value);
 std::string shown(const Range& range);
@@ -43,5 +45,11 @@ Pose readPose(const Json& json);
 /// "#rrggbb", or a list of them.
 renderer::Color readColor(const Json& json);
 std::vector<renderer::Color> readColors(const Json& json);
+
+/// "color", "checker", "ground", "surface" and "surfaceScale", each where it is given.
+SurfaceLook readLook(const Json& material);
+
+/// A light's name, or an object of what is not as in the one that is "like" it.
+SceneLight readLight(const Json& json);
 
 }  // namespace carom::demos

@@ -33,7 +33,7 @@ def range_of(rule):
 
 
 # Rules that are told where they are used; every other has a table of its own.
-INLINE = ("vector", "length", "color", "box", "up", "fov")
+INLINE = ("vector", "length", "color", "box", "up", "fov", "aperture", "focus")
 
 
 def kind_of(value, schema):

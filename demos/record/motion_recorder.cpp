@@ -47,6 +47,17 @@ std::string shapePrint(const Solid& solid) {
   return hexText(hash.value()).substr(8);
 }
 
+/// What is as usual is left out, as records from before it could be otherwise do.
+Facts lookOf(const SurfaceLook& look, const renderer::Surface& surface) {
+  Facts facts = {{"color", colorText(look.color)}, {"checker", look.checker ? "true" : "false"}};
+  if (look.checker && look.pattern != renderer::GroundPattern::kChecker)
+    facts.emplace_back("ground", nameOf(look.pattern));
+  if (surface.kind == renderer::SurfaceKind::kPlain) return facts;
+  facts.emplace_back("surface", nameOf(surface.kind));
+  facts.emplace_back("surface scale", numberText(surface.scale_m));
+  return facts;
+}
+
 RecordedBody recordedBody(const SceneWorld& made, std::size_t i) {
   const BodyDescription& body = made.world.bodies()[i];
   const Solid& solid = made.world.solids()[static_cast<std::size_t>(body.solid)];
@@ -69,8 +80,7 @@ RecordedBody recordedBody(const SceneWorld& made, std::size_t i) {
   recorded.shape = {{"volume", numberText(solid.volume())},
                     {"radius", numberText(solid.radius())},
                     {"geometry", shapePrint(solid)}};
-  recorded.look = {{"color", colorText(made.looks[i].color)},
-                   {"checker", made.looks[i].checker ? "true" : "false"}};
+  recorded.look = lookOf(made.looks[i], made.surfaces[i]);
   return recorded;
 }
 
@@ -96,12 +106,29 @@ Facts worldFacts(const Scene& scene) {
   return facts;
 }
 
+/// But for its direction, what is not that of the usual light.
+void addLight(const renderer::Light& light, Facts& facts) {
+  const renderer::Light usual;
+  const auto add = [&](const char* name, const Vec3& value, const Vec3& known) {
+    if (value != known) facts.emplace_back(std::string("light of the ") + name, vectorText(value));
+  };
+  add("sun", light.sun, usual.sun);
+  add("sky", light.sky_light, usual.sky_light);
+  add("ground", light.ground_light, usual.ground_light);
+  add("horizon", light.horizon, usual.horizon);
+  add("zenith", light.zenith, usual.zenith);
+  if (light.exposure != usual.exposure) facts.emplace_back("light's exposure", numberText(light.exposure));
+  if (light.softness != usual.softness) facts.emplace_back("light's softness", numberText(light.softness));
+}
+
 Facts lookFacts(const Scene& scene, const renderer::Settings& s) {
   Facts facts = {{"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
-                 {"light", vectorText(s.to_light)},
+                 {"light", vectorText(s.light.to_light)},
                  {"preset", nameOf(s.preset)},
                  {"style", nameOf(s.style)},
                  {"pixels", s.pixels == renderer::PixelPolicy::kPortable ? "portable" : "of this CPU"}};
+  addLight(s.light, facts);
+  if (s.cutout) facts.emplace_back("background", "none");
   for (const NamedFluid& fluid : scene.fluids)
     facts.emplace_back("color of " + fluid.name, colorText(fluid.color));
   return facts;

@@ -43,6 +43,9 @@ MessageWriter jobMessage(const FrameJob& job) {
   message.put(job.frame).put(job.physics_ms).put(job.state.step).put(job.state.state_hash);
   message.put(job.state.bodies.size());
   for (const BodyState& body : job.state.bodies) put(message, body);
+  message.put(job.moments.size());
+  for (const std::vector<BodyState>& moment : job.moments)
+    for (const BodyState& body : moment) put(message, body);
   return message;
 }
 
@@ -56,6 +59,9 @@ FrameJob takeJob(MessageReader from, std::vector<BodyState>& bodies) {
   bodies.resize(from.take<std::size_t>());
   for (BodyState& body : bodies) body = takeBody(from);
   job.state.bodies = bodies;
+  job.moments.assign(from.take<std::size_t>(), bodies);
+  for (std::vector<BodyState>& moment : job.moments)
+    for (BodyState& body : moment) body = takeBody(from);
   return job;
 }
 

@@ -21,7 +21,8 @@ namespace carom::demos {
 struct FrameJob {
   int frame = 0;
   FrameState state;
-  double physics_ms = 0.0;  ///< That it took to get there.
+  double physics_ms = 0.0;                           ///< That it took to get there.
+  std::vector<std::vector<BodyState>> moments = {};  ///< While the shutter is open; empty: it closes at once.
 };
 
 /// What became of it: its record and, where it has no files, its bytes for the stream.

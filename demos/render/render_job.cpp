@@ -32,6 +32,7 @@
 #include "demos/record/recorded_scene.h"
 #include "demos/record/recording.h"
 #include "demos/render/frame_workers.h"
+#include "demos/render/shutter.h"
 #include "demos/scene/camera_path.h"
 #include "demos/scene/drawn_water.h"
 #include "demos/scene/scene_caption.h"
@@ -57,12 +58,31 @@ struct Plan {
   NamedCamera camera;
   renderer::Preset preset = renderer::Preset::kRealtime;
   renderer::Style style = renderer::Style::kDaylight;
+  SceneLight light;
+  bool cutout = false;
+  Shutter shutter{0.0, 1};
   std::vector<FrameOutput> outputs;
   FrameClock clock;
   double fps = 0.0;         ///< Of the frames as they are shown; the clock's are the scene's.
   int frame_count = 0;      ///< Of the whole run.
   std::vector<int> frames;  ///< Those chosen.
 };
+
+Shutter chosenShutter(const RenderOptions& options) {
+  const renderer::Preset preset = renderer::presetOf(options.preset);
+  const int exposures = renderer::qualityOf(preset, renderer::styleOf(options.style)).samples;
+  const Shutter shutter(options.shutter_degrees, exposures);
+  if (options.shutter_degrees == 0.0) return shutter;
+  const auto refuse = [](const std::string& with, const char* accepted) {
+    throw UsageError("--shutter with " + with + ": accepted: " + accepted);
+  };
+  if (!shutter.isOpen()) refuse("--preset " + options.preset, "--preset quality or cinematic");
+  if (!options.from.empty())
+    refuse("--from", "the scene itself, for a recording has no motion between frames");
+  if (!options.overlays.empty()) refuse("--overlay", "one of them");
+  if (options.at_s) refuse("--at", "--frames with one number");
+  return shutter;
+}
 
 Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
   SceneChoice choice = options.choice;
@@ -79,6 +99,9 @@ Plan planned(const RenderOptions& options, const std::optional<RecordingReader>&
             .camera = chosenCamera(scene, options.camera),
             .preset = renderer::presetOf(options.preset),
             .style = renderer::styleOf(options.style),
+            .light = chosenLight(scene.light, options.light, options.exposure),
+            .cutout = options.background == "none",
+            .shutter = chosenShutter(options),
             .outputs = readOutputs(options.aov),
             .clock = clock,
             .fps = recording ? scene_fps * options.speed : options.fps,
@@ -111,6 +134,9 @@ Manifest emptyManifest(const RenderOptions& options, const Plan& plan) {
   manifest.camera = plan.camera.name;
   manifest.preset = plan.preset;
   manifest.style = plan.style;
+  manifest.light = lightText(plan.light);
+  manifest.cutout = plan.cutout;
+  manifest.shutter_degrees = options.shutter_degrees;
   manifest.frames_planned = static_cast<int>(plan.frames.size());
   return manifest;
 }
@@ -198,8 +224,15 @@ FrameToWrite plannedFrame(const Run& run, const FrameJob& job) {
 void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob& job, FrameToWrite& next) {
   Stopwatch watch;
   const renderer::Camera camera = run.camera.at(next.record.time_s, job.state.bodies);
-  next.image = run.overlays.draw(pictures, job.state, job.frame, camera,
-                                 drawnWater(run.plan.scene, next.record.time_s));
+  const std::vector<renderer::WaterVolume> water = drawnWater(run.plan.scene, next.record.time_s);
+  if (job.moments.empty()) {
+    next.image = run.overlays.draw(pictures, job.state, job.frame, camera, water);
+  } else {
+    std::vector<std::vector<renderer::Instance>> moments;
+    for (const std::vector<BodyState>& bodies : job.moments)
+      moments.push_back(drawnInstances(run.scene, bodies));
+    next.image = pictures.draw(moments.back(), camera, {}, water, moments);
+  }
   if (run.caption != nullptr)
     next.image = withCaption(std::move(next.image), run.caption->at(next.record.time_s, job.state.bodies));
   drawOutputs(run, pictures, next);
@@ -211,13 +244,22 @@ void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob
 FrameJob nextJob(Run& run, int frame) {
   throwIfInterrupted();
   Stopwatch watch;
-  const FrameState state = run.overlays.advance(run.source, frame);
+  std::vector<std::vector<BodyState>> moments;
+  FrameState state;
+  if (run.plan.shutter.isOpen()) {
+    for (const int moment : run.plan.shutter.moments(frame)) {
+      state = run.source.at(moment);
+      moments.emplace_back(state.bodies.begin(), state.bodies.end());
+    }
+  } else {
+    state = run.overlays.advance(run.source, frame);
+  }
   if (run.recorder != nullptr) {
     const double time_s = run.plan.clock.time(frame);
     run.recorder->addShot(run.names->file(frame).filename().string(), time_s, state,
                           run.camera.at(time_s, state.bodies));
   }
-  return {frame, state, watch.lap_ms()};
+  return {frame, state, watch.lap_ms(), std::move(moments)};
 }
 
 /// Where frames go: each is encoded, by whoever drew it, and then delivered in its turn.
@@ -505,6 +547,20 @@ int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& ov
   return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
 }
 
+/// Streams of bare colours, moving pictures and sheets have no alpha, and overlays are drawn over a whole
+/// picture.
+void requireAlpha(const RenderOptions& options, const OverlayChoice& shown) {
+  const auto refuse = [](const std::string& with, const char* accepted) {
+    throw UsageError("--background none with " + with + ": accepted: " + accepted);
+  };
+  if (options.style != "daylight") refuse("--style " + options.style, "--style daylight");
+  if (shown.any()) refuse("--overlay", "none");
+  if (!options.sheet.empty()) refuse("--sheet", "PNG frames");
+  if (!options.moving.empty()) refuse(options.moving.string(), "PNG frames");
+  if (!options.stream.empty() && options.stream != "png")
+    refuse("--stream " + options.stream, "--stream png");
+}
+
 /// None where the frames go into a stream, a moving picture or a sheet.
 std::optional<FrameNames> frameNames(const RenderOptions& options, const std::string& scene) {
   if (!options.stream.empty() || !options.moving.empty() || !options.sheet.empty()) return std::nullopt;
@@ -531,6 +587,7 @@ ExitCode render(const RenderOptions& options) {
   if (!options.from.empty()) recording.emplace(options.from);
   const OverlayChoice shown = readOverlays(options.overlays);
   const Plan plan = planned(options, recording);
+  if (plan.cutout) requireAlpha(options, shown);
   if (!options.stream.empty()) requireStreamable(options, plan.outputs);
   const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
   Manifest manifest = emptyManifest(options, plan);
@@ -548,6 +605,8 @@ ExitCode render(const RenderOptions& options) {
   renderer::Settings settings{.width = options.width, .height = options.height};
   settings.preset = plan.preset;
   settings.style = plan.style;
+  settings.light = plan.light.light;
+  settings.cutout = plan.cutout;
   if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
   settings.backend = renderer::backendOf(options.gl);
   const int workers_wanted = workersOf(options, plan, overlays);
@@ -561,11 +620,14 @@ ExitCode render(const RenderOptions& options) {
   RunFacts facts;
   std::optional<MotionRecorder> recorder;
   if (hasRecord(options, overlays)) recorder.emplace(plan.scene, made, settings);
+  const FrameClock fine_clock =
+      plan.shutter.isOpen() ? FrameClock({plan.clock.fps() * plan.shutter.perFrame(), plan.scene.rate_hz})
+                            : plan.clock;
   std::optional<FrameSource> source;
   if (recording)
     source.emplace(*recording);
   else
-    source.emplace(made, plan.clock, facts, overlays.phases(), [&recorder](const World& world) {
+    source.emplace(made, fine_clock, facts, overlays.phases(), [&recorder](const World& world) {
       if (recorder) recorder->follow(world);
     });
   Run run{plan,

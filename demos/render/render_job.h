@@ -32,12 +32,16 @@ struct RenderOptions {
   std::string camera;  ///< Empty: "main", else the first.
   std::string preset = "realtime";
   std::string style = "daylight";
-  std::string aov;        ///< "depth,normal,id"; empty: none.
-  std::string overlays;   ///< "closest,distance"; empty: none.
-  std::string focus;      ///< The bodies that overlays speak of, "cube,floor"; empty: all.
-  bool caption = true;    ///< The scene's, where it has one.
-  bool portable = false;  ///< The same pixels on every CPU.
-  bool states = false;    ///< A record beside the frames, by which `compare` names causes.
+  std::string light;                 ///< Empty: the scene's.
+  std::optional<double> exposure;    ///< None: the light's.
+  std::string background = "scene";  ///< "none": neither sky nor ground, and alpha.
+  double shutter_degrees = 0.0;      ///< Of a turn a frame that the shutter is open; 0: it closes at once.
+  std::string aov;                   ///< "depth,normal,id"; empty: none.
+  std::string overlays;              ///< "closest,distance"; empty: none.
+  std::string focus;                 ///< The bodies that overlays speak of, "cube,floor"; empty: all.
+  bool caption = true;               ///< The scene's, where it has one.
+  bool portable = false;             ///< The same pixels on every CPU.
+  bool states = false;               ///< A record beside the frames, by which `compare` names causes.
   std::string gl = "auto";
   int workers = 0;  ///< Processes that draw; 0: as many as are usual.
   Telling telling;

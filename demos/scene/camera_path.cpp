@@ -150,7 +150,7 @@ renderer::Camera CameraPath::alongKeyframes(double time_s) const {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = numberOf(path.keys[k].camera);
     return path.smooth ? monotoneAt(times, values, time_s) : linearAt(times, values, time_s);
   };
-  renderer::Camera camera;
+  renderer::Camera camera = camera_;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     camera.eye[axis] = valueOf([axis](const renderer::Camera& key) { return key.eye[axis]; });
     camera.target[axis] = valueOf([axis](const renderer::Camera& key) { return key.target[axis]; });

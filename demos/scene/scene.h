@@ -12,6 +12,7 @@
 
 #include "demos/formula/caption_text.h"
 #include "demos/scene/scene_camera.h"
+#include "demos/scene/scene_light.h"
 #include "engine/foundation/frames.h"
 #include "engine/simulation/world.h"
 #include "renderer/frame/frame_renderer.h"
@@ -76,7 +77,10 @@ struct CompoundPart {
 
 struct SurfaceLook {
   renderer::Color color;
-  bool checker = false;
+  bool checker = false;                                                 ///< A ground, ...
+  renderer::GroundPattern pattern = renderer::GroundPattern::kChecker;  ///< ... and what it shows.
+  renderer::SurfaceKind surface = renderer::SurfaceKind::kPlain;
+  std::optional<double> surface_scale_m;  ///< None: what suits the body's size.
   bool has_color = false;  ///< Given by the scene; else a body that moves takes one of the palette.
   std::string material;    ///< Its name in the scene's file, or empty.
 };
@@ -150,6 +154,7 @@ struct Scene {
   std::vector<NamedFluid> fluids;
   std::vector<Body> bodies;
   std::map<std::string, SceneCamera> cameras;
+  SceneLight light;
   std::vector<std::filesystem::path> included;  ///< Files whose parts are in it.
   std::vector<std::string> settings;            ///< "path=value" of the command line.
   std::vector<std::string> warnings;            ///< What is written and has no effect, with its place.

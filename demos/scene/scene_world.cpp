@@ -1,5 +1,6 @@
 #include "demos/scene/scene_world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include "engine/broad_phase/candidate_pairs.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
+#include "renderer/view/solid_extent.h"
 
 namespace carom::demos {
 namespace {
@@ -98,6 +100,23 @@ void setMotion(const Body& body, const Solid& solid, const Pose& X_SB, BodyDescr
   description.load = body.load;
 }
 
+/// What a surface or a pattern is made of has a colour by itself.
+void setNaturalColor(SurfaceLook& look) {
+  if (look.checker && look.pattern != renderer::GroundPattern::kChecker)
+    look.color = renderer::naturalColor(look.pattern);
+  else if (!look.checker && look.surface != renderer::SurfaceKind::kPlain)
+    look.color = renderer::naturalColor(look.surface);
+}
+
+/// The pattern's place is the body's name's, so that it stays where it is when others come or go.
+renderer::Surface surfaceOf(const SurfaceLook& look, const Solid& solid, const std::string& name) {
+  if (look.surface == renderer::SurfaceKind::kPlain) return {};
+  Vec3 sides = 2.0 * renderer::solidExtent(solid).half;
+  std::sort(sides.begin(), sides.end());
+  const double scale_m = look.surface_scale_m.value_or(renderer::usualScale(sides[1]));
+  return {look.surface, scale_m, static_cast<std::uint32_t>(ContentHash().add(name).value())};
+}
+
 void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh) {
   const Body& body = scene.bodies[index];
   std::vector<MeshReport> reports;
@@ -120,6 +139,7 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
     made.looks.push_back(body.look);
     if (!body.look.has_color && !body.is_static && !body.look.checker)
       made.looks.back().color = paletteColor(made.looks.size() - 1);
+    if (!body.look.has_color) setNaturalColor(made.looks.back());
     // What a mesh's colours are multiplied by, unless the scene says otherwise.
     if (!body.look.has_color &&
         !made.world.solids()[static_cast<std::size_t>(solid)].surface().colors.empty())
@@ -193,8 +213,13 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   settings.air = scene.air;
   settings.threads = threads;
   for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
-  SceneWorld made{World(settings), {}, {}, {}};
+  SceneWorld made{World(settings), {}, {}, {}, {}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh);
+  for (std::size_t i = 0; i < made.names.size(); ++i) {
+    const int solid = made.world.bodies()[i].solid;
+    made.surfaces.push_back(
+        surfaceOf(made.looks[i], made.world.solids()[static_cast<std::size_t>(solid)], made.names[i]));
+  }
   requireFewParts(made, scene);
   const std::vector<Overlap> overlaps = startedWith(made, scene);
   if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);
@@ -204,9 +229,11 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
 
 std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::span<const BodyState> states) {
   std::vector<renderer::Instance> instances;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    instances.push_back(
-        {scene.world.bodies()[i].solid, states[i].X_WB, scene.looks[i].color, scene.looks[i].checker});
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SurfaceLook& look = scene.looks[i];
+    instances.push_back({scene.world.bodies()[i].solid, states[i].X_WB, look.color, look.checker,
+                         look.pattern, scene.surfaces[i]});
+  }
   return instances;
 }
 

@@ -23,6 +23,7 @@ struct SceneWorld {
   World world;
   std::vector<std::string> names;  ///< "crate", or "crate[7]" for the copies of a repeated body.
   std::vector<SurfaceLook> looks;
+  std::vector<renderer::Surface> surfaces = {};  ///< The looks' as they are drawn.
   std::vector<std::pair<std::string, MeshReport>> meshes =
       {};  ///< What was made of mesh files, by the body's name.
   /// The places of what moves in the whole run (run_extent.h): runs the scene once, in a world of its own.

@@ -13,7 +13,9 @@ constexpr double kFarOverDistance = 4000.0;  // Far plane over the distance from
 constexpr double kMinNearOverDistance = 1e-3;
 constexpr double kNearsPerDoubling = 2.0;
 constexpr double kPixelsPerTriangle = 3.0;  // Squares of a radius that one more triangle is worth.
-constexpr double kGroundDarkening = 0.7;    // Of a body's half height: how near the ground darkens it.
+constexpr double kWidestShaded_px =
+    1.5;  // A narrower bevel of triangles would show in a pixel here and there.
+constexpr double kGroundDarkening = 0.7;  // Of a body's half height: how near the ground darkens it.
 
 // An instance placed relative to the eye.
 struct Placed {
@@ -22,7 +24,7 @@ struct Placed {
   double radius_m = 0.0;
   double depth_m = 0.0;  // Of the centre, along the view.
   int level = 0;
-  BodyShader shader = BodyShader::kShadowed;
+  BodyLook look;
   double radius_px = 0.0;
   FaceMask faces = kAllFaces;
   FaceMask sunlit = kAllFaces;
@@ -38,6 +40,11 @@ Placed place(int index, const Instance& instance, const SolidGeometry& solid, co
   const double distance = std::max(placed.center_E.norm() - placed.radius_m, 1e-3 * placed.radius_m);
   placed.radius_px = focal_px * solid.extent.half.maxCoeff() / distance;
   placed.level = detailLevel(placed.radius_px);
+  if (focal_px * solid.bevel_m < kWidestShaded_px * distance)
+    placed.level = std::min(placed.level, solid.is_curved ? kSharpLevel : kLastShadedLevel);
+  placed.look.finish = static_cast<std::int32_t>(instance.checker ? static_cast<int>(instance.pattern)
+                                                                  : static_cast<int>(instance.surface.kind));
+  if (instance.checker) placed.look.shader = BodyShader::kChecker;
   return placed;
 }
 
@@ -53,7 +60,7 @@ void appendVisible(const Placed& whole, bool is_checker, const SolidGeometry& so
   const auto add = [&](BodyShader shader, FaceMask faces) {
     if (faces == 0) return;
     visible.push_back(whole);
-    visible.back().shader = shader;
+    visible.back().look.shader = shader;
     visible.back().faces = faces;
     if (shader == BodyShader::kSunlit) visible.back().sunlit = light.sunlit;
   };
@@ -67,9 +74,9 @@ void appendVisible(const Placed& whole, bool is_checker, const SolidGeometry& so
     add(BodyShader::kShadowed, light.shadowed);
   } else if (light.turned == 0 && light.shadowed == 0) {
     visible.push_back(whole);
-    visible.back().shader = BodyShader::kSunlit;
+    visible.back().look.shader = BodyShader::kSunlit;
   } else {
-    add(BodyShader::kShadowed, kAllFaces);
+    add(BodyShader::kShadowed, drawsSingleFaces(whole.level) ? known | light.shadowed : kAllFaces);
   }
 }
 
@@ -97,8 +104,8 @@ std::vector<DrawGroup> group(const std::vector<Placed>& placed, Meshes meshes,
     const Placed& p = placed[i];
     const SolidGeometry& solid = geometry.solid(instances[static_cast<std::size_t>(p.index)].solid);
     const MeshRange& range = (solid.*meshes)[static_cast<std::size_t>(p.level)];
-    if (ordered.empty() || ordered.back().group.shader != p.shader || !(ordered.back().group.range == range))
-      ordered.push_back({p.depth_m - p.radius_m, {range, p.shader, first + static_cast<int>(i), 0}});
+    if (ordered.empty() || ordered.back().group.look != p.look || !(ordered.back().group.range == range))
+      ordered.push_back({p.depth_m - p.radius_m, {range, p.look, first + static_cast<int>(i), 0}});
     ++ordered.back().group.count;
   }
   std::stable_sort(ordered.begin(), ordered.end(),
@@ -121,6 +128,27 @@ DepthRange depthRange(const std::vector<Placed>& visible, double distance_m, con
   return {std::exp2(std::floor(std::log2(near) * kNearsPerDoubling) / kNearsPerDoubling), far};
 }
 
+bool isGlass(const Instance& instance) {
+  return !instance.checker && instance.surface.kind == SurfaceKind::kGlass;
+}
+
+int longestAxis(const Vec3& half) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (half[i] > 1.001 * half[axis]) axis = i;
+  return axis;
+}
+
+// Courses of bricks stay level in the body's frame; every other pattern lies along the longest side.
+void setFinish(const Surface& surface, const Extent& extent, bool is_ball, InstanceRecord& record) {
+  if (surface.kind == SurfaceKind::kPlain) return;
+  record.finish[0] = static_cast<float>(1.0 / surface.scale_m);
+  record.finish[1] = static_cast<float>(surface.kind == SurfaceKind::kBrick ? 2 : longestAxis(extent.half));
+  record.finish[2] = static_cast<float>(surface.seed % 4096) / 4096.0f;
+  for (int i = 0; i < 3; ++i) record.half[i] = static_cast<float>(extent.half[i]);
+  record.half[3] = is_ball ? 1.0f : 0.0f;
+}
+
 }  // namespace
 
 InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& solid, const Camera& camera) {
@@ -138,6 +166,7 @@ InstanceRecord instanceRecord(const Instance& instance, const SolidGeometry& sol
   r.color[3] = static_cast<float>(instance.checker ? -reach : reach);
   r.faces = kAllFaces;
   r.sunlit = kAllFaces;
+  setFinish(instance.surface, solid.extent, solid.is_ball, r);
   return r;
 }
 
@@ -171,22 +200,26 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
     const Instance& ground = instances[static_cast<std::size_t>(*list.ground)];
     list.ground_z_E = topHeight(ground, geometry.solid(ground.solid)) - camera.eye.z();
   }
-  std::vector<Placed> visible, casting;
+  std::vector<Placed> visible, casting, glass;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const int index = static_cast<int>(i);
     if (list.ground == index) continue;
     const Placed placed = place(index, instances[i], geometry.solid(instances[i].solid), camera, axes, focal);
-    if (inView(placed, axes, half_width, half_height))
+    const bool in_view = inView(placed, axes, half_width, half_height);
+    if (in_view && isGlass(instances[i]))
+      glass.push_back(placed);
+    else if (in_view)
       appendVisible(placed, instances[i].checker, geometry.solid(instances[i].solid), lights[i], visible);
     casting.push_back(placed);
   }
   const auto byMesh = [&](const Placed& a, const Placed& b) {
     const auto key = [&](const Placed& p) {
-      return std::tuple(instances[static_cast<std::size_t>(p.index)].solid, p.level, p.shader, p.depth_m,
+      return std::tuple(instances[static_cast<std::size_t>(p.index)].solid, p.level, p.look, p.depth_m,
                         p.index, p.sunlit);
     };
     return key(a) < key(b);
   };
+  const int seen = static_cast<int>(visible.size());
   for (std::vector<Placed>* placed : {&visible, &casting}) {
     std::sort(placed->begin(), placed->end(), byMesh);
     for (const Placed& p : *placed) {
@@ -196,11 +229,20 @@ DrawList buildDrawList(std::span<const Instance> instances, const Camera& camera
       list.records.back().sunlit = p.sunlit;
     }
   }
-  list.depth = depthRange(visible, (camera.target - camera.eye).norm(), list);
-  const int seen = static_cast<int>(visible.size());
   list.visible = group(visible, &SolidGeometry::levels, instances, geometry, 0);
+  std::stable_sort(glass.begin(), glass.end(),
+                   [](const Placed& a, const Placed& b) { return a.depth_m > b.depth_m; });
+  for (const Placed& p : glass) {
+    const Instance& instance = instances[static_cast<std::size_t>(p.index)];
+    const SolidGeometry& solid = geometry.solid(instance.solid);
+    list.glass.push_back(
+        {solid.levels[static_cast<std::size_t>(p.level)], p.look, static_cast<int>(list.records.size()), 1});
+    list.records.push_back(instanceRecord(instance, solid, camera));
+  }
+  visible.insert(visible.end(), glass.begin(), glass.end());
+  list.depth = depthRange(visible, (camera.target - camera.eye).norm(), list);
   list.casting = group(casting, &SolidGeometry::casting, instances, geometry, seen);
-  if (qualityOf(settings.preset, settings.style).mirror)
+  if (qualityOf(settings).mirror)
     list.mirrored = group(casting, &SolidGeometry::levels, instances, geometry, seen);
   return list;
 }

@@ -23,10 +23,21 @@ enum class BodyShader {
 };
 inline constexpr int kBodyShaders = 3;
 
+/// A program that draws bodies: the variant, and what is seen close by, by number.
+struct BodyLook {
+  BodyShader shader = BodyShader::kShadowed;
+  std::int32_t finish = 0;  ///< A SurfaceKind; where it is a checker, a GroundPattern.
+  auto operator<=>(const BodyLook&) const = default;
+};
+
+inline bool isGlass(const BodyLook& look) {
+  return look.shader != BodyShader::kChecker && look.finish == static_cast<std::int32_t>(SurfaceKind::kGlass);
+}
+
 /// Consecutive instance records that share a mesh and a shader.
 struct DrawGroup {
   MeshRange range;
-  BodyShader shader = BodyShader::kShadowed;
+  BodyLook look;
   int first = 0;
   int count = 0;
 };
@@ -38,8 +49,9 @@ struct BlockGroups {
 };
 
 struct DrawList {
-  std::vector<InstanceRecord> records;  ///< First those of `visible`, then those of `casting`.
+  std::vector<InstanceRecord> records;  ///< Those of `visible`, of `casting`, of `glass`.
   std::vector<DrawGroup> visible;       ///< Nearest group first.
+  std::vector<DrawGroup> glass;         ///< Seen through: one body each, the farthest first.
   std::vector<DrawGroup> casting;       ///< All but the ground, as the shadow map needs them.
   std::vector<DrawGroup> mirrored;      ///< The same as the camera would see them, where the ground mirrors.
   std::optional<int> ground;            ///< The instance drawn as an endless plane.

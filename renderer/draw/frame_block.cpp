@@ -10,7 +10,8 @@ namespace {
 constexpr double kShadowLift = 2.2;  // Texels along a grazed surface's normal: the reach of the softening.
 constexpr double kFogOverDistance = 6.0;  // Of the distance from eye to target: where the air takes 63 %.
 constexpr double kHorizonOverDistance =
-    2000.0;  // Of the same distance: where the ground ends, long since all air.
+    2000.0;                              // Of the same distance: where the ground ends, long since all air.
+constexpr double kPatternPeriod = 64.0;  // Squares; ground_pattern.glsl counts its cells from there.
 constexpr float kNoGround = -1e30f;
 
 // Squares of 1 m as long as the camera is at a distance where they help.
@@ -47,7 +48,8 @@ double horizonDistance(const Camera& camera) {
 }
 
 FrameBlock frameBlock(const FrameView& view) {
-  const auto& [camera, width, height, depth, shadow, shadow_texels, sample, ground_z_E] = view;
+  const auto& [camera, width, height, depth, shadow, shadow_texels, sample, ground_z_E, ground_color, pool] =
+      view;
   const CameraAxes axes = cameraAxes(camera);
   const double focal = focalLengthPixels(camera, height);
   const double distance = (camera.target - camera.eye).norm();
@@ -73,6 +75,15 @@ FrameBlock frameBlock(const FrameView& view) {
   for (int i = 0; i < 2; ++i) block.mirror[i] = static_cast<float>(sample.mirror_shear[i]);
   block.mirror[2] = 1.0f / static_cast<float>(width);
   block.mirror[3] = 1.0f / static_cast<float>(height);
+  for (int i = 0; i < 2; ++i) {
+    const double squares = camera.eye[i] / square, before = std::floor(squares / kPatternPeriod);
+    block.origin[i] = static_cast<float>(squares - kPatternPeriod * before);
+    block.origin[i + 2] = static_cast<float>(before);
+  }
+  copy(block.ground_color,
+       Vec3(linearLight(ground_color.r), linearLight(ground_color.g), linearLight(ground_color.b)), 0.0);
+  const Vec3 middle = camera.target - camera.eye;
+  copy(block.pool, {middle.x(), middle.y(), pool > 0.0 ? 1.0 / (pool * distance) : 0.0}, 0.0);
   block.reach[0] = static_cast<float>(horizonDistance(camera) / (1 << (4 * kGroundRings)));
   return block;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "renderer/draw/shaders.h"
+#include "renderer/image/color.h"
 #include "renderer/view/preset.h"
 #include "renderer/view/projection.h"
 #include "renderer/view/shadow_fit.h"
@@ -20,6 +21,8 @@ struct FrameView {
   int shadow_texels = 0;
   Sample sample;
   std::optional<double> ground_z_E;  ///< Height of the endless ground above the eye.
+  Color ground_color = {};           ///< Of a pattern that has no colours of its own.
+  double pool = 0.0;                 ///< See Light.
 };
 FrameBlock frameBlock(const FrameView& view);
 

@@ -18,15 +18,16 @@ namespace carom::renderer {
 struct DrawnBody {
   InstanceRecord record;
   MeshRange mesh;
-  BodyShader shader;
-  std::int32_t padding = 0;
+  BodyLook look;
 };
 static_assert(sizeof(DrawnBody) == sizeof(InstanceRecord) + sizeof(MeshRange) + 8, "compared as bytes");
 
 struct FrameInputs {
   FrameBlock block{};
   bool ground_seen = false;
+  GroundPattern ground_pattern = GroundPattern::kChecker;
   std::vector<DrawnBody> visible;  ///< In the order in which they are drawn.
+  std::vector<DrawnBody> glass;    ///< Over all of them; whoever is behind shows, so that all is drawn anew.
   std::vector<DrawnBody> casting;  ///< Into the shadow map; their order changes nothing.
   std::vector<GroundTriangle> ground_shadows;
   std::vector<OcclusionTriangle> occlusion;

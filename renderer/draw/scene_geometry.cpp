@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "renderer/mesh/curved_part_mesh.h"
 #include "renderer/mesh/solid_mesh.h"
 
 namespace carom::renderer {
@@ -70,9 +71,12 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   SolidGeometry geometry;
   geometry.extent = solidExtent(solid);
   geometry.is_round = hasRoundPart(solid);
+  geometry.is_ball = solid.parts().size() == 1 && solid.parts().front().core.vertexCount() == 1;
   geometry.boxes = occludingBoxes(solid);
   geometry.flat_parts = pool.add(buildFlatMesh(solid));
   const double bevel = bevelWidth(solid, bevel_cap_m);
+  geometry.bevel_m = hasRounding(solid) ? std::numeric_limits<double>::infinity() : bevel;
+  geometry.is_curved = solid.parts().size() == 1 && isCurved(solid.parts().front().core);
   for (std::size_t i = 0; i < kLevels.size(); ++i) {
     const auto& [radius, segments, edges] = kLevels[i];
     const bool sized = hasRounding(solid);  // Without, levels with the same edges are the same.
@@ -136,8 +140,12 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                           offset(offsetof(InstanceRecord, faces)));
   gl.VertexAttribIPointer(9, 1, GL_UNSIGNED_INT, sizeof(InstanceRecord),
                           offset(offsetof(InstanceRecord, sunlit)));
-  for (const GLuint i : {8u, 9u}) gl.VertexAttribDivisor(i, 1);
-  for (GLuint i = 0; i < 11; ++i) gl.EnableVertexAttribArray(i);
+  gl.VertexAttribPointer(11, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceRecord),
+                         offset(offsetof(InstanceRecord, finish)));
+  gl.VertexAttribPointer(12, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceRecord),
+                         offset(offsetof(InstanceRecord, half)));
+  for (const GLuint i : {8u, 9u, 11u, 12u}) gl.VertexAttribDivisor(i, 1);
+  for (GLuint i = 0; i < 13; ++i) gl.EnableVertexAttribArray(i);
 }
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {

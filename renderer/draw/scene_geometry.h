@@ -14,6 +14,8 @@
 namespace carom::renderer {
 
 inline constexpr int kDetailLevels = 5;
+inline constexpr int kSharpLevel = 0;       ///< Without bevels, ...
+inline constexpr int kLastShadedLevel = 2;  ///< ... and the last with bevels in its normals alone.
 
 /// The level for a solid whose radius is `radius_px` on the image: bevels narrower than a pixel are left out,
 /// and the sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's
@@ -39,7 +41,10 @@ struct SolidGeometry {
   MeshRange flat_parts;                          ///< The parts without rounding, unbevelled.
   Extent extent;
   std::vector<RoundedBox> boxes;  ///< What darkens others: see occludingBoxes.
-  bool is_round = false;          ///< Has a ball or capsule among its parts.
+  double bevel_m = 0.0;           ///< Infinite where rounding decides the level.
+  bool is_curved = false;         ///< Has bevels of triangles on all levels but the sharp one.
+  bool is_ball = false;
+  bool is_round = false;  ///< Has a ball or capsule among its parts.
 };
 
 /// What changes per drawn body: the rows of X_EB, the colour, which faces are drawn and which of them the sun
@@ -49,6 +54,8 @@ struct InstanceRecord {
   float color[4];
   FaceMask faces;
   FaceMask sunlit;
+  float finish[4];  ///< Of its surface: 1 / scale, which axis lies along it, the body's number in [0, 1).
+  float half[4];    ///< Half its size.
 };
 
 class SceneGeometry {

@@ -86,7 +86,7 @@ class ShadowFall {
     for (int i = 0; i < 3; ++i)
       reach_[i] = kLookUpReach_texels * texel_m * map_from_E_.row(i).head<3>().norm();
     for (const DrawnBody& body : inputs.visible)
-      if (body.shader != BodyShader::kSunlit)
+      if (body.look.shader != BodyShader::kSunlit)
         receivers_.push_back({lightBox(map_from_E_, body), bounds.of(body)});
     if (!inputs.ground_shadows.empty()) ground_z_E_ = static_cast<double>(inputs.block.ground[0]);
   }
@@ -201,6 +201,7 @@ FrameDamage wholeDamage(const FrameSizes& sizes) {
 
 FrameDamage frameDamage(const FrameInputs& before, const FrameInputs& now, const FrameSizes& sizes) {
   const bool same_view = before.ground_seen == now.ground_seen &&
+                         before.ground_pattern == now.ground_pattern &&
                          std::memcmp(&before.block, &now.block, sizeof(FrameBlock)) == 0;
   if (!same_view) return wholeDamage(sizes);
   FrameDamage damage{{sizes.width, sizes.height}, {sizes.shadow_texels, sizes.shadow_texels}};

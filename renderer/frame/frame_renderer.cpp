@@ -11,17 +11,21 @@
 #include <vector>
 
 #include "engine/foundation/contract.h"
+#include "renderer/draw/body_programs.h"
 #include "renderer/draw/draw_list.h"
 #include "renderer/draw/frame_block.h"
 #include "renderer/draw/scene_geometry.h"
+#include "renderer/draw/shader_lines.h"
 #include "renderer/draw/shaders.h"
 #include "renderer/frame/frame_damage.h"
 #include "renderer/gl/offscreen_context.h"
 #include "renderer/gl/scissor.h"
 #include "renderer/gl/shader_program.h"
+#include "renderer/image/cutout.h"
 #include "renderer/image/edge_filter.h"
 #include "renderer/mesh/contact_occlusion.h"
 #include "renderer/passes/backdrop.h"
+#include "renderer/passes/glass_pass.h"
 #include "renderer/passes/mirror_pass.h"
 #include "renderer/passes/occlusion_pass.h"
 #include "renderer/passes/shadow_map.h"
@@ -44,7 +48,8 @@ Settings checked(const Settings& settings) {
             << kMaxImageSide << "x" << kMaxImageSide;
     throw InputError(message.str());
   }
-  if (!settings.to_light.allFinite() || !(settings.to_light.norm() > 0.0))
+  const Vec3& to_light = settings.light.to_light;
+  if (!to_light.allFinite() || !(to_light.norm() > 0.0))
     throw InputError("the direction to the light must be finite and not zero");
   return settings;
 }
@@ -55,10 +60,11 @@ bool sameBits(const Vector& a, const Vector& b) {
   return std::memcmp(a.data(), b.data(), sizeof(typename Vector::Scalar) * Vector::SizeAtCompileTime) == 0;
 }
 bool isSame(const Camera& a, const Camera& b) {
-  return sameBits(a.eye, b.eye) && sameBits(a.target, b.target) && a.fov_degrees == b.fov_degrees;
+  return sameBits(a.eye, b.eye) && sameBits(a.target, b.target) && a.fov_degrees == b.fov_degrees &&
+         a.aperture_m == b.aperture_m && a.focus_m == b.focus_m;
 }
 bool isSame(const Instance& a, const Instance& b) {
-  return a.solid == b.solid && a.checker == b.checker &&
+  return a.solid == b.solid && a.checker == b.checker && a.pattern == b.pattern && a.surface == b.surface &&
          std::memcmp(&a.color, &b.color, sizeof(Color)) == 0 &&
          sameBits(a.X_WB.rotation.coeffs(), b.X_WB.rotation.coeffs()) &&
          sameBits(a.X_WB.position, b.X_WB.position);
@@ -95,33 +101,32 @@ std::int64_t trianglesOf(std::span<const DrawGroup> groups) {
 struct FrameRenderer::Impl {
   Impl(const Settings& wanted, std::span<const Solid> given)
       : settings(checked(wanted)),
-        quality(qualityOf(settings.preset, settings.style)),
-        samples(samplesOf(quality, settings.to_light.normalized())),
+        quality(qualityOf(settings)),
+        samples(samplesOf(quality, settings.light.to_light.normalized())),
         solids(given.begin(), given.end()),
         context(createOffscreenContext(settings.pixels, settings.backend, settings.gl_threads)),
         gl(context->gl()),
         geometry(gl, solids),
         filter(settings.width, settings.height),
         shadow_map(gl, quality.shadow_texels),
-        occlusion_pass(gl),
-        surface_pass(gl, {settings.width, settings.height}) {
+        occlusion_pass(gl, frameLines(settings)),
+        surface_pass(gl, {settings.width, settings.height}),
+        body_programs(gl, settings) {
     createTargets();
     if (quality.mirror)
-      mirror_pass =
-          std::make_unique<MirrorPass>(gl, linkBodies("mirrored body", "#define MIRROR\n#define CHECKER\n"),
-                                       settings.width, settings.height);
+      mirror_pass = std::make_unique<MirrorPass>(gl, body_programs, settings.width, settings.height);
     gl.GenBuffers(1, &frame_buffer);
     pixels.resize(4 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   }
 
-  std::string shaderVariant() const;
-  GLuint linkBodies(const char* name, const std::string& lines) const;
-  GLuint bodyProgram(BodyShader shader);
   void createTargets();
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
-                    const std::function<void()>& drawn, std::span<const WaterVolume> water);
+                    const std::function<void()>& drawn, std::span<const WaterVolume> water,
+                    std::span<const std::vector<Instance>> moments);
+  void exposeAll(std::span<const std::vector<Instance>> moments, const std::function<void()>& drawn);
   bool showsAlready(std::span<const Instance> instances, const Camera& camera,
                     std::span<const WaterVolume> water) const;
+  void exposeOnce(const Sample& sample, const std::function<void()>& drawn);
   std::vector<GridBlock> expose(const Sample& sample);
   FrameDamage damageBy(const FrameInputs& inputs) const;
   ShadowCells castShadows(const Vec3& to_light);
@@ -162,10 +167,11 @@ struct FrameRenderer::Impl {
   ShadowMap shadow_map;
   OcclusionPass occlusion_pass;
   SurfacePass surface_pass;
+  BodyPrograms body_programs;
   std::unique_ptr<MirrorPass> mirror_pass;  // Where the ground mirrors.
+  std::unique_ptr<GlassPass> glass_pass;
   std::unique_ptr<WaterPass> water_pass;
   std::unique_ptr<Backdrop> backdrop;
-  std::array<GLuint, kBodyShaders> body_programs{};  // Linked when first needed.
   GLuint scene_target = 0, frame_buffer = 0;
   std::vector<std::uint8_t> pixels;
   Image image;
@@ -177,29 +183,6 @@ struct FrameRenderer::Impl {
   SurfaceImage surfaces;
   bool surfaces_known = true;  // Those of a view that shows nothing yet: none.
 };
-
-std::string FrameRenderer::Impl::shaderVariant() const {
-  std::string variant;
-  if (settings.style == Style::kPrint) variant += "#define PRINT\n";
-  if (!quality.soft_look_up) variant += "#define SMALL_SHADOWS\n";
-  if (quality.mirror) variant += "#define POLISHED\n";
-  return variant;
-}
-
-GLuint FrameRenderer::Impl::linkBodies(const char* name, const std::string& lines) const {
-  const std::string variant = shaderVariant() + lines;
-  return linkProgram(gl, {name,
-                          {kGlslHead, variant.c_str(), kBodyVertex},
-                          {kGlslHead, variant.c_str(), kGlslLight, kBodyFragment}});
-}
-
-GLuint FrameRenderer::Impl::bodyProgram(BodyShader shader) {
-  static constexpr std::array<const char*, kBodyShaders> lines = {"#define SUNLIT\n", "",
-                                                                  "#define CHECKER\n"};
-  const auto i = static_cast<std::size_t>(shader);
-  if (body_programs[i] == 0) body_programs[i] = linkBodies("body", lines[i]);
-  return body_programs[i];
-}
 
 void FrameRenderer::Impl::createTargets() {
   GLuint color = 0, depth = 0;
@@ -217,10 +200,12 @@ void FrameRenderer::Impl::createTargets() {
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   const bool scene_complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glass_pass = std::make_unique<GlassPass>(
+      gl, GlassPass::Scene{scene_target, settings.width, settings.height}, frameLines(settings));
   water_pass = std::make_unique<WaterPass>(
-      gl, WaterPass::Scene{color, depth, settings.width, settings.height}, shaderVariant());
+      gl, WaterPass::Scene{color, depth, settings.width, settings.height}, frameLines(settings));
   backdrop = std::make_unique<Backdrop>(
-      gl, Backdrop::Request{settings.width, settings.height, shaderVariant(), quality.mirror});
+      gl, Backdrop::Request{settings.width, settings.height, frameLines(settings), quality.mirror});
 
   if (!scene_complete || !shadow_map.isComplete() || gl.GetError() != GL_NO_ERROR) {
     std::ostringstream message;
@@ -231,13 +216,13 @@ void FrameRenderer::Impl::createTargets() {
 
 // One exposure or several, and their mean; the image at hand, where it is of the same.
 const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, const Camera& camera,
-                                       const std::function<void()>& drawn,
-                                       std::span<const WaterVolume> water) {
+                                       const std::function<void()>& drawn, std::span<const WaterVolume> water,
+                                       std::span<const std::vector<Instance>> moments) {
   for (const Instance& instance : instances)
     REQUIRE(instance.solid >= 0 && instance.solid < geometry.solidCount(), instance.solid,
             geometry.solidCount());
   work = {};
-  if (showsAlready(instances, camera, water)) {
+  if (moments.empty() && showsAlready(instances, camera, water)) {
     if (drawn) drawn();
     return image;
   }
@@ -245,23 +230,45 @@ const Image& FrameRenderer::Impl::draw(std::span<const Instance> instances, cons
   view.instances.assign(instances.begin(), instances.end());
   view.camera = camera;
   view.ground = findGround(instances, geometry);
-  view.occlusion = occlusionTriangles();
   view.water.assign(water.begin(), water.end());
   surfaces_known = false;
   context->makeCurrent();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::vector<GridBlock> blocks = expose(samples[i]);
-    if (drawn && i + 1 == samples.size()) {
-      gl.Finish();
-      drawn();
-    }
-    readBack(blocks);
-    if (samples.size() > 1) exposure.add(image);
-  }
-  if (samples.size() > 1) exposure.develop(image);
-  if (samples.size() == 1 && view.water.empty()) in_targets = std::move(view.inputs);
-  view_drawn = true;
+  if (samples.size() > 1)
+    exposeAll(moments, drawn);
+  else
+    exposeOnce(samples.front(), drawn);
+  if (settings.cutout) unmultiply(image);
+  if (samples.size() == 1 && view.water.empty() && view.inputs.glass.empty())
+    in_targets = std::move(view.inputs);
+  view_drawn = moments.empty();
   return image;
+}
+
+void FrameRenderer::Impl::exposeOnce(const Sample& sample, const std::function<void()>& drawn) {
+  view.occlusion = occlusionTriangles();
+  const std::vector<GridBlock> blocks = expose(sample);
+  if (drawn) {
+    gl.Finish();
+    drawn();
+  }
+  readBack(blocks);
+}
+
+// The mean of the exposures, each through its place on the lens and at its moment.
+void FrameRenderer::Impl::exposeAll(std::span<const std::vector<Instance>> moments,
+                                    const std::function<void()>& drawn) {
+  const Camera camera = view.camera;
+  const std::vector<Instance> instances = view.instances;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Sample sample = samples[i];
+    view.camera = throughLens(camera, sample.lens, settings.height, sample.shift_px);
+    if (!moments.empty()) view.instances = moments[i * moments.size() / samples.size()];
+    exposeOnce(sample, i + 1 == samples.size() ? drawn : std::function<void()>());
+    exposure.add(image);
+  }
+  exposure.develop(image);
+  view.camera = camera;
+  view.instances = instances;
 }
 
 // Whether a fresh drawing would be of the same values, bit by bit. Water moves; it is not worth comparing.
@@ -300,6 +307,12 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
   for (const DrawnBody& body : drawnBodies(view.list.mirrored, view.list.records))
     appendTo(mirrored, records, body);
 
+  std::vector<DrawGroup> glass;
+  for (const DrawnBody& body : inputs.glass) {
+    glass.push_back({body.mesh, body.look, static_cast<int>(records.size()), 1});
+    records.push_back(body.record);
+  }
+
   count(blocks, bodies, work.pixels);
   count(damage.shadow_map.blocks(), casters, work.shadow_texels);
   if (mirror_pass) work.mirror_texels += mirror_pass->texels();
@@ -313,6 +326,7 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
   }
   drawScene(inputs, blocks, bodies);
   drawOcclusion(inputs, blocks, bounds);
+  glass_pass->draw(glass, geometry);
   water_pass->draw(view.water, view.camera, view.list.depth);
   return blocks;
 }
@@ -320,7 +334,8 @@ std::vector<GridBlock> FrameRenderer::Impl::expose(const Sample& sample) {
 // All of it where the targets hold something else than a frame of such inputs.
 FrameDamage FrameRenderer::Impl::damageBy(const FrameInputs& inputs) const {
   const FrameSizes sizes{settings.width, settings.height, quality.shadow_texels};
-  if (in_targets && view.water.empty()) return frameDamage(*in_targets, inputs, sizes);
+  if (in_targets && view.water.empty() && inputs.glass.empty())
+    return frameDamage(*in_targets, inputs, sizes);
   return wholeDamage(sizes);
 }
 
@@ -341,7 +356,8 @@ ShadowCells FrameRenderer::Impl::castShadows(const Vec3& to_light) {
   view.shadow = fitShadow(
       {camera, static_cast<double>(settings.width) / settings.height, to_light, quality.shadow_texels},
       casters);
-  std::vector<FaceLight> lights = faceLights(view.shadow, to_light, bodies);
+  std::vector<FaceLight> lights =
+      faceLights(view.shadow, to_light, bodies, focalLengthPixels(camera, settings.height));
   if (view.ground) lights.insert(lights.begin() + *view.ground, FaceLight{});
   view.list = buildDrawList(view.instances, camera, settings, geometry, lights);
   return {view.shadow, casters};
@@ -352,7 +368,9 @@ FrameInputs FrameRenderer::Impl::inputsOf(const Sample& sample, const ShadowCell
   FrameInputs inputs;
   inputs.block = blockOf(sample, view.shadow);
   inputs.ground_seen = list.ground && list.ground_z_E < 0.0;
+  if (list.ground) inputs.ground_pattern = view.instances[static_cast<std::size_t>(*list.ground)].pattern;
   inputs.visible = drawnBodies(list.visible, list.records);
+  inputs.glass = drawnBodies(list.glass, list.records);
   if (view.shadow.texel_m > 0.0) inputs.casting = drawnBodies(list.casting, list.records);
   if (inputs.ground_seen && inputs.block.to_light[2] > 0.0f)
     inputs.ground_shadows =
@@ -364,8 +382,10 @@ FrameInputs FrameRenderer::Impl::inputsOf(const Sample& sample, const ShadowCell
 FrameBlock FrameRenderer::Impl::blockOf(const Sample& sample, const ShadowView& shadow) const {
   const std::optional<double> ground_z_E =
       view.list.ground ? std::optional(view.list.ground_z_E) : std::nullopt;
+  const Color color =
+      view.list.ground ? view.instances[static_cast<std::size_t>(*view.list.ground)].color : Color();
   return frameBlock({view.camera, settings.width, settings.height, view.list.depth, shadow,
-                     quality.shadow_texels, sample, ground_z_E});
+                     quality.shadow_texels, sample, ground_z_E, color, settings.light.pool});
 }
 
 void FrameRenderer::Impl::uploadBlock(const FrameBlock& block) const {
@@ -384,7 +404,7 @@ void FrameRenderer::Impl::bindTextures() const {
 void FrameRenderer::Impl::drawScene(const FrameInputs& inputs, std::span<const GridBlock> blocks,
                                     std::span<const BlockGroups> bodies) {
   bindTextures();
-  backdrop->copyTo(scene_target, inputs.block, inputs.ground_seen, blocks);
+  backdrop->copyTo(scene_target, inputs, blocks);
   gl.Viewport(0, 0, settings.width, settings.height);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Enable(GL_DEPTH_TEST);
@@ -396,12 +416,12 @@ void FrameRenderer::Impl::drawScene(const FrameInputs& inputs, std::span<const G
   for (const auto& [block, groups] : bodies) {
     setScissor(gl, block);
     for (const DrawGroup& group : groups) {
-      gl.UseProgram(bodyProgram(group.shader));
+      gl.UseProgram(body_programs.of(group.look));
       geometry.draw(gl, group.range, group.first, group.count);
     }
   }
   gl.Disable(GL_SCISSOR_TEST);
-  backdrop->drawShadows(inputs.ground_shadows, blocks);
+  backdrop->drawShadows(inputs, blocks);
 }
 
 std::vector<OcclusionTriangle> FrameRenderer::Impl::occlusionTriangles() const {
@@ -438,15 +458,18 @@ void FrameRenderer::Impl::readBack(std::span<const GridBlock> blocks) {
                   pixels.data() + 4 * first);
   }
   gl.PixelStorei(GL_PACK_ROW_LENGTH, 0);
-  if (image.rgb.empty() || isWhole(blocks, settings))
+  if (image.rgb.empty() || settings.cutout || isWhole(blocks, settings))
     filter.apply(pixels, image);
   else
     filter.applyAgain(pixels, blocks, image);
+  if (settings.cutout) filter.applyToAlpha(pixels, image);
 }
 
 const SurfaceImage& FrameRenderer::Impl::knownSurfaces() {
   if (surfaces_known) return surfaces;
   context->makeCurrent();
+  if (samples.size() > 1)
+    castShadows(samples.front().to_light);  // The list of the last exposure is as it saw it.
   uploadBlock(blockOf({}, {}));
   surface_pass.draw(view.instances, solids, view.camera, view.list, geometry, surfaces);
   surfaces_known = true;
@@ -458,8 +481,12 @@ FrameRenderer::FrameRenderer(const Settings& settings, std::span<const Solid> so
 FrameRenderer::~FrameRenderer() = default;
 
 const Image& FrameRenderer::draw(std::span<const Instance> instances, const Camera& camera,
-                                 const std::function<void()>& drawn, std::span<const WaterVolume> water) {
-  return impl_->draw(instances, camera, drawn, water);
+                                 const std::function<void()>& drawn, std::span<const WaterVolume> water,
+                                 std::span<const std::vector<Instance>> moments) {
+  return impl_->draw(instances, camera, drawn, water, moments);
+}
+int FrameRenderer::exposures() const {
+  return static_cast<int>(impl_->samples.size());
 }
 const SurfaceImage& FrameRenderer::surfaces() {
   return impl_->knownSurfaces();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/foundation/frames.h"
 #include "engine/solid/solid.h"
@@ -42,8 +43,14 @@ class FrameRenderer {
   /// thread, one at a time. Throws InputError when the camera is impossible (see `cameraAxes`). `drawn` is
   /// called when GL has finished and the image is about to be read back, to tell the two apart; waiting for
   /// GL there changes no pixel. `water` is drawn over all of it; it is not in `surfaces()`.
+  /// `moments` are the instances at times spread over those at which the shutter is open; the exposures of a
+  /// preset that has several show them in turn, and `instances` is what `surfaces()` tells of.
   const Image& draw(std::span<const Instance> instances, const Camera& camera,
-                    const std::function<void()>& drawn = {}, std::span<const WaterVolume> water = {});
+                    const std::function<void()>& drawn = {}, std::span<const WaterVolume> water = {},
+                    std::span<const std::vector<Instance>> moments = {});
+
+  /// How many exposures a frame has.
+  int exposures() const;
 
   /// What the middle of each pixel of the last `draw` shows: the engine's own solids, with sharp edges and
   /// exact rounds, and the endless ground. Computed at the first call after a `draw`, in 5 to 20 ms at 720p;

@@ -19,10 +19,10 @@ constexpr int kWhole = 4096;  // The weight of a whole pixel.
 // Whether two pixels differ visibly.
 bool differs(const std::uint8_t* a, const std::uint8_t* b) {
   return std::abs(a[0] - b[0]) > kThreshold || std::abs(a[1] - b[1]) > kThreshold ||
-         std::abs(a[2] - b[2]) > kThreshold;
+         std::abs(a[2] - b[2]) > kThreshold || std::abs(a[3] - b[3]) > kThreshold;
 }
 
-// The same of 32 pixels at once, the first in the lowest bit; alpha is the same everywhere and adds nothing.
+// The same of 32 pixels at once, the first in the lowest bit.
 // Hand-laid vectors of four pixels: a pixel differs where its lane is more than the threshold in any byte.
 constexpr int kBlock = 32;
 typedef std::uint8_t Bytes __attribute__((vector_size(16)));
@@ -47,7 +47,12 @@ std::uint32_t differing(const std::uint8_t* a, const std::uint8_t* b) {
 struct Tables {
   std::array<std::uint16_t, 256> linear{};
   std::array<std::uint8_t, 4096> encoded{};
-  Tables() {
+  explicit Tables(bool even) {
+    for (std::size_t i = 0; even && i < linear.size(); ++i)
+      linear[i] = static_cast<std::uint16_t>(std::lround(32767.0 * static_cast<double>(i) / 255.0));
+    for (std::size_t i = 0; even && i < encoded.size(); ++i)
+      encoded[i] = static_cast<std::uint8_t>((255 * i + encoded.size() / 2) / (encoded.size() - 1));
+    if (even) return;
     for (std::size_t i = 0; i < linear.size(); ++i) {
       const double s = static_cast<double>(i) / 255.0;
       const double l = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -61,9 +66,9 @@ struct Tables {
   }
 };
 
-const Tables& tables() {
-  static const Tables instance;
-  return instance;
+const Tables& tables(bool even) {
+  static const Tables srgb(false), light(true);
+  return even ? light : srgb;
 }
 
 // Moves `pixel` towards `neighbour` by `weight`, in linear light.
@@ -158,6 +163,20 @@ void EdgeFilter::apply(const std::vector<std::uint8_t>& rgba, Image& image) {
   mixColumnPairs(rgba.data(), whole, image);
 }
 
+void EdgeFilter::applyToAlpha(const std::vector<std::uint8_t>& rgba, Image& image) {
+  check(rgba);
+  std::vector<std::uint8_t> grey(rgba.size());
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    std::fill_n(grey.begin() + static_cast<std::ptrdiff_t>(i), 4, rgba[i + 3]);
+  Image behind{width_, height_, std::vector<std::uint8_t>(rgba.size() / 4 * 3), {}};
+  even_ = true;
+  filter(grey.data(), {0, width_, 0, height_}, behind);
+  even_ = false;
+  image.alpha.resize(rgba.size() / 4);
+  for (std::size_t i = 0; i < image.alpha.size(); ++i)
+    image.alpha[i] = static_cast<std::uint8_t>(255 - behind.rgb[3 * i]);
+}
+
 void EdgeFilter::applyAgain(const std::vector<std::uint8_t>& rgba, std::span<const GridBlock> blocks,
                             Image& image) {
   check(rgba);
@@ -239,7 +258,7 @@ bool EdgeFilter::isMarked(const std::vector<Bits>& bits, int x, int y) const {
 
 // Runs along row y, between it (first side) and the row below.
 void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, const Window& window, Image& image) const {
-  const Tables& t = tables();
+  const Tables& t = tables(even_);
   const Bits* bits = below_.data() + wordAt(y);
   const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
                        out_row = 3 * static_cast<std::ptrdiff_t>(width_);
@@ -268,7 +287,7 @@ void EdgeFilter::mixRowPair(const std::uint8_t* rgba, int y, const Window& windo
 // Runs along a column, between it (first side) and the column to its right. All columns are walked together,
 // row by row, to stay within the cache; a pixel is mixed by the run that ends first, then by the left one.
 void EdgeFilter::mixColumnPairs(const std::uint8_t* rgba, const Window& window, Image& image) {
-  const Tables& t = tables();
+  const Tables& t = tables(even_);
   const std::ptrdiff_t source_row = 4 * static_cast<std::ptrdiff_t>(width_),
                        out_row = 3 * static_cast<std::ptrdiff_t>(width_);
   const auto finish = [&](int x, int begin, int end) {

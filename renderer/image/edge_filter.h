@@ -18,9 +18,13 @@ class EdgeFilter {
  public:
   EdgeFilter(int width, int height);
 
-  /// Filters `rgba` (width * height * 4 bytes, rows from bottom to top, as GL delivers them; alpha is
-  /// ignored) into an image with rows from top to bottom.
+  /// Filters `rgba` (width * height * 4 bytes, rows from bottom to top, as GL delivers them) into the colours
+  /// of an image with rows from top to bottom. Where the fourth bytes differ there is an edge, too.
   void apply(const std::vector<std::uint8_t>& rgba, Image& image);
+
+  /// After `apply`: the fourth bytes, which tell how much of what lies behind shows, as the image's alpha
+  /// along the same edges.
+  void applyToAlpha(const std::vector<std::uint8_t>& rgba, Image& image);
 
   /// The same where `image` holds what the last call made and `rgba` has changed within `blocks` (rows
   /// counted from the bottom) only.
@@ -52,6 +56,7 @@ class EdgeFilter {
   std::vector<Bits> below_,
       right_;                // Where a pixel differs from the one below, and from the one to the right.
   std::vector<int> begins_;  // By column: where the run that is open begins.
+  bool even_ = false;        // Bytes are taken for light itself, not for sRGB.
   std::vector<std::pair<int, int>> open_;  // End and column of the runs that go on below a window.
 };
 

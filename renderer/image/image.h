@@ -10,7 +10,8 @@ namespace carom::renderer {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  ///< width * height * 3, rows from top to bottom.
+  std::vector<std::uint8_t> rgb;         ///< width * height * 3, rows from top to bottom.
+  std::vector<std::uint8_t> alpha = {};  ///< width * height, or empty: the image is opaque.
 
   const std::uint8_t* pixel(int x, int y) const {
     return rgb.data() +

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "renderer/mesh/curved_part_mesh.h"
 
 namespace carom::renderer {
 namespace {
@@ -105,25 +108,53 @@ void darken(Placed& receiver, const Placed& caster, const Axes& light, double te
   receiver.open &= ~(FaceMask{1} << kNoFace);
 }
 
-// The faces whose plane has the eye before it.
-FaceMask facingTheEye(const Placed& placed) {
+// How wide a face is on an image across its own direction, at its narrowest.
+double narrowestPixels(const Placed& placed, int face, double focal_px) {
+  const ConvexPolyhedron& core = placed.body->solid->parts().front().core;
+  const std::span<const int> vertices = core.faceVertices(face);
+  Vec3 middle = Vec3::Zero();
+  std::vector<Vec3> seen;
+  for (const int v : vertices) {
+    seen.push_back(placed.R_EB * core.vertex(v) + placed.body->X_EB.position);
+    middle += seen.back();
+  }
+  middle.normalize();
+  for (Vec3& p : seen) {
+    const double depth = p.dot(middle);
+    if (!(depth > 0.0)) return focal_px;  // Beside the eye.
+    p *= focal_px / depth;
+  }
+  double narrowest = focal_px;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Vec3 across = middle.cross(seen[(i + 1) % seen.size()] - seen[i]);
+    double width = 0.0;
+    for (const Vec3& p : seen) width = std::max(width, std::abs(across.dot(p - seen[i])));
+    narrowest = std::min(narrowest, width / std::max(across.norm(), 1e-30));
+  }
+  return narrowest;
+}
+
+// The faces whose plane has the eye before it, but for slivers.
+FaceMask facingTheEye(const Placed& placed, double focal_px) {
   const ConvexPolyhedron& core = placed.body->solid->parts().front().core;
   const Vec3 eye_B = placed.R_EB.transpose() * -placed.body->X_EB.position;
   FaceMask facing = 0;
   for (int f = 0; f < core.faceCount(); ++f)
-    if (core.plane(f).signedDistance(eye_B) > 0.0) facing |= FaceMask{1} << f;
+    if (core.plane(f).signedDistance(eye_B) > 0.0 &&
+        (focal_px == 0.0 || narrowestPixels(placed, f, focal_px) >= kSliver_px))
+      facing |= FaceMask{1} << f;
   return facing;
 }
 
 // An edge catches the sun's light from either of its faces: one turned away is as sunlit as its neighbours.
-FaceLight lightOn(const Placed& placed, const Vec3& to_light) {
+FaceLight lightOn(const Placed& placed, const Vec3& to_light, double focal_px) {
   const Solid& solid = *placed.body->solid;
   if (!hasLitFaces(solid)) {
     // Several parts darken each other, and a surface itself.
     const bool sunlit = placed.open == kAllFaces && solid.parts().size() == 1 && !solid.hasSurface();
     return sunlit ? FaceLight{kAllFaces, 0, 0} : FaceLight{0, 0, kAllFaces};
   }
-  const FaceMask facing = facingTheEye(placed);
+  const FaceMask facing = facingTheEye(placed, focal_px);
   if (placed.open == kAllFaces) return {facing, 0, 0};
   const ConvexPolyhedron& core = solid.parts().front().core;
   const Vec3 to_light_B = placed.R_EB.transpose() * to_light;
@@ -145,11 +176,12 @@ FaceLight lightOn(const Placed& placed, const Vec3& to_light) {
 bool hasLitFaces(const Solid& solid) {
   if (solid.parts().size() != 1 || solid.hasSurface()) return false;
   const ConvexPart& part = solid.parts().front();
-  return part.radius_m == 0.0 && part.core.faceCount() > 0 && part.core.faceCount() <= kNoFace;
+  return part.radius_m == 0.0 && part.core.faceCount() > 0 && part.core.faceCount() <= kNoFace &&
+         !isCurved(part.core);
 }
 
 std::vector<FaceLight> faceLights(const ShadowView& view, const Vec3& to_light,
-                                  std::span<const ShadedBody> bodies) {
+                                  std::span<const ShadedBody> bodies, double focal_px) {
   const TangentBasis basis = tangentBasis(to_light);
   const Axes light{{basis.t1, basis.t2, to_light}};
   std::vector<Placed> placed;
@@ -172,7 +204,7 @@ std::vector<FaceLight> faceLights(const ShadowView& view, const Vec3& to_light,
     }
 
   std::vector<FaceLight> lights;
-  for (const Placed& body : placed) lights.push_back(lightOn(body, to_light));
+  for (const Placed& body : placed) lights.push_back(lightOn(body, to_light, focal_px));
   return lights;
 }
 

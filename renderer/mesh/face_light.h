@@ -18,11 +18,14 @@ using FaceMask = std::uint32_t;
 inline constexpr FaceMask kAllFaces = ~FaceMask{0};
 inline constexpr int kNoFace = 31;  ///< The bit of what belongs to no face.
 
-/// Whether light is decided face by face on this solid: one part with less than 32 faces, and without
-/// rounding. Another solid is drawn as a whole.
+/// Whether light is decided face by face on this solid: one part with less than 32 faces, without rounding
+/// and not curved. Another solid is drawn as a whole.
 bool hasLitFaces(const Solid& solid);
 
-/// The faces that the eye sees, by their light; all of a solid that has no lit faces.
+/// Narrower on the image than this, a face would show in a pixel here and there.
+inline constexpr double kSliver_px = 0.75;
+
+/// The faces that the eye sees and that are no slivers, by their light; all of a solid that has no lit faces.
 struct FaceLight {
   FaceMask sunlit = 0;    ///< Not darkened but by their own slant.
   FaceMask turned = 0;    ///< Turned away from the sun, beside a face that may be in shadow: without sun.
@@ -37,8 +40,9 @@ struct ShadedBody {
 };
 
 /// The light on each of the bodies, all of which may darken each other, in the shadow map of `view`.
-/// `to_light` is unit. O(n log n) and a term for every two bodies of which one may darken the other.
+/// `to_light` is unit; `focal_px` tells slivers, 0: there are none. O(n log n) and a term for every two
+/// bodies of which one may darken the other.
 std::vector<FaceLight> faceLights(const ShadowView& view, const Vec3& to_light,
-                                  std::span<const ShadedBody> bodies);
+                                  std::span<const ShadedBody> bodies, double focal_px = 0.0);
 
 }  // namespace carom::renderer

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "renderer/mesh/curved_part_mesh.h"
 #include "renderer/mesh/rounded_part_mesh.h"
 
 namespace carom::renderer {
@@ -230,6 +231,8 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
     addRoundPart(mesh, core.vertex(0), core.vertex(core.vertexCount() - 1), part.radius_m, detail.segments);
   else if (part.radius_m > 0.0)
     addRoundedPolyhedron(mesh, part, detail.segments);
+  else if (isCurved(core))
+    addCurvedPart(mesh, core, detail.edges == Edges::kSharp ? 0.0 : detail.bevel_m);
   else if (detail.edges == Edges::kSharp || core.faceCount() > kMaxBevelledFaces)
     addSharpPart(mesh, core);
   else if (detail.edges == Edges::kBevelled)

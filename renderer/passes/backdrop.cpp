@@ -4,6 +4,8 @@
 #include <cstring>
 #include <sstream>
 
+#include "renderer/draw/shader_lines.h"
+#include "renderer/draw/shaders.h"
 #include "renderer/gl/offscreen_context.h"
 #include "renderer/gl/scissor.h"
 #include "renderer/gl/shader_program.h"
@@ -21,15 +23,7 @@ FrameBlock withoutShadows(FrameBlock block) {
 }  // namespace
 
 Backdrop::Backdrop(const GlFunctions& gl, const Request& request) : gl_(gl), request_(request) {
-  const auto link = [&](const char* name, const char* vertex, const char* common, const char* fragment) {
-    const char* lines = request_.variant.c_str();
-    return linkProgram(gl_,
-                       {name, {kGlslHead, lines, vertex}, {kGlslHead, lines, kGlslLight, common, fragment}});
-  };
-  sky_program_ = link("sky", kSkyVertex, "", kSkyFragment);
-  open_ground_program_ = link("open ground", kGroundVertex, kGroundCommon, kGroundOpenFragment);
-  shadowed_ground_program_ =
-      link("shadowed ground", kGroundCellVertex, kGroundCommon, kGroundShadowedFragment);
+  sky_program_ = linkProgram(gl_, sourcesOf(Shader::kOpenSky, request_.variant));
   createTarget();
   gl_.GenVertexArrays(1, &no_attributes_);
   gl_.GenVertexArrays(1, &triangle_array_);
@@ -38,6 +32,16 @@ Backdrop::Backdrop(const GlFunctions& gl, const Request& request) : gl_(gl), req
   gl_.BindBuffer(GL_ARRAY_BUFFER, triangle_buffer_);
   gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
   gl_.EnableVertexAttribArray(0);
+}
+
+const Backdrop::GroundPrograms& Backdrop::groundPrograms(GroundPattern pattern) {
+  GroundPrograms& programs = ground_programs_[static_cast<std::size_t>(pattern)];
+  if (programs.open == 0) {
+    const std::string lines = request_.variant + groundLines(pattern);
+    programs.open = linkProgram(gl_, sourcesOf(Shader::kOpenGround, lines));
+    programs.shadowed = linkProgram(gl_, sourcesOf(Shader::kShadowedGround, lines));
+  }
+  return programs;
 }
 
 void Backdrop::createTarget() {
@@ -58,15 +62,15 @@ void Backdrop::createTarget() {
   }
 }
 
-void Backdrop::copyTo(GLuint target, const FrameBlock& block, bool with_ground,
-                      std::span<const GridBlock> blocks) {
-  const Shown wanted{withoutShadows(block), with_ground};
-  const bool same = shown_ && shown_->with_ground == with_ground &&
+void Backdrop::copyTo(GLuint target, const FrameInputs& inputs, std::span<const GridBlock> blocks) {
+  const Shown wanted{withoutShadows(inputs.block), inputs.ground_seen, inputs.ground_pattern};
+  const bool same = shown_ && shown_->with_ground == wanted.with_ground &&
+                    shown_->pattern == wanted.pattern &&
                     std::memcmp(&shown_->block, &wanted.block, sizeof(FrameBlock)) == 0;
   gl_.Enable(GL_FRAMEBUFFER_SRGB);
   if (!same || request_.polished) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, target_);
-    draw(with_ground);
+    draw(wanted);
     shown_ = wanted;
   }
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_);
@@ -77,7 +81,7 @@ void Backdrop::copyTo(GLuint target, const FrameBlock& block, bool with_ground,
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target);
 }
 
-void Backdrop::draw(bool with_ground) const {
+void Backdrop::draw(const Shown& shown) {
   gl_.Viewport(0, 0, request_.width, request_.height);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);
@@ -86,8 +90,8 @@ void Backdrop::draw(bool with_ground) const {
   gl_.DepthFunc(GL_LEQUAL);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   gl_.BindVertexArray(no_attributes_);
-  if (with_ground) {
-    gl_.UseProgram(open_ground_program_);
+  if (shown.with_ground) {
+    gl_.UseProgram(groundPrograms(shown.pattern).open);
     gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     for (int ring = 0; ring < kGroundRings; ++ring) gl_.DrawArrays(GL_TRIANGLE_STRIP, 4 + 10 * ring, 10);
   }
@@ -97,7 +101,8 @@ void Backdrop::draw(bool with_ground) const {
 }
 
 // Drawn a little nearer than the ground, which has its depths already.
-void Backdrop::drawShadows(std::span<const GroundTriangle> triangles, std::span<const GridBlock> blocks) {
+void Backdrop::drawShadows(const FrameInputs& inputs, std::span<const GridBlock> blocks) {
+  const std::span<const GroundTriangle> triangles = inputs.ground_shadows;
   if (triangles.empty()) return;
   gl_.BindVertexArray(triangle_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, triangle_buffer_);
@@ -107,7 +112,7 @@ void Backdrop::drawShadows(std::span<const GroundTriangle> triangles, std::span<
   gl_.DepthMask(GL_FALSE);
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(0.0f, -8.0f);
-  gl_.UseProgram(shadowed_ground_program_);
+  gl_.UseProgram(groundPrograms(inputs.ground_pattern).shadowed);
   gl_.Enable(GL_SCISSOR_TEST);
   for (const GridBlock& block : blocks) {
     setScissor(gl_, block);

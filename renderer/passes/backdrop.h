@@ -4,12 +4,13 @@
 // ground's shadows are drawn over it. Tested through the frames of
 // tests/renderer/frame/frame_renderer_test.cpp.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "renderer/draw/shaders.h"
+#include "renderer/draw/frame_inputs.h"
 #include "renderer/gl/gl_functions.h"
 #include "renderer/image/grid_cover.h"
 #include "renderer/view/shadow_cells.h"
@@ -27,25 +28,31 @@ class Backdrop {
   /// `gl` must outlive this.
   Backdrop(const GlFunctions& gl, const Request& request);
 
-  /// Fills those blocks of `target`, of the same size, with colours and depths; with or without ground.
-  /// `block` must be what the uniform block `Frame` holds, and what the ground mirrors be bound.
-  void copyTo(GLuint target, const FrameBlock& block, bool with_ground, std::span<const GridBlock> blocks);
+  /// Fills those blocks of `target`, of the same size, with colours and depths; with or without ground. The
+  /// inputs' block must be what the uniform block `Frame` holds, and what the ground mirrors be bound.
+  void copyTo(GLuint target, const FrameInputs& inputs, std::span<const GridBlock> blocks);
 
-  /// Draws the ground again within `triangles`, into those blocks of the framebuffer that is bound, with the
-  /// shadows of the map that is bound, wherever the ground is seen.
-  void drawShadows(std::span<const GroundTriangle> triangles, std::span<const GridBlock> blocks);
+  /// Draws the ground again where shadows may fall on it, into those blocks of the framebuffer that is bound,
+  /// with the shadows of the map that is bound, wherever the ground is seen.
+  void drawShadows(const FrameInputs& inputs, std::span<const GridBlock> blocks);
 
  private:
-  void createTarget();
-  void draw(bool with_ground) const;
-
   struct Shown {
     FrameBlock block;
     bool with_ground;
+    GroundPattern pattern;
   };
+  struct GroundPrograms {
+    GLuint open = 0, shadowed = 0;
+  };
+  void createTarget();
+  void draw(const Shown& shown);
+  const GroundPrograms& groundPrograms(GroundPattern pattern);
+
   const GlFunctions& gl_;
   Request request_;
-  GLuint sky_program_ = 0, open_ground_program_ = 0, shadowed_ground_program_ = 0;
+  GLuint sky_program_ = 0;
+  std::array<GroundPrograms, kGroundPatterns> ground_programs_;  // Linked when first needed.
   GLuint target_ = 0, no_attributes_ = 0, triangle_array_ = 0, triangle_buffer_ = 0;
   std::optional<Shown> shown_;
 };

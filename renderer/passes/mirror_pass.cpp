@@ -7,8 +7,8 @@
 
 namespace carom::renderer {
 
-MirrorPass::MirrorPass(const GlFunctions& gl, GLuint program, int width, int height)
-    : gl_(gl), program_(program), width_((width + 1) / 2), height_((height + 1) / 2) {
+MirrorPass::MirrorPass(const GlFunctions& gl, BodyPrograms& programs, int width, int height)
+    : gl_(gl), programs_(programs), width_((width + 1) / 2), height_((height + 1) / 2) {
   GLuint depth = 0;
   gl_.GenTextures(1, &texture_);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
@@ -41,8 +41,10 @@ void MirrorPass::draw(std::span<const DrawGroup> groups, const SceneGeometry& ge
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl_.Enable(GL_CULL_FACE);
   gl_.FrontFace(GL_CW);
-  gl_.UseProgram(program_);
-  for (const DrawGroup& group : groups) geometry.draw(gl_, group.range, group.first, group.count);
+  for (const DrawGroup& group : groups) {
+    gl_.UseProgram(programs_.mirrored(group.look));
+    geometry.draw(gl_, group.range, group.first, group.count);
+  }
   gl_.FrontFace(GL_CCW);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "renderer/draw/body_programs.h"
 #include "renderer/draw/draw_list.h"
 #include "renderer/gl/gl_functions.h"
 
@@ -12,8 +13,8 @@ namespace carom::renderer {
 
 class MirrorPass {
  public:
-  /// For an image of that size; `program` draws mirrored bodies. `gl` must outlive this. Throws NoRenderer.
-  MirrorPass(const GlFunctions& gl, GLuint program, int width, int height);
+  /// For an image of that size. Both must outlive this. Throws NoRenderer.
+  MirrorPass(const GlFunctions& gl, BodyPrograms& programs, int width, int height);
 
   GLuint texture() const { return texture_; }
   std::int64_t texels() const { return std::int64_t{width_} * height_; }
@@ -23,7 +24,8 @@ class MirrorPass {
 
  private:
   const GlFunctions& gl_;
-  GLuint program_, texture_ = 0, target_ = 0;
+  BodyPrograms& programs_;
+  GLuint texture_ = 0, target_ = 0;
   int width_, height_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace carom::renderer {
 
-OcclusionPass::OcclusionPass(const GlFunctions& gl) : gl_(gl) {
-  program_ = linkProgram(gl_, {"occlusion", {kGlslHead, kOcclusionVertex}, {kGlslHead, kOcclusionFragment}});
+OcclusionPass::OcclusionPass(const GlFunctions& gl, const std::string& lines) : gl_(gl) {
+  program_ = linkProgram(gl_, sourcesOf(Shader::kOcclusion, lines));
   gl_.GenBuffers(1, &vertex_buffer_);
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.BindVertexArray(vertex_array_);

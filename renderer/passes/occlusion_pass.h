@@ -3,6 +3,7 @@
 // the frames of tests/renderer/frame/frame_renderer_test.cpp.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "renderer/gl/gl_functions.h"
@@ -19,8 +20,8 @@ struct BlockOcclusion {
 
 class OcclusionPass {
  public:
-  /// `gl` must outlive this.
-  explicit OcclusionPass(const GlFunctions& gl);
+  /// `lines` choose the variant of the shader. `gl` must outlive this.
+  OcclusionPass(const GlFunctions& gl, const std::string& lines);
 
   /// Into the framebuffer that is bound, over its depths; nothing outside of the blocks.
   void draw(std::span<const BlockOcclusion> blocks) const;

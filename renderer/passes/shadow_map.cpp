@@ -8,7 +8,8 @@
 namespace carom::renderer {
 
 ShadowMap::ShadowMap(const GlFunctions& gl, int texels) : gl_(gl), texels_(texels) {
-  program_ = linkProgram(gl_, {"shadow", {kGlslHead, kShadowVertex}, {kGlslHead, kShadowFragment}});
+  program_ = linkProgram(gl_, sourcesOf(Shader::kShadowMap));
+  glass_program_ = linkProgram(gl_, sourcesOf(Shader::kShadowMap, "#define GLASS\n"));
   gl_.GenTextures(1, &texture_);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, texels_, texels_, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
@@ -36,11 +37,13 @@ void ShadowMap::draw(std::span<const BlockGroups> blocks, const SceneGeometry& g
   gl_.Enable(GL_CULL_FACE);
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(1.5f, 4.0f);
-  gl_.UseProgram(program_);
   for (const auto& [block, groups] : blocks) {
     setScissor(gl_, block);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    for (const DrawGroup& group : groups) geometry.draw(gl_, group.range, group.first, group.count);
+    for (const DrawGroup& group : groups) {
+      gl_.UseProgram(isGlass(group.look) ? glass_program_ : program_);
+      geometry.draw(gl_, group.range, group.first, group.count);
+    }
   }
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
   gl_.Disable(GL_SCISSOR_TEST);

@@ -23,7 +23,7 @@ class ShadowMap {
  private:
   const GlFunctions& gl_;
   int texels_;
-  GLuint program_ = 0, texture_ = 0, target_ = 0;
+  GLuint program_ = 0, glass_program_ = 0, texture_ = 0, target_ = 0;
   bool complete_ = false;
 };
 

@@ -20,7 +20,7 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 
 void SurfacePass::createTargets() {
   if (target_ != 0) return;
-  program_ = linkProgram(gl_, {"surface", {kGlslHead, kSurfaceVertex}, {kGlslHead, kSurfaceFragment}});
+  program_ = linkProgram(gl_, sourcesOf(Shader::kSurfaces));
   GLuint buffers[3];
   gl_.GenRenderbuffers(3, buffers);
   gl_.GenFramebuffers(1, &target_);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "renderer/draw/shaders.h"
-#include "renderer/draw/water_shader.h"
 #include "renderer/gl/offscreen_context.h"
 #include "renderer/gl/shader_program.h"
 
@@ -75,9 +74,7 @@ double distanceTo(const WaterVolume& volume, const Vec3& p) {
 }  // namespace
 
 void WaterPass::create() {
-  program_ = linkProgram(gl_, {"water",
-                               {kGlslHead, variant_.c_str(), kSkyVertex},
-                               {kGlslHead, variant_.c_str(), kGlslLight, "", kWaterFragment}});
+  program_ = linkProgram(gl_, sourcesOf(Shader::kWater, variant_));
   gl_.GenVertexArrays(1, &no_attributes_);
   gl_.GenBuffers(1, &block_buffer_);
   gl_.GenFramebuffers(1, &target_);

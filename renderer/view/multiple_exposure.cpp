@@ -37,6 +37,9 @@ void MultipleExposure::add(const Image& image) {
   REQUIRE(light_.size() == image.rgb.size() && count_ < 65536, light_.size(), image.rgb.size(), count_);
   const std::array<std::uint16_t, 256>& linear = tables().linear;
   for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += linear[image.rgb[i]];
+  if (count_ == 0) alpha_.assign(image.alpha.size(), 0);
+  REQUIRE(alpha_.size() == image.alpha.size(), alpha_.size(), image.alpha.size());
+  for (std::size_t i = 0; i < alpha_.size(); ++i) alpha_[i] += image.alpha[i];
   ++count_;
 }
 
@@ -44,6 +47,8 @@ void MultipleExposure::develop(Image& image) {
   REQUIRE(count_ > 0 && light_.size() == image.rgb.size(), count_, light_.size(), image.rgb.size());
   const std::vector<std::uint8_t>& encoded = tables().encoded;
   for (std::size_t i = 0; i < light_.size(); ++i) image.rgb[i] = encoded[(light_[i] + count_ / 2) / count_];
+  for (std::size_t i = 0; i < alpha_.size(); ++i)
+    image.alpha[i] = static_cast<std::uint8_t>((alpha_[i] + count_ / 2) / count_);
   count_ = 0;
 }
 

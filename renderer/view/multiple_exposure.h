@@ -18,6 +18,7 @@ class MultipleExposure {
 
  private:
   std::vector<std::uint32_t> light_;  // Sums of 16-bit linear light, three a pixel.
+  std::vector<std::uint32_t> alpha_;  // Sums of alpha, of images that have it.
   std::uint32_t count_ = 0;
 };
 

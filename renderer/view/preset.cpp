@@ -6,6 +6,7 @@
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
+#include "renderer/view/view.h"
 
 namespace carom::renderer {
 namespace {
@@ -74,8 +75,15 @@ Quality qualityOf(Preset preset, Style style) {
   return {.samples = 16, .sun_half_angle = 0.05, .ground_roughness = 0.02, .mirror = style != Style::kPrint};
 }
 
+Quality qualityOf(const Settings& settings) {
+  Quality quality = qualityOf(settings.preset, settings.style);
+  quality.sun_half_angle *= settings.light.softness;
+  quality.mirror = quality.mirror && !settings.cutout;
+  return quality;
+}
+
 std::vector<Sample> samplesOf(const Quality& quality, const Vec3& to_light) {
-  if (quality.samples == 1) return {{Vec2::Zero(), to_light, Vec2::Zero()}};
+  if (quality.samples == 1) return {{Vec2::Zero(), to_light, Vec2::Zero(), Vec2::Zero()}};
   const TangentBasis basis = tangentBasis(to_light);
   const int count = quality.samples;
   std::vector<Sample> samples;
@@ -84,7 +92,8 @@ std::vector<Sample> samplesOf(const Quality& quality, const Vec3& to_light) {
     const Vec2 shift((i + 0.5) / count - 0.5, reversedBits(i, count) + 0.5 / count - 0.5);
     const Vec2 sun = quality.sun_half_angle * onDisc((11 * i) % count, count);
     const Vec2 shear = quality.ground_roughness * onDisc((7 * i) % count, count);
-    samples.push_back({shift, (to_light + sun.x() * basis.t1 + sun.y() * basis.t2).normalized(), shear});
+    samples.push_back({shift, (to_light + sun.x() * basis.t1 + sun.y() * basis.t2).normalized(), shear,
+                       onDisc((5 * i) % count, count)});
   }
   return samples;
 }

@@ -43,11 +43,12 @@ struct Quality {
 Quality qualityOf(Preset preset, Style style);
 
 /// One exposure: where in its pixel the camera looks, where in its disc the sun stands, how the ground tilts
-/// what it mirrors.
+/// what it mirrors, where on its lens the camera has its eye.
 struct Sample {
   Vec2 shift_px = Vec2::Zero();
   Vec3 to_light = Vec3::UnitZ();  ///< Unit.
   Vec2 mirror_shear = Vec2::Zero();
+  Vec2 lens = Vec2::Zero();  ///< Where on the lens, whose radius is 1, the eye is: right, up.
 };
 /// As many as `quality` says, always the same; their mean shift is zero. A single one is exactly `to_light`,
 /// unshifted.

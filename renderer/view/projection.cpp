@@ -36,6 +36,19 @@ double focalLengthPixels(const Camera& camera, int height) {
   return 0.5 * height / std::tan(0.5 * camera.fov_degrees * std::numbers::pi / 180.0);
 }
 
+Camera throughLens(const Camera& camera, const Vec2& lens, int height, Vec2& shift_px) {
+  if (!(camera.aperture_m > 0.0)) return camera;
+  const CameraAxes axes = cameraAxes(camera);
+  const Vec2 aside = 0.5 * camera.aperture_m * lens;
+  const double focus_m = camera.focus_m > 0.0 ? camera.focus_m : (camera.target - camera.eye).norm();
+  Camera moved = camera;
+  const Vec3 by = aside.x() * axes.right + aside.y() * axes.up;
+  moved.eye += by;
+  moved.target += by;
+  shift_px += focalLengthPixels(camera, height) / focus_m * aside;
+  return moved;
+}
+
 std::optional<Vec2> projectToPixel(const Camera& camera, int width, int height, const Vec3& p_W) {
   const CameraAxes axes = cameraAxes(camera);
   const Vec3 p_E = p_W - camera.eye;

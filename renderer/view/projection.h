@@ -15,6 +15,9 @@ struct Camera {
   Vec3 eye = Vec3(6.0, -9.0, 5.0);  ///< World, metres, z up.
   Vec3 target = Vec3(0.0, 0.0, 1.0);
   double fov_degrees = 40.0;  ///< Vertical.
+  double aperture_m =
+      0.0;               ///< Of the lens, across; 0: everything is sharp. For presets of several exposures.
+  double focus_m = 0.0;  ///< How far along the view things are sharp; 0: the target is.
 };
 
 /// The camera's axes in the world: unit, `right` x `up` = -`forward`.
@@ -30,6 +33,10 @@ CameraAxes cameraAxes(const Camera& camera);
 
 /// The focal length in pixels: half the image's height over the tangent of half the field of view.
 double focalLengthPixels(const Camera& camera, int height);
+
+/// The camera with its eye at a place on the lens, whose radius is 1, right and up; `shift_px` grows by how
+/// far its image has to move, right and up, for what is in focus to stay where it is.
+Camera throughLens(const Camera& camera, const Vec2& lens, int height, Vec2& shift_px);
 
 /// Where `p_W` is drawn, whether or not that lies inside the image; nothing for a point beside or behind the
 /// eye.

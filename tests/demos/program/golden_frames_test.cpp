@@ -87,7 +87,7 @@ class FirstFrame {
       : scene_(readSceneFile(file)),
         made_(makeSceneWorld(scene_, std::nullopt)),
         instances_(drawnInstances(made_, made_.world.states())),
-        pictures_({kWidth, kHeight, renderer::Settings{}.to_light, renderer::PixelPolicy::kPortable},
+        pictures_({kWidth, kHeight, renderer::Light{}, renderer::PixelPolicy::kPortable},
                   made_.world.solids()) {
     const auto main = scene_.cameras.find("main");
     camera_ = (main != scene_.cameras.end() ? main : scene_.cameras.begin())->second;

@@ -279,11 +279,53 @@ TEST_F(Looks, AnOrbitingCameraIsWhereTheTimeSays) {
   EXPECT_NE(pixels(2), pixels(0));
 }
 
+// The same pixels by one process and by two, kept by --resume, with alpha in the files and the light in their
+// text.
+TEST_F(Looks, WithoutABackgroundFramesHaveAlphaAndAreResumedAndShared) {
+  const std::vector<std::string> options{"--frames", "0-3", "--background", "none", "--light", "sunset"};
+  std::vector<std::string> one = options, two = options;
+  one.insert(one.end(), {"--workers", "1"});
+  two.insert(two.end(), {"--workers", "2"});
+  render("one/frame_%04d.png", one);
+  render("two/frame_%04d.png", two);
+  EXPECT_EQ(files("one"), files("two"));
+  const renderer::DecodedRaster frame = renderer::readPngRaster(file("one/frame_0000.png"));
+  ASSERT_EQ(frame.raster.channels, 4);
+  EXPECT_EQ(frame.raster.pixel(0, 0)[3], 0);  // Sky.
+  const auto has = [&](const char* key, const char* value) {
+    return std::any_of(frame.text.begin(), frame.text.end(),
+                       [&](const auto& pair) { return pair.first == key && pair.second == value; });
+  };
+  EXPECT_TRUE(has("Background", "none"));
+  EXPECT_TRUE(has("Light", "sunset"));
+  one.push_back("--resume");
+  EXPECT_NE(render("one/frame_%04d.png", one).out.find("0 drawn, 4 kept"), std::string::npos);
+}
+
+// What moves is blurred, what rests is not, and any number of workers shows the same.
+TEST_F(Looks, AnOpenShutterIsTheSameForAnyWorkers) {
+  const std::vector<std::string> options{"--frames", "6-9", "--preset", "quality"};
+  std::vector<std::string> sharp = options, one = options, two = options;
+  one.insert(one.end(), {"--shutter", "180", "--workers", "1"});
+  two.insert(two.end(), {"--shutter", "180", "--workers", "2"});
+  render("sharp/frame_%04d.png", sharp);
+  render("one/frame_%04d.png", one);
+  render("two/frame_%04d.png", two);
+  EXPECT_EQ(files("one"), files("two"));
+  EXPECT_NE(files("one"), files("sharp"));
+}
+
 TEST(LooksRefuse, InOneLineWithWhatIsAccepted) {
   const std::map<std::string, std::vector<std::string>> cases = {
       {"--preset", {"--preset", "fancy"}},
       {"--style", {"--style", "dark"}},
       {"unknown output \"depths\"; did you mean \"depth\"?", {"--aov", "depths"}},
+      {"--background none with --sheet: accepted: PNG frames", {"--background", "none", "--sheet", "2x2"}},
+      {"--background none with --overlay", {"--background", "none", "--overlay", "modes"}},
+      {"--background none with --style print", {"--background", "none", "--style", "print"}},
+      {"--shutter with --preset realtime: accepted: --preset quality", {"--shutter", "180"}},
+      {"--shutter with --at", {"--shutter", "180", "--preset", "quality", "--at", "1"}},
+      {"--light", {"--light", "noon"}},
       {"--speed 0: accepted: 0.001 to 1000", {"--speed", "0"}},
       {"--speed nan: accepted: 0.001", {"--speed", "nan"}},
       {"holds more than 10000000 frames", {"--speed", "0.001", "--fps", "1000", "--duration", "3600"}},

@@ -90,7 +90,7 @@ TEST_F(DrawListTest, SunlitBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
     const BodyShader expected = x < -1.0f  ? BodyShader::kChecker
                                 : x < 1.0f ? BodyShader::kSunlit
                                            : BodyShader::kShadowed;
-    EXPECT_EQ(group.shader, expected) << x;
+    EXPECT_EQ(group.look.shader, expected) << x;
   }
 }
 
@@ -101,7 +101,7 @@ TEST_F(DrawListTest, EachFaceIsDrawnOnceByTheShaderForItsLight) {
   for (const DrawGroup& group : drawn.visible) {
     ASSERT_EQ(group.count, 1);
     const InstanceRecord& record = drawn.records[static_cast<std::size_t>(group.first)];
-    const bool looked_up = group.shader == BodyShader::kShadowed;
+    const bool looked_up = group.look.shader == BodyShader::kShadowed;
     EXPECT_EQ(record.faces, looked_up ? 0b001000u : 0b000111u);
     EXPECT_EQ(record.sunlit, looked_up ? kAllFaces : 0b000011u);
   }
@@ -114,11 +114,11 @@ TEST_F(DrawListTest, ATinyBodyIsDrawnOnceWhateverItsShadows) {
   const Instance box{kBox, {Quat::Identity(), far}, {}};
   const DrawList mixed = list({box}, {{0b000011, 0, 0b001000}});
   ASSERT_EQ(count(mixed.visible), 1);
-  EXPECT_EQ(mixed.visible[0].shader, BodyShader::kShadowed);
-  EXPECT_EQ(mixed.records[0].faces, kAllFaces);
+  EXPECT_EQ(mixed.visible[0].look.shader, BodyShader::kShadowed);
+  EXPECT_EQ(mixed.records[0].faces, 0b001011u);  // Those that the eye sees.
   const DrawList turned = list({box}, {{0, 0b000011, 0}});
   ASSERT_EQ(count(turned.visible), 1);
-  EXPECT_EQ(turned.visible[0].shader, BodyShader::kSunlit);
+  EXPECT_EQ(turned.visible[0].look.shader, BodyShader::kSunlit);
   EXPECT_EQ(turned.records[0].sunlit, 0u);
 }
 
@@ -130,7 +130,8 @@ TEST_F(DrawListTest, ABodySeenFromNearIsDrawnAsAWhole) {
     ASSERT_EQ(drawn.visible.size(), 1u);
     ASSERT_EQ(drawn.visible[0].count, 1);
     EXPECT_EQ(drawn.records[0].faces, kAllFaces);
-    EXPECT_EQ(drawn.visible[0].shader, light.sunlit == 0b11u ? BodyShader::kSunlit : BodyShader::kShadowed);
+    EXPECT_EQ(drawn.visible[0].look.shader,
+              light.sunlit == 0b11u ? BodyShader::kSunlit : BodyShader::kShadowed);
   }
 }
 

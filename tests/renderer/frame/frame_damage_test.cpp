@@ -28,7 +28,7 @@ DrawnBody bodyAt(const Vec3& p_W, double half_m, BodyShader shader = BodyShader:
   rows << Eigen::AngleAxisd(p_W.x(), Vec3(1.0, 2.0, 3.0).normalized()).toRotationMatrix(), p_W - kCamera.eye;
   copyRows(rows, body.record.rows);
   for (float& half : body.mesh.half) half = static_cast<float>(half_m);
-  body.shader = shader;
+  body.look.shader = shader;
   return body;
 }
 

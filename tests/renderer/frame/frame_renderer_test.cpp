@@ -95,7 +95,7 @@ TEST_F(Frame, TheNearerBodyHidesTheFartherOne) {
 
 TEST_F(Frame, TheShadowLiesOnTheSideAwayFromTheLight) {
   const Image image = draw({ground(), {kBall, at(0.0, 0.0, 0.9), kRed}});
-  const Vec3 light = Settings{}.to_light;
+  const Vec3 light = Settings{}.light.to_light;
   // The middle of the shadow is where the line through the centre along the light meets the ground.
   const Vec3 shadow = Vec3(0.0, 0.0, 0.9) - light * (0.9 / light.z());
   const Vec3 mirrored(-shadow.x(), -shadow.y(), 0.0);
@@ -107,7 +107,7 @@ TEST_F(Frame, TheShadowLiesOnTheSideAwayFromTheLight) {
 TEST_F(Frame, WhereNothingStandsInTheLightTheGroundIsLit) {
   const std::vector<Instance> bodies = {{kBall, at(0.0, 0.0, 0.9), kRed}, {kBall, at(1.5, 0.5, 0.5), kBlue}};
   const Image image = draw({ground(), bodies[0], bodies[1]}), empty = draw({ground()});
-  const Vec3 to_light = Settings{}.to_light.normalized();
+  const Vec3 to_light = Settings{}.light.to_light.normalized();
   for (double x = -6.0; x <= 6.0; x += 0.21)
     for (double y = -3.0; y <= 12.0; y += 0.23) {
       const Vec3 p(x, y, 0.0);
@@ -129,11 +129,11 @@ TEST_F(Frame, WhereNothingStandsInTheLightTheGroundIsLit) {
 
 TEST_F(Frame, ALightFromTheOtherSideThrowsTheShadowToTheOtherSide) {
   Settings settings{kWidth, kHeight};
-  settings.to_light = Vec3(-0.8, -0.2, 1.0);
+  settings.light.to_light = Vec3(-0.8, -0.2, 1.0);
   FrameRenderer other(settings, solids());
   const std::vector<Instance> scene = {ground(), {kBall, at(0.0, 0.0, 0.9), kRed}};
   const Image left = draw(scene), right = other.draw(scene, kCamera);
-  const Vec3 shadow = Vec3(0.0, 0.0, 0.9) - settings.to_light * 0.9;
+  const Vec3 shadow = Vec3(0.0, 0.0, 0.9) - settings.light.to_light * 0.9;
   EXPECT_LT(seenAt(right, shadow).sum(), 0.7 * seenAt(left, shadow).sum());
 }
 
@@ -326,7 +326,7 @@ TEST(FrameRenderer, FacesOfDifferentLightMeetWithoutAGap) {
 // A plank over one of two boxes far apart: what it shades on the way is darker than the same face in the sun.
 TEST(FrameRenderer, AShadedTopIsDarkerThanASunlitOne) {
   FrameRenderer renderer(Settings{kWidth, kHeight}, solids());
-  const Vec3 to_light = Settings{}.to_light / Settings{}.to_light.z();
+  const Vec3 to_light = Settings{}.light.to_light / Settings{}.light.to_light.z();
   const Camera camera{Vec3(0.0, -16.0, 9.0), Vec3(0.0, 0.0, 0.5), 30.0};
   const Vec3 top(-2.0, 0.0, 1.0), other(2.0, 0.0, 1.0);
   const Image& image =
@@ -343,7 +343,7 @@ TEST(FrameRenderer, ImpossibleSizesAreRefused) {
        {std::pair{0, 720}, {1280, 0}, {-1, 720}, {1280, -5}, {16385, 16}, {16, 16385}})
     EXPECT_THROW(FrameRenderer(Settings{width, height}, solids()), InputError) << width << "x" << height;
   Settings dark;
-  dark.to_light = Vec3::Zero();
+  dark.light.to_light = Vec3::Zero();
   EXPECT_THROW(FrameRenderer(dark, solids()), InputError);
 }
 

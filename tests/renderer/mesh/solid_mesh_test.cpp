@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/solid/convex_hull.h"
+#include "renderer/mesh/curved_part_mesh.h"
 #include "tests/oracle/ray_caster.h"
 
 namespace carom::renderer {
@@ -131,6 +132,60 @@ TEST(SolidMesh, ShadedEdgesAreSharpAndTurnToTheMeanNormalOfTheirFaces) {
       EXPECT_EQ(faces, 2);
     }
   }
+}
+
+/// A frustum along z with that radius below and above; a cone where one is zero.
+Solid frustum(int sides, double below, double above) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < sides; ++k) {
+    const double turn = 2.0 * std::numbers::pi * k / sides;
+    points.emplace_back(below * std::cos(turn), below * std::sin(turn), -0.7);
+    if (above > 0.0) points.emplace_back(above * std::cos(turn), above * std::sin(turn), 0.7);
+  }
+  if (above == 0.0) points.emplace_back(0.0, 0.0, 0.7);
+  return Solid::polyhedron(convexHull(points).polyhedron);
+}
+
+TEST(SolidMesh, CylindersAndConesOfManySidesAreCurvedAndNothingElseIs) {
+  for (const int sides : {16, 17, 32, 128}) {
+    EXPECT_TRUE(isCurved(frustum(sides, 0.5, 0.5).parts()[0].core)) << sides;
+    EXPECT_TRUE(isCurved(frustum(sides, 0.5, 0.3).parts()[0].core)) << sides;
+    EXPECT_TRUE(isCurved(frustum(sides, 0.5, 0.0).parts()[0].core)) << sides;
+  }
+  EXPECT_FALSE(isCurved(frustum(12, 0.5, 0.5).parts()[0].core));
+  EXPECT_FALSE(isCurved(Solid::box(Vec3(1.0, 2.0, 3.0)).parts()[0].core));
+  std::mt19937 random(8);
+  for (const int points : {20, 60, 300})
+    EXPECT_FALSE(isCurved(randomHull(random, points).parts()[0].core)) << points;
+}
+
+// On the side of a cylinder every normal is the radial one, whatever the edges; the rims are bevelled within
+// a hundredth of the width, and no gap shows.
+TEST(SolidMesh, CurvedPartsAreClosedJustInsideAndSmoothAround) {
+  for (const double above : {0.5, 0.3, 0.0})
+    for (const Edges edges : {Edges::kSharp, Edges::kShaded, Edges::kBevelled}) {
+      const Solid solid = frustum(32, 0.5, above);
+      const TriangleMesh mesh = buildMesh(solid, {edges, 0.03, 16});
+      EXPECT_TRUE(closed(mesh)) << above;
+      EXPECT_LE(volume(mesh), (1.0 + 1e-6) * solid.volume()) << above;
+      EXPECT_GT(volume(mesh), (edges == Edges::kSharp ? 0.99999 : 0.98) * solid.volume()) << above;
+      double low = 1.0, high = -1.0;
+      for (const Vec3& corner : solid.parts()[0].core.vertices())
+        low = std::min(low, corner.z()), high = std::max(high, corner.z());
+      // The slant turns the side's normals up by the same angle everywhere.
+      const double slope = (0.5 - above) / 1.4;
+      for (const MeshVertex& v : mesh.vertices) {
+        const Vec3 p(v.position[0], v.position[1], v.position[2]), n(v.normal[0], v.normal[1], v.normal[2]);
+        EXPECT_NEAR(n.norm(), 1.0, 1e-6);
+        for (int f = 0; f < solid.parts()[0].core.faceCount(); ++f)
+          EXPECT_LT(solid.parts()[0].core.plane(f).signedDistance(p), 1e-6);
+        const Vec3 radial = Vec3(p.x(), p.y(), 0.0).normalized();
+        const bool on_side = n.head<2>().norm() > 0.75 && p.head<2>().norm() > 0.1;
+        if (on_side && p.z() > low + 0.01 && p.z() < high - 0.01) {
+          EXPECT_NEAR(n.dot((radial + slope * Vec3::UnitZ()).normalized()), 1.0, 1e-3) << p.transpose();
+        }
+      }
+    }
 }
 
 TEST(SolidMesh, BallsAndCapsulesAreClosedWithTheVolumeOfTheRealOnes) {

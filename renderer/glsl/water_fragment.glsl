@@ -1,23 +1,3 @@
-#pragma once
-// The GLSL of water and the block of values it is given. Everything is in frame E of shaders.h; rays are
-// unit, so that s is a distance in metres along them. Tested in tests/renderer/passes/water_pass_test.cpp.
-
-namespace carom::renderer {
-
-inline constexpr int kWaterWavesInBlock = 64;
-
-/// Matches the GLSL block `Water` below under std140.
-struct WaterBlock {
-  float low[4];         ///< The lower corner; w: number of waves.
-  float high[4];        ///< The upper corner, z the undisturbed level; w: how far waves raise or lower it.
-  float absorption[4];  ///< 1/m of each colour; w: the waves' greatest slope.
-  float scattered[4];   ///< The light of water without end; w: half the width of the foam line, pixels.
-  float depth[4];       ///< x: near, y: far of the depth buffer.
-  float waves[kWaterWavesInBlock][4];  ///< Amplitude, wave vector, phase over the eye.
-};
-
-/// Adds `added` to `kept` of what is on the image.
-inline constexpr const char* kWaterFragment = R"(
 layout(std140, binding = 1) uniform Water {
   vec4 low;
   vec4 high;
@@ -45,6 +25,9 @@ float clearAir(float distance_m) {
 const vec3 kAir = kHorizon;
 vec3 mirroredSky(float elevation) { return skyAt(elevation); }
 float clearAir(float distance_m) {
+#ifdef CUTOUT
+  return 1.0;
+#endif
   float q = distance_m * ray_corner.w;
   return exp(-q * q);
 }
@@ -195,10 +178,13 @@ void main() {
     shown = dot(kept.rgb, vec3(0.2, 0.6, 0.2));
     if (outside) shown = mix(shown, 1.0, exp(-(to_m - from_m) / (20.0 * pixel_rad * solid * stretch)));
   }
+#ifdef CUTOUT
+  kept.a = dot(kept.rgb, vec3(1.0 / 3.0));
+#endif
   foam *= 0.85 * shown * clearAir(solid * stretch);
   added.rgb = mix(added.rgb, kFoam, foam);
   kept.rgb *= 1.0 - foam;
+#ifdef CUTOUT
+  kept.a *= 1.0 - foam;
+#endif
 }
-)";
-
-}  // namespace carom::renderer

@@ -1,0 +1,3 @@
+void main() {
+  pixel = groundPixel(groundPoint(), 1.0);
+}
