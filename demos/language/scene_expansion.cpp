@@ -185,7 +185,8 @@ class Expander {
     for (const auto& [key, value] : json.members()) {
       if (key == "set" || key == "include" || key == "bodies" || key == "materials" || key == "$schema")
         continue;
-      out_.scene.set(key, key == "description" ? value : resolved(value, scope));
+      const bool is_plain = key == "description" || key == "group" || key == "lookFor" || key == "caption";
+      out_.scene.set(key, is_plain ? value : resolved(value, scope));
     }
     if (const Json* own = json.find("materials")) {
       Json all = resolved(*own, scope);

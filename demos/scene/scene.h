@@ -137,6 +137,8 @@ struct Scene {
   std::string name;  ///< The file's name without its ending.
   std::filesystem::path file;
   std::string description;
+  std::string look_for;  ///< What is worth a look, and the closed form where there is one; may be empty.
+  std::string group;     ///< Under which a gallery lists it; may be empty.
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   double rate_hz = 240.0;  ///< Steps a second.
   std::uint64_t seed = 1;
