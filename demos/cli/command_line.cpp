@@ -375,18 +375,24 @@ void CommandLine::addSimulate() {
 
 void CommandLine::addExport() {
   ExportOptions& options = export_options;
-  export_command =
-      app.add_subcommand("export", "Writes a scene's motion as animated glTF, CSV or NumPy arrays");
+  export_command = app.add_subcommand(
+      "export", "Writes a scene's motion as animated glTF, CSV, NumPy arrays, or a page that plays it");
   addSceneOptions(*export_command, options.choice);
   CLI::Option* scene = export_command->get_option("SCENE");
   scene->description("A shipped scene's name, a path to a .json file, or a recording of simulate -o");
-  export_command->add_option("OUT", options.output, "A .glb file: glTF 2.0 with one node a body and camera");
+  export_command->add_option(
+      "OUT", options.output,
+      "A .glb file: glTF 2.0 with one node a body and camera; or an .html file: a page that\n"
+      "plays the run in any browser, with the engine's overlays");
   addTrajectoryOptions(*export_command, options.trajectory);
-  export_command->add_option("--fps", options.fps, "Frames a second (30; a recording has its own)");
+  export_command->add_option("--fps", options.fps,
+                             "Frames a second (30; of a page 60; a recording has its own)");
   export_command->add_option("--scene", options.moved, "Where the scene of the recording is now");
   addThreadsOption(*export_command, options.choice);
   addTellingOptions(*export_command, options.telling);
-  export_command->footer("Example: carom export sliding sliding.glb");
+  export_command->footer(
+      "Example: carom export sliding sliding.glb\n"
+      "A page to open in a browser: carom export fifty-bodies fifty-bodies.html");
 }
 
 void CommandLine::addDistance() {
@@ -666,9 +672,10 @@ void checkRender(const RenderOptions& options) {
 
 void checkExport(const ExportOptions& options) {
   if (options.output.empty() && options.trajectory.csv.empty() && options.trajectory.npy.empty())
-    throw UsageError("export: nothing to write; accepted: a .glb file, --csv FILE or --npy FOLDER");
-  if (!options.output.empty() && options.output.extension() != ".glb")
-    throw UsageError("export: " + options.output.string() + ": accepted: a name that ends in .glb");
+    throw UsageError("export: nothing to write; accepted: a .glb or .html file, --csv FILE or --npy FOLDER");
+  if (!options.output.empty() && options.output.extension() != ".glb" &&
+      options.output.extension() != ".html")
+    throw UsageError("export: " + options.output.string() + ": accepted: a name that ends in .glb or .html");
   if (options.fps) requireWithin("--fps", *options.fps, kHighestFps);
 }
 

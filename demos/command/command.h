@@ -36,9 +36,9 @@ ExitCode simulate(const SimulateOptions& options);
 struct ExportOptions {
   SceneChoice choice;            ///< `scene` may be a recording.
   std::filesystem::path moved;   ///< Where the recording's scene is now.
-  std::filesystem::path output;  ///< A .glb file; empty: none.
+  std::filesystem::path output;  ///< A .glb or .html file; empty: none.
   TrajectoryPaths trajectory;
-  std::optional<double> fps;  ///< None: 30, or the recording's.
+  std::optional<double> fps;  ///< None: 30, of a page 60, or the recording's.
   Telling telling;
 };
 ExitCode exportMotion(const ExportOptions& options);

@@ -60,6 +60,7 @@ inline const std::map<std::string, int>& folderHeights() {
                                                   {"demos/overlay", 51},
                                                   {"demos/budget", 52},
                                                   {"demos/against", 53},
+                                                  {"demos/page", 54},
                                                   {"demos/report", 54},
                                                   {"demos/regress", 55},
                                                   {"demos/render", 56},
