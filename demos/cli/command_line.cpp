@@ -23,6 +23,7 @@ constexpr int kMostWorkers = 64;
 constexpr int kMostThreads = 64;
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
+constexpr double kHighestPictureFps = 30.0;
 constexpr double kLowestSpeed = 0.001, kHighestSpeed = 1000.0;
 constexpr double kLongestBudget_ms = 1e6;
 constexpr int kSmallestSide = 16;
@@ -148,6 +149,7 @@ struct CommandLine {
   RegressOptions regress_options;
   BudgetOptions budget_options;
   FiguresOptions figures_options;
+  GalleryOptions gallery_options;
   DoctorOptions doctor_options;
   NewOptions new_options;
   bool wants_manual = false;
@@ -158,6 +160,7 @@ struct CommandLine {
   std::string size;
   std::string budget_size;
   std::string figures_size;
+  std::string gallery_size;
   std::string budget_tolerance;
   std::string budget_work_tolerance;
   CLI::App* list_command = nullptr;
@@ -170,6 +173,7 @@ struct CommandLine {
   CLI::App* regress_command = nullptr;
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
+  CLI::App* gallery_command = nullptr;
   CLI::App* doctor_command = nullptr;
   CLI::App* new_command = nullptr;
   CLI::App* help_command = nullptr;
@@ -187,6 +191,7 @@ struct CommandLine {
   void addRegress();
   void addBudget();
   void addFigures();
+  void addGallery();
   void groupOptions();
 };
 
@@ -205,7 +210,7 @@ void CommandLine::groupOptions() {
         "--differences", "--amplify", "--junit",  "--update", "--accept", "--undo"}},
       {"Which moments", {"--fps", "--speed", "--at", "--frames"}},
       {"How it looks", {"--size", "--camera", "--preset", "--style", "--overlay", "--focus", "--portable"}},
-      {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--gl"}},
+      {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--part", "--gl"}},
       {"What is asked",
        {"--budget", "--percentile", "--replays", "--baseline", "--against", "--paced", "--clock",
         "--tolerance", "--work-tolerance", "--tolerance16", "--allow-pixels", "--mask", "--expect-hash",
@@ -247,6 +252,7 @@ CommandLine::CommandLine() {
   addRegress();
   addBudget();
   addFigures();
+  addGallery();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   addGlOption(*doctor_command, doctor_options.gl);
   doctor_command->footer("Example: carom doctor --gl egl");
@@ -557,6 +563,32 @@ void CommandLine::addFigures() {
   figures_command->footer("Example: carom figures -o figures --size 1920x1080");
 }
 
+void CommandLine::addGallery() {
+  GalleryOptions& options = gallery_options;
+  gallery_command = app.add_subcommand(
+      "gallery",
+      "Makes a folder that opens in a browser: moving pictures of scenes, and a page that plays each");
+  gallery_command->add_option("SCENES", options.scenes,
+                              "Shipped scenes' names or paths to .json files; none: all shipped");
+  gallery_command
+      ->add_option("-o,--output", options.output, "The folder; what is up to date in it is not made again")
+      ->capture_default_str();
+  gallery_command->add_option("--size", gallery_size, "WIDTHxHEIGHT of the moving pictures (480x270)");
+  gallery_command
+      ->add_option("--fps", options.fps, "Frames a second of the moving pictures, where 300 KB allow them")
+      ->capture_default_str();
+  gallery_command->add_option("-j,--jobs", options.jobs, "Scenes at a time (0: one for each processor)")
+      ->check(CLI::Range(0, kMostWorkers))
+      ->capture_default_str();
+  gallery_command->add_flag(
+      "--part", options.part,
+      "Makes the files of one scene and prints what they are as JSON: what gallery starts\n"
+      "for each");
+  addGlOption(*gallery_command, options.gl);
+  addTellingOptions(*gallery_command, options.telling);
+  gallery_command->footer("Example: carom gallery sliding fifty-bodies my_scene.json -o gallery");
+}
+
 std::vector<std::string> optionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -720,6 +752,10 @@ void checkValues(CommandLine& line) {
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (line.export_command->parsed()) checkExport(line.export_options);
   if (!line.figures_size.empty()) readSize(line.figures_size, line.figures_options);
+  if (!line.gallery_size.empty()) readSize(line.gallery_size, line.gallery_options);
+  requireWithin("--fps", line.gallery_options.fps, kHighestPictureFps);
+  if (line.gallery_options.part && line.gallery_options.scenes.size() != 1)
+    throw UsageError("gallery --part makes the files of one scene; accepted: with one SCENE");
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
@@ -793,6 +829,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.regress_command->parsed()) return regress(line.regress_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
   if (line.figures_command->parsed()) return figures(line.figures_options);
+  if (line.gallery_command->parsed()) return gallery(line.gallery_options);
   if (line.new_command->parsed()) return newScene(line.new_options);
   return doctor(line.doctor_options);
 }

@@ -129,6 +129,19 @@ struct FiguresOptions {
 };
 ExitCode figures(const FiguresOptions& options);
 
+struct GalleryOptions {
+  std::vector<std::string> scenes;           ///< Names or files; empty: all that are shipped.
+  std::filesystem::path output = "gallery";  ///< A folder.
+  int width = 480;                           ///< Of the moving pictures, as the next.
+  int height = 270;
+  double fps = 15.0;
+  int jobs = 0;       ///< Scenes at a time; 0: one for each processor.
+  bool part = false;  ///< Makes one scene's files and tells of them: what it starts for each.
+  std::string gl = "auto";
+  Telling telling;
+};
+ExitCode gallery(const GalleryOptions& options);
+
 struct DoctorOptions {
   std::string gl = "auto";  ///< What must draw; "auto": the first that serves, and the other is told of.
 };

@@ -1,7 +1,7 @@
 #pragma once
 // Another process of this program, its output in files: for work that is to be done several times at once and
 // must not take the whole down with it. Ended with whoever started it. Tested through the program in
-// tests/demos/program/regress_program_test.cpp and tests/demos/program/gallery_program_test.cpp.
+// tests/demos/program/regress_program_test.cpp and tests/demos/gallery/gallery_program_test.cpp.
 
 #include <filesystem>
 #include <optional>

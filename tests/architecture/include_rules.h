@@ -64,6 +64,7 @@ inline const std::map<std::string, int>& folderHeights() {
                                                   {"demos/report", 54},
                                                   {"demos/regress", 55},
                                                   {"demos/render", 56},
+                                                  {"demos/gallery", 57},
                                                   {"demos/figure", 57},
                                                   {"demos/command", 58},
                                                   {"demos/cli", 59},
