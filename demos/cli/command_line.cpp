@@ -23,6 +23,7 @@ constexpr int kMostWorkers = 64;
 constexpr int kMostThreads = 64;
 constexpr double kLongest_s = 3600.0;
 constexpr double kHighestFps = 1000.0;
+constexpr double kHighestPictureFps = 30.0;
 constexpr double kLowestSpeed = 0.001, kHighestSpeed = 1000.0;
 constexpr double kLongestBudget_ms = 1e6;
 constexpr int kSmallestSide = 16;
@@ -154,6 +155,7 @@ struct CommandLine {
   RegressOptions regress_options;
   BudgetOptions budget_options;
   FiguresOptions figures_options;
+  GalleryOptions gallery_options;
   DoctorOptions doctor_options;
   NewOptions new_options;
   bool wants_manual = false;
@@ -165,6 +167,7 @@ struct CommandLine {
   std::string caption;
   std::string budget_size;
   std::string figures_size;
+  std::string gallery_size;
   std::string budget_tolerance;
   std::string budget_work_tolerance;
   CLI::App* list_command = nullptr;
@@ -177,6 +180,7 @@ struct CommandLine {
   CLI::App* regress_command = nullptr;
   CLI::App* budget_command = nullptr;
   CLI::App* figures_command = nullptr;
+  CLI::App* gallery_command = nullptr;
   CLI::App* doctor_command = nullptr;
   CLI::App* new_command = nullptr;
   CLI::App* help_command = nullptr;
@@ -194,6 +198,7 @@ struct CommandLine {
   void addRegress();
   void addBudget();
   void addFigures();
+  void addGallery();
   void groupOptions();
 };
 
@@ -214,7 +219,7 @@ void CommandLine::groupOptions() {
       {"How it looks",
        {"--size", "--camera", "--preset", "--style", "--light", "--exposure", "--shutter", "--background",
         "--overlay", "--focus", "--caption", "--portable"}},
-      {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--gl"}},
+      {"Long jobs", {"--shard", "--resume", "--workers", "--jobs", "--part", "--gl"}},
       {"What is asked",
        {"--budget", "--percentile", "--replays", "--baseline", "--against", "--paced", "--clock",
         "--tolerance", "--work-tolerance", "--tolerance16", "--allow-pixels", "--mask", "--expect-hash",
@@ -256,6 +261,7 @@ CommandLine::CommandLine() {
   addRegress();
   addBudget();
   addFigures();
+  addGallery();
   doctor_command = app.add_subcommand("doctor", "What this machine offers, and what is missing");
   addGlOption(*doctor_command, doctor_options.gl);
   doctor_command->footer("Example: carom doctor --gl egl");
@@ -404,18 +410,24 @@ void CommandLine::addSimulate() {
 
 void CommandLine::addExport() {
   ExportOptions& options = export_options;
-  export_command =
-      app.add_subcommand("export", "Writes a scene's motion as animated glTF, CSV or NumPy arrays");
+  export_command = app.add_subcommand(
+      "export", "Writes a scene's motion as animated glTF, CSV, NumPy arrays, or a page that plays it");
   addSceneOptions(*export_command, options.choice);
   CLI::Option* scene = export_command->get_option("SCENE");
   scene->description("A shipped scene's name, a path to a .json file, or a recording of simulate -o");
-  export_command->add_option("OUT", options.output, "A .glb file: glTF 2.0 with one node a body and camera");
+  export_command->add_option(
+      "OUT", options.output,
+      "A .glb file: glTF 2.0 with one node a body and camera; or an .html file: a page that\n"
+      "plays the run in any browser, with the engine's overlays");
   addTrajectoryOptions(*export_command, options.trajectory);
-  export_command->add_option("--fps", options.fps, "Frames a second (30; a recording has its own)");
+  export_command->add_option("--fps", options.fps,
+                             "Frames a second (30; of a page 60; a recording has its own)");
   export_command->add_option("--scene", options.moved, "Where the scene of the recording is now");
   addThreadsOption(*export_command, options.choice);
   addTellingOptions(*export_command, options.telling);
-  export_command->footer("Example: carom export sliding sliding.glb");
+  export_command->footer(
+      "Example: carom export sliding sliding.glb\n"
+      "A page to open in a browser: carom export fifty-bodies fifty-bodies.html");
 }
 
 void CommandLine::addDistance() {
@@ -581,6 +593,32 @@ void CommandLine::addFigures() {
   figures_command->footer("Example: carom figures -o figures --size 1920x1080");
 }
 
+void CommandLine::addGallery() {
+  GalleryOptions& options = gallery_options;
+  gallery_command = app.add_subcommand(
+      "gallery",
+      "Makes a folder that opens in a browser: moving pictures of scenes, and a page that plays each");
+  gallery_command->add_option("SCENES", options.scenes,
+                              "Shipped scenes' names or paths to .json files; none: all shipped");
+  gallery_command
+      ->add_option("-o,--output", options.output, "The folder; what is up to date in it is not made again")
+      ->capture_default_str();
+  gallery_command->add_option("--size", gallery_size, "WIDTHxHEIGHT of the moving pictures (480x270)");
+  gallery_command
+      ->add_option("--fps", options.fps, "Frames a second of the moving pictures, where 300 KB allow them")
+      ->capture_default_str();
+  gallery_command->add_option("-j,--jobs", options.jobs, "Scenes at a time (0: one for each processor)")
+      ->check(CLI::Range(0, kMostWorkers))
+      ->capture_default_str();
+  gallery_command->add_flag(
+      "--part", options.part,
+      "Makes the files of one scene and prints what they are as JSON: what gallery starts\n"
+      "for each");
+  addGlOption(*gallery_command, options.gl);
+  addTellingOptions(*gallery_command, options.telling);
+  gallery_command->footer("Example: carom gallery sliding fifty-bodies my_scene.json -o gallery");
+}
+
 std::vector<std::string> optionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -696,9 +734,10 @@ void checkRender(const RenderOptions& options) {
 
 void checkExport(const ExportOptions& options) {
   if (options.output.empty() && options.trajectory.csv.empty() && options.trajectory.npy.empty())
-    throw UsageError("export: nothing to write; accepted: a .glb file, --csv FILE or --npy FOLDER");
-  if (!options.output.empty() && options.output.extension() != ".glb")
-    throw UsageError("export: " + options.output.string() + ": accepted: a name that ends in .glb");
+    throw UsageError("export: nothing to write; accepted: a .glb or .html file, --csv FILE or --npy FOLDER");
+  if (!options.output.empty() && options.output.extension() != ".glb" &&
+      options.output.extension() != ".html")
+    throw UsageError("export: " + options.output.string() + ": accepted: a name that ends in .glb or .html");
   if (options.fps) requireWithin("--fps", *options.fps, kHighestFps);
 }
 
@@ -743,6 +782,10 @@ void checkValues(CommandLine& line) {
   if (!line.size.empty()) readSize(line.size, line.render_options);
   if (line.export_command->parsed()) checkExport(line.export_options);
   if (!line.figures_size.empty()) readSize(line.figures_size, line.figures_options);
+  if (!line.gallery_size.empty()) readSize(line.gallery_size, line.gallery_options);
+  requireWithin("--fps", line.gallery_options.fps, kHighestPictureFps);
+  if (line.gallery_options.part && line.gallery_options.scenes.size() != 1)
+    throw UsageError("gallery --part makes the files of one scene; accepted: with one SCENE");
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
 }
@@ -817,6 +860,7 @@ ExitCode runCommandLine(int argc, char** argv) {
   if (line.regress_command->parsed()) return regress(line.regress_options);
   if (line.budget_command->parsed()) return budget(line.budget_options);
   if (line.figures_command->parsed()) return figures(line.figures_options);
+  if (line.gallery_command->parsed()) return gallery(line.gallery_options);
   if (line.new_command->parsed()) return newScene(line.new_options);
   return doctor(line.doctor_options);
 }

@@ -36,9 +36,9 @@ ExitCode simulate(const SimulateOptions& options);
 struct ExportOptions {
   SceneChoice choice;            ///< `scene` may be a recording.
   std::filesystem::path moved;   ///< Where the recording's scene is now.
-  std::filesystem::path output;  ///< A .glb file; empty: none.
+  std::filesystem::path output;  ///< A .glb or .html file; empty: none.
   TrajectoryPaths trajectory;
-  std::optional<double> fps;  ///< None: 30, or the recording's.
+  std::optional<double> fps;  ///< None: 30, of a page 60, or the recording's.
   Telling telling;
 };
 ExitCode exportMotion(const ExportOptions& options);
@@ -129,6 +129,19 @@ struct FiguresOptions {
   int height = 720;
 };
 ExitCode figures(const FiguresOptions& options);
+
+struct GalleryOptions {
+  std::vector<std::string> scenes;           ///< Names or files; empty: all that are shipped.
+  std::filesystem::path output = "gallery";  ///< A folder.
+  int width = 480;                           ///< Of the moving pictures, as the next.
+  int height = 270;
+  double fps = 15.0;
+  int jobs = 0;       ///< Scenes at a time; 0: one for each processor.
+  bool part = false;  ///< Makes one scene's files and tells of them: what it starts for each.
+  std::string gl = "auto";
+  Telling telling;
+};
+ExitCode gallery(const GalleryOptions& options);
 
 struct DoctorOptions {
   std::string gl = "auto";  ///< What must draw; "auto": the first that serves, and the other is told of.

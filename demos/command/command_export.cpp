@@ -1,13 +1,16 @@
-// `carom export`: a scene's motion, simulated or recorded, for other programs: animated glTF, CSV, NumPy.
+// `carom export`: a scene's motion, simulated or recorded, for other programs: animated glTF, CSV, NumPy, and
+// for people: a page that plays it.
 #include "demos/command/command.h"
 
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 #include "demos/asset/asset_path.h"
 #include "demos/format/progress.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
+#include "demos/page/player_page.h"
 #include "demos/record/motion_gltf.h"
 #include "demos/record/recorded_scene.h"
 #include "demos/scene/scene_world.h"
@@ -19,6 +22,11 @@ namespace carom::demos {
 namespace {
 
 constexpr double kDefaultFps = 30.0;
+constexpr double kDefaultPageFps = 60.0;
+
+bool isPage(const std::filesystem::path& output) {
+  return output.extension() == ".html";
+}
 
 /// A file that is no scene; shipped names go before files of that name.
 bool isRecording(const std::filesystem::path& path) {
@@ -67,23 +75,56 @@ Plan simulatedPlan(const ExportOptions& options) {
   if (!options.moved.empty())
     throw UsageError("--scene is for recordings: " + options.choice.scene + " is a scene itself");
   const Scene scene = chosenScene(options.choice);
-  const FrameClock clock({options.fps.value_or(kDefaultFps), scene.rate_hz});
+  const double usual_fps = isPage(options.output) ? kDefaultPageFps : kDefaultFps;
+  const FrameClock clock({options.fps.value_or(usual_fps), scene.rate_hz});
   const int frames = clock.frameCount(scene.duration_s);
   if (frames < 1)
     throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame to export");
   return {options.choice, scene, clock, frames};
 }
 
-/// A .glb file that appears whole or not at all.
-struct GltfFile {
-  GltfFile(const std::filesystem::path& path, const Plan& plan, const SceneWorld& made)
-      : motion(plan.scene, made, plan.frames), file(path) {}
-  void commit() {
-    file.write(motion.bytes());
-    file.commit();
+/// As somebody would type it beside the files.
+std::string shownCommand(const ExportOptions& options) {
+  std::ostringstream command;
+  command << "carom export " << std::filesystem::path(options.choice.scene).filename().string() << ' '
+          << options.output.filename().string();
+  for (const std::string& setting : options.choice.settings) command << " --set '" << setting << '\'';
+  if (options.choice.seed) command << " --seed " << *options.choice.seed;
+  if (options.choice.duration_s) command << " --duration " << *options.choice.duration_s;
+  if (options.fps) command << " --fps " << *options.fps;
+  return command.str();
+}
+
+/// A .glb or .html file that appears whole or not at all.
+class MotionFile {
+ public:
+  MotionFile(const ExportOptions& options, const Plan& plan, SceneWorld& made) : file_(options.output) {
+    if (isPage(options.output))
+      page_.emplace(plan.scene, made, pageChoice(options, plan));
+    else
+      gltf_.emplace(plan.scene, made, plan.frames);
   }
-  MotionGltf motion;
-  AtomicFile file;
+  void add(int frame, double time_s, std::span<const BodyState> states) {
+    if (gltf_) gltf_->add(time_s, states);
+    if (page_) page_->add(frame, states);
+  }
+  void commit() {
+    file_.write(gltf_ ? gltf_->bytes() : page_->html());
+    file_.commit();
+  }
+
+ private:
+  static PageChoice pageChoice(const ExportOptions& options, const Plan& plan) {
+    return {.fps = plan.clock.fps(),
+            .frames = plan.frames,
+            .recorded = isRecording(options.choice.scene),
+            .command = shownCommand(options),
+            .index = ""};
+  }
+
+  AtomicFile file_;
+  std::optional<MotionGltf> gltf_;
+  std::optional<PlayerPage> page_;
 };
 
 void printReport(const ExportOptions& options, const Plan& plan, const SceneWorld& made) {
@@ -108,8 +149,8 @@ ExitCode exportMotion(const ExportOptions& options) {
     source.emplace(made, plan.clock, facts);
 
   catchInterrupts();
-  std::optional<GltfFile> gltf;
-  if (!options.output.empty()) gltf.emplace(options.output, plan, made);
+  std::optional<MotionFile> file;
+  if (!options.output.empty()) file.emplace(options, plan, made);
   TrajectoryFiles trajectory(options.trajectory, made.names, plan.frames);
   {
     const Telling& telling = options.telling;
@@ -117,12 +158,12 @@ ExitCode exportMotion(const ExportOptions& options) {
     Progress progress({"frame", plan.frames}, style, std::cerr, steadySeconds);
     for (int frame = 0; frame < plan.frames; ++frame) {
       const FrameState state = source->at(frame);
-      if (gltf) gltf->motion.add(plan.clock.time(frame), state.bodies);
+      if (file) file->add(frame, plan.clock.time(frame), state.bodies);
       trajectory.add(plan.clock.time(frame), state.bodies);
       progress.done(frame + 1);
     }
   }
-  if (gltf) gltf->commit();
+  if (file) file->commit();
   trajectory.commit();
   printReport(options, plan, made);
   return ExitCode::kOk;

@@ -23,6 +23,10 @@ ExitCode figures(const FiguresOptions&) {
   throw renderer::NoRenderer(kNone);
 }
 
+ExitCode gallery(const GalleryOptions&) {
+  throw renderer::NoRenderer(kNone);
+}
+
 void examineRenderer(const std::string& gl) {
   if (renderer::backendOf(gl) != renderer::GlBackend::kAuto) throw renderer::NoRenderer(kNone);
   tellFact("GL context", "none: " + kNone);

@@ -344,9 +344,9 @@ void warnOfUnused(const Json& materials, const std::vector<Body>& bodies, const 
 
 /// Adds to `grown` how many values the scene was made into, also where it is refused.
 Scene readScene(const Json& written, const std::filesystem::path& path, std::size_t& grown) {
-  written.onlyKeys({"$schema", "format", "description", "set", "include", "gravity", "rate", "seed",
-                    "materials", "air", "fluids", "bodies", "cameras", "duration", "light", "group", "lookFor",
-                    "caption"});
+  written.onlyKeys({"$schema", "format", "description", "lookFor", "group", "caption", "set", "include",
+                    "gravity", "rate", "seed", "materials", "air", "fluids", "bodies", "cameras", "duration",
+                    "light"});
   readFormat(written);
   const ExpandedScene expanded = expandScene(written, path, grown);
   const Json& json = expanded.scene;
@@ -356,8 +356,8 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   scene.included = expanded.included;
   scene.warnings = expanded.warnings;
   if (const Json* value = json.find("description")) scene.description = value->asString();
-  if (const Json* value = json.find("group")) scene.group = value->asString();
   if (const Json* value = json.find("lookFor")) scene.look_for = value->asString();
+  if (const Json* value = json.find("group")) scene.group = value->asString();
   if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
   if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
   if (const Json* value = json.find("seed"))

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "engine/contact/contact_manifold.h"
 #include "engine/contact/contact_polygon.h"
 #include "engine/modes/support_polygon.h"
 
@@ -15,54 +14,14 @@ using renderer::Align;
 using renderer::OverlayPainter;
 using renderer::Stroke;
 
-constexpr double kNormalLength = 0.55;  // Of the smaller body's radius.
-constexpr double kWeightLength = 0.7;   // Of a body's radius: an impulse that holds its weight for a step.
-constexpr double kCollisionTime_s =
-    0.12;                                // An arrow is as long as the body goes in it with the speed gained.
-constexpr double kShortestArrow = 0.08;  // Of the radius; what is shorter is left out.
-constexpr double kLongestArrow = 2.5;    // Of the radius.
 constexpr std::size_t kMostNamedPairs = 4;
 constexpr std::size_t kMostNamedImpulses = 6;
 constexpr std::size_t kMostGauges = 6;
 constexpr double kUpwards = 1e-3;  // Cosine by which a contact's normal leans against gravity to hold up.
 
-ContactManifold manifoldOf(const NearPair& pair) {
-  return contactManifold(pair.closest, *pair.part_a, pair.X_WA, *pair.part_b, pair.X_WB, pair.window);
-}
-
-/// Near enough for the collision window to speak of a contact.
-bool touches(const NearPair& pair) {
-  return pair.closest.distance_m <= kGaugeOverCeiling * pair.window.ceiling;
-}
-
 std::string featureText(const Feature& feature) {
   constexpr std::array<const char*, 3> kLetters = {"V", "E", "F"};
   return std::string(kLetters[static_cast<std::size_t>(feature.kind)]).append(std::to_string(feature.index));
-}
-
-/// An impulse as it is shown: on the body that can move, B if both can.
-struct ShownImpulse {
-  int body = -1;
-  Vec3 p_W;
-  Vec3 impulse_W;
-};
-ShownImpulse shownImpulse(const OverlayFrame& frame, const ContactView& contact) {
-  const bool on_b = !frame.isStatic(contact.body_b);
-  const Vec3 p_W =
-      0.5 * (frame.state(contact.body_a).X_WB * contact.p_A + frame.state(contact.body_b).X_WB * contact.p_B);
-  return {on_b ? contact.body_b : contact.body_a, p_W, on_b ? contact.impulse_W : Vec3(-contact.impulse_W)};
-}
-
-// The arrow's foot is the point of contact; `length_m` is for the whole impulse.
-bool paintImpulse(OverlayPainter& painter, const OverlayFrame& frame, const ShownImpulse& shown,
-                  double length_m, const Stroke& stroke) {
-  const double radius = frame.solid(shown.body).radius();
-  if (!(length_m > kShortestArrow * radius)) return false;
-  const double shown_m = std::min(length_m, kLongestArrow * radius);
-  painter.setLift(2.0 * radius);  // it stands inside the body that it pushes
-  painter.arrow(shown.p_W, shown.p_W + shown_m * shown.impulse_W.normalized(), stroke);
-  painter.setLift(0.0);
-  return true;
 }
 
 /// A zone of the gauge between two gaps.
@@ -116,7 +75,7 @@ void paintGauge(OverlayPainter& painter, const NearPair& pair, const Pen& pen) {
 void paintNormals(OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen) {
   for (const NearPair& pair : frame.pairs) {
     if (!touches(pair)) continue;
-    const double length = kNormalLength * frame.pairRadius(pair.body_a, pair.body_b);
+    const double length = normalLength(frame, pair);
     for (const ManifoldPoint& point : manifoldOf(pair))
       painter.arrow(point.p_W, point.p_W + length * point.n_W,
                     {{overlay_color::kBlue}, pen.thick_px(), 0.0, 0.6});
@@ -124,33 +83,15 @@ void paintNormals(OverlayPainter& painter, const OverlayFrame& frame, const Pen&
 }
 
 void paintImpulses(OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen) {
-  if (frame.step == nullptr) return;
-  const WorldSettings& settings = frame.scene.world.settings();
-  for (const ContactView& contact : frame.step->lasting) {
-    if (!frame.focus.hasPair(contact.body_a, contact.body_b)) continue;
-    const ShownImpulse shown = shownImpulse(frame, contact);
-    const double mass = frame.scene.world.mass(shown.body);
-    const double speed =
-        std::max(settings.gravity.norm(), 1e-3) * settings.step_s;  // what a step of weight gives
-    paintImpulse(painter, frame, shown,
-                 kWeightLength * frame.solid(shown.body).radius() * shown.impulse_W.norm() / (mass * speed),
-                 {{overlay_color::kOrange}, pen.thick_px(), 0.0, 0.6});
-  }
-  // The strongest are labelled first.
-  std::vector<ShownImpulse> collisions;
-  for (const ContactView& contact : frame.collisions)
-    if (frame.focus.hasPair(contact.body_a, contact.body_b))
-      collisions.push_back(shownImpulse(frame, contact));
-  std::stable_sort(collisions.begin(), collisions.end(), [](const ShownImpulse& x, const ShownImpulse& y) {
-    return x.impulse_W.norm() > y.impulse_W.norm();
-  });
   std::size_t named = 0;
-  for (const ShownImpulse& shown : collisions) {
-    const double mass = frame.scene.world.mass(shown.body);
-    if (!paintImpulse(painter, frame, shown, kCollisionTime_s * shown.impulse_W.norm() / mass,
-                      {{overlay_color::kRed}, 1.3 * pen.thick_px(), 0.0, 0.6}) ||
-        named++ >= kMostNamedImpulses)
-      continue;
+  for (const ShownImpulse& shown : shownImpulses(frame)) {
+    const renderer::Color& color = shown.is_collision ? overlay_color::kRed : overlay_color::kOrange;
+    const double width_px = (shown.is_collision ? 1.3 : 1.0) * pen.thick_px();
+    painter.setLift(2.0 * frame.solid(shown.body).radius());  // it stands inside the body that it pushes
+    painter.arrow(shown.p_W, shown.p_W + shown.length_m * shown.impulse_W.normalized(),
+                  {{color}, width_px, 0.0, 0.6});
+    painter.setLift(0.0);
+    if (!shown.is_collision || named++ >= kMostNamedImpulses) continue;
     painter.label(shown.p_W, numberText("%.3g N s", shown.impulse_W.norm()),
                   {pen.text_px, {overlay_color::kRed}, Align::kLeft, true, 0.9});
   }

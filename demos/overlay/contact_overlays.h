@@ -3,6 +3,7 @@
 // window, support polygons. Tested in tests/demos/overlay/overlays_test.cpp.
 
 #include "demos/overlay/overlay_frame.h"
+#include "demos/overlay/shown_contacts.h"
 #include "renderer/drawing/overlay_painter.h"
 
 namespace carom::demos {
@@ -14,8 +15,6 @@ void paintManifolds(renderer::OverlayPainter& painter, const OverlayFrame& frame
 void paintWindows(renderer::OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen);
 void paintSupports(renderer::OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen);
 
-/// The gap of a gauge of the collision window at its upper end, in ceilings (epsilon2).
-inline constexpr double kGaugeOverCeiling = 1.5;
 /// The height in a gauge, 0 at its lower end to 1, of a gap.
 double gaugeHeight(double gap_m, const CollisionWindow& window);
 

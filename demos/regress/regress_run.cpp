@@ -1,20 +1,14 @@
 #include "demos/regress/regress_run.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <optional>
 #include <thread>
-
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "demos/asset/asset_path.h"
 #include "demos/system/exit_code.h"
 #include "demos/system/interrupt.h"
+#include "demos/system/own_process.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
@@ -22,47 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kLook = std::chrono::milliseconds(10);  // between two looks at what runs
-
-/// One process of this program, its output in files.
-class Child {
- public:
-  Child(std::vector<std::string> words, const fs::path& out, const fs::path& err) {
-    words.insert(words.begin(), "/proc/self/exe");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    const std::string out_name = out.string(), err_name = err.string();
-    id_ = ::fork();
-    if (id_ < 0) throw CannotWrite(std::string("cannot start a process: ") + std::strerror(errno));
-    if (id_ > 0) return;
-    const int to_out = ::open(out_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    const int to_err = ::open(err_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (::dup2(to_out, STDOUT_FILENO) == STDOUT_FILENO && ::dup2(to_err, STDERR_FILENO) == STDERR_FILENO)
-      ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  Child(Child&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
-  Child& operator=(Child&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-  }
-  ~Child() {
-    if (id_ <= 0) return;
-    ::kill(id_, SIGTERM);
-    while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
-  /// Its exit code, or 128 and the signal, once it has ended.
-  std::optional<int> ended() {
-    int status = 0;
-    if (::waitpid(id_, &status, WNOHANG) != id_) return std::nullopt;
-    id_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t id_ = -1;
-};
 
 /// The files of a scene in the output folder.
 struct Files {
@@ -107,7 +60,7 @@ std::string suiteElement(const fs::path& file) {
 struct Running {
   std::size_t index;
   bool drawing;
-  Child child;
+  OwnProcess child;
 };
 
 }  // namespace
@@ -126,7 +79,7 @@ std::vector<SceneOutcome> runSuite(const RegressSuite& suite, const RegressPlan&
     fs::create_directories(files.frames.parent_path(), failed);
     if (failed) throw CannotWrite("cannot write '" + files.frames.string() + "': " + failed.message());
     outcomes[i].name = scene.name;
-    running.push_back({i, true, Child(renderWords(scene, files), files.out, files.err)});
+    running.push_back({i, true, OwnProcess(renderWords(scene, files), files.out, files.err)});
   };
   while (next < suite.scenes.size() || !running.empty()) {
     throwIfInterrupted();
@@ -140,7 +93,7 @@ std::vector<SceneOutcome> runSuite(const RegressSuite& suite, const RegressPlan&
       outcome.code = *code;
       if (run.drawing && *code == 0) {
         run.drawing = false;
-        run.child = Child(compareWords(scene, files, plan.update), files.out, files.err);
+        run.child = OwnProcess(compareWords(scene, files, plan.update), files.out, files.err);
         continue;
       }
       std::error_code ignored;

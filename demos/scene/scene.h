@@ -142,8 +142,8 @@ struct Scene {
   std::string name;  ///< The file's name without its ending.
   std::filesystem::path file;
   std::string description;
-  std::string group;     ///< Of the gallery's groups, or empty.
-  std::string look_for;  ///< What to look for, in a sentence, or empty.
+  std::string look_for;  ///< What is worth a look, and the closed form where there is one; may be empty.
+  std::string group;     ///< Under which a gallery lists it; may be empty.
   CaptionText caption;   ///< Drawn over the frames, unless empty.
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   double rate_hz = 240.0;  ///< Steps a second.

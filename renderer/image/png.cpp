@@ -494,6 +494,15 @@ void appendPngChunk(std::vector<std::uint8_t>& bytes, const PngChunk& chunk) {
     throw std::runtime_error(std::string("cannot encode PNG: ") + error.message.data());
 }
 
+std::vector<std::uint8_t> zlibStream(std::span<const std::uint8_t> bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<std::uint8_t> stream(size);
+  const int outcome = compress2(stream.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), 9);
+  if (outcome != Z_OK) throw std::bad_alloc();  // of what zlib can fail at here there is nothing else
+  stream.resize(size);
+  return stream;
+}
+
 std::vector<std::uint8_t> encodePng(const Raster& raster, const PngText& text, PngPacking packing,
                                     PngDeflate deflate) {
   REQUIRE(raster.width > 0 && raster.height > 0, raster.width, raster.height);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +72,9 @@ struct PngChunk {
 std::vector<PngChunk> pngChunks(const std::vector<std::uint8_t>& file);
 void appendPngSignature(std::vector<std::uint8_t>& bytes);
 void appendPngChunk(std::vector<std::uint8_t>& bytes, const PngChunk& chunk);
+
+/// A zlib stream (RFC 1950), packed for size: what a PNG file's rows are in, and what browsers unpack.
+std::vector<std::uint8_t> zlibStream(std::span<const std::uint8_t> bytes);
 
 struct DecodedPng {
   Image image;

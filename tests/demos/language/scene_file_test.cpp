@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(All, SceneFileRefuses, testing::ValuesIn(kRefusals),
 
 TEST(SceneFile, ReadsWhatIsWritten) {
   const Scene scene = parseScene(
-      R"({ "format": 1, "description": "d", "gravity": [0, 0, -1.62], "rate": 500, "seed": 9, "duration": 2.5,
+      R"({ "format": 1, "description": "d", "lookFor": "=l", "group": "=g", "gravity": [0, 0, -1.62], "rate": 500, "seed": 9, "duration": 2.5,
       // a comment
       "materials": { "wood": { "staticFriction": 0.6, "dynamicFriction": 0.5, "restitution": 0.3, "density": 600, "color": "#ff8000", "checker": true,
         "rollingResistance": 0.01, "spinningResistance": 0.002 } },
@@ -240,6 +240,8 @@ TEST(SceneFile, ReadsWhatIsWritten) {
       "cameras": { "far": { "eye": [9, 9, 9], "target": [0, 0, 1], "fovDegrees": 25 } } })",
       "scenes/moon.json");
   EXPECT_EQ(scene.name, "moon");
+  EXPECT_EQ(scene.look_for, "=l") << "a text, no arithmetic";
+  EXPECT_EQ(scene.group, "=g");
   EXPECT_EQ(scene.gravity, Vec3(0.0, 0.0, -1.62));
   EXPECT_EQ(scene.rate_hz, 500.0);
   EXPECT_EQ(scene.seed, 9u);

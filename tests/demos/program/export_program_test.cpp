@@ -88,6 +88,18 @@ TEST_F(Export, ARecordingGivesTheFilesOfTheSimulationByteForByte) {
               text(std::string("simulated/") + name + ".npy"));
 }
 
+TEST_F(Export, APageIsOneFileAndTheSameEachTime) {
+  const ProgramEnd end = runCarom({"export", scene.string(), path("die.html"), "-q"});
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_NE(end.out.find("30 frames at 60 fps, 2 bodies"), std::string::npos) << end.out;
+  ASSERT_EQ(runCarom({"export", scene.string(), path("again/die.html"), "-q"}).code, 0);
+  EXPECT_EQ(text("die.html"), text("again/die.html"));
+  EXPECT_LT(text("die.html").size(), 200000u);
+  const std::string run = recording();
+  ASSERT_EQ(runCarom({"export", run, path("run.html"), "-q"}).code, 0);
+  EXPECT_NE(text("run.html").find("<!doctype html>"), std::string::npos);
+}
+
 TEST_F(Export, ARecordingWhoseSceneMovedIsToldWhereItIs) {
   const std::string run = recording();
   fs::rename(scene, folder.path() / "moved.json");
@@ -109,8 +121,9 @@ TEST_F(Export, ADamagedRecordingIsBadInput) {
 TEST_F(Export, OptionsThatCannotBeCarriedOutAreUsageErrors) {
   const std::string run = recording();
   expectRefused({"export", scene.string()}, 2,
-                "nothing to write; accepted: a .glb file, --csv FILE or --npy");
-  expectRefused({"export", scene.string(), "a.gltf"}, 2, "a.gltf: accepted: a name that ends in .glb");
+                "nothing to write; accepted: a .glb or .html file, --csv FILE or --npy");
+  expectRefused({"export", scene.string(), "a.gltf"}, 2,
+                "a.gltf: accepted: a name that ends in .glb or .html");
   expectRefused({"export", run, "a.glb", "--fps", "30"}, 2, "--fps is for scenes");
   expectRefused({"export", run, "a.glb", "--seed", "3"}, 2, "--seed is for scenes");
   expectRefused({"export", run, "a.glb", "--duration", "3"}, 2, "--duration is for scenes");
@@ -119,10 +132,12 @@ TEST_F(Export, OptionsThatCannotBeCarriedOutAreUsageErrors) {
   expectRefused({"export", scene.string(), "a.glb", "--duration", "0.001"}, 2, "holds no frame to export");
   expectRefused({"export", "fifty-bodies", "a.glb", "--duration", "3600", "--fps", "1000"}, 2,
                 "do not fit into a .glb file");
+  expectRefused({"export", "fifty-bodies", "a.html", "--duration", "3600"}, 2, "do not fit into a page");
 }
 
 TEST_F(Export, WhatCannotBeWrittenIsNamed) {
   expectRefused({"export", scene.string(), path("die.json/a.glb"), "-q"}, 4, "cannot write");
+  expectRefused({"export", scene.string(), path("die.json/a.html"), "-q"}, 4, "cannot write");
   expectRefused({"export", scene.string(), "--npy", path("die.json/a"), "-q"}, 4, "cannot write");
 }
 
