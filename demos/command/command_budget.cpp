@@ -229,7 +229,7 @@ ExitCode budget(const BudgetOptions& options) {
   renderer::Settings settings{.width = options.width, .height = options.height};
   settings.backend = renderer::backendOf(options.gl);
   settings.preset = renderer::presetOf(options.preset);
-  renderer::FrameRenderer pictures(settings, made.world.solids());
+  renderer::FrameRenderer pictures(settings, made.drawnSolids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   // Work is the same on every machine; times are not.
   if (baseline)

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,17 @@ struct SceneWorld {
   std::vector<std::string> names;  ///< "crate", or "crate[7]" for the copies of a repeated body.
   std::vector<SurfaceLook> looks;
   std::vector<std::pair<std::string, MeshReport>> meshes =
-      {};  ///< What was made of mesh files, by the body's name.
+      {};                                     ///< What was made of mesh files, by the body's name.
+  std::vector<Solid> looking_otherwise = {};  ///< Solids as they are drawn, where some body has a "visual":
+                                              ///< the world's own, then the others.
+  std::vector<int> drawn_as = {};  ///< Of each body the solid that is drawn, then; else none.
+
+  std::span<const Solid> drawnSolids() const {
+    return looking_otherwise.empty() ? std::span<const Solid>(world.solids()) : looking_otherwise;
+  }
+  int drawnSolid(std::size_t body) const {
+    return drawn_as.empty() ? world.bodies()[body].solid : drawn_as[body];
+  }
 };
 
 /// A scene whose bodies overlap, or that touch and have no room to part.

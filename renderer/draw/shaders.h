@@ -3,7 +3,7 @@
 // light is linear until the sRGB framebuffer encodes it. Variants are chosen by lines between the head and
 // the rest: PRINT (white surroundings), SMALL_SHADOWS (2x2 texels), MIRROR (bodies as the ground mirrors
 // them), POLISHED (the ground shows what it mirrors), SUNLIT (faces that no other body can darken), CHECKER
-// (bodies whose level faces are checker boards).
+// (bodies whose level faces are checker boards), PICTURES (surfaces with pictures of their own).
 
 namespace carom::renderer {
 
@@ -129,6 +129,10 @@ layout(location = 7) in uint face;
 layout(location = 8) in uint faces;
 layout(location = 9) in uint sunlit_faces;
 layout(location = 10) in vec4 tint;
+#ifdef PICTURES
+layout(location = 15) in vec3 picture;
+out vec3 on_picture;
+#endif
 out vec3 p_E;
 out vec3 n_E;
 flat out vec3 bend;
@@ -153,6 +157,9 @@ void main() {
               dot(row2.xyz, bend_and_nearness.xyz));
   nearness = bend_and_nearness.w;
   albedo = vec4(color.rgb * tint.rgb, color.w);
+#ifdef PICTURES
+  on_picture = picture;
+#endif
 #ifdef MIRROR
   float height = p_E.z - ground.x;
   gl_Position = clip_from_E * vec4(p_E.xy + height * mirror.xy, ground.x - height, 1.0);
@@ -175,6 +182,10 @@ flat in float sunlight;
 in vec3 shadow;
 #endif
 flat in vec4 albedo;
+#ifdef PICTURES
+in vec3 on_picture;
+layout(binding = 3) uniform sampler2DArray pictures;
+#endif
 out vec4 pixel;
 void main() {
 #ifdef MIRROR
@@ -188,6 +199,10 @@ void main() {
 #endif
   vec3 n = normalize(n_E + clamp(nearness, 0.0, 1.0) * bend);
   vec3 base = albedo.rgb;
+#ifdef PICTURES
+  vec3 pictured = texture(pictures, vec3(on_picture.xy, max(on_picture.z, 0.0))).rgb;
+  if (on_picture.z > -0.5) base *= pictured;
+#endif
 #ifdef CHECKER
   if (albedo.w < 0.0 && n.z > 0.5)
     base = mix(kDarkSquare, kLightSquare, checker(p_E.xy * ground.y + ground.zw));

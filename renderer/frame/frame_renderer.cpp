@@ -183,6 +183,7 @@ std::string FrameRenderer::Impl::shaderVariant() const {
   if (settings.style == Style::kPrint) variant += "#define PRINT\n";
   if (!quality.soft_look_up) variant += "#define SMALL_SHADOWS\n";
   if (quality.mirror) variant += "#define POLISHED\n";
+  if (!geometry.pictures().empty()) variant += "#define PICTURES\n";
   return variant;
 }
 
@@ -375,6 +376,7 @@ void FrameRenderer::Impl::uploadBlock(const FrameBlock& block) const {
 }
 
 void FrameRenderer::Impl::bindTextures() const {
+  geometry.pictures().bind(gl);
   gl.ActiveTexture(GL_TEXTURE1);
   gl.BindTexture(GL_TEXTURE_2D, mirror_pass ? mirror_pass->texture() : 0);
   gl.ActiveTexture(GL_TEXTURE0);
