@@ -433,7 +433,13 @@ bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
     pair(mate_a, mate_b);
     return true;
   }
-  if (!outer) return false;
+  if (!outer) {
+    // The same with corners on the line: its caps are triangles without area.
+    double length_m = 0.0;
+    for (const int half : all[own]) length_m += (point(head(half)) - point(tail(half))).norm();
+    if (std::abs(areas[own]) > tolerance_m_ * length_m) return false;
+    return addCaps({all[own]}, section, by, piece);
+  }
   std::vector<std::vector<int>> chosen{all[*outer]};
   for (std::size_t i = 0; i < rings.size(); ++i)
     if (!(areas[i] > 0.0) && i != *outer && around(i) == outer) chosen.push_back(all[i]);
