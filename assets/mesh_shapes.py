@@ -175,6 +175,28 @@ def link(length=1.5, width=1.0, thickness=0.190211, sides=10, bend=10):
     return stadium_link((length - width) / 2, radius, thickness / 2, sides, bend)
 
 
+def grille(holes, pitch, height):
+    """A square plate with so many square holes along each side, bars as wide as the holes."""
+    n, points, faces = 2 * holes + 1, [], []
+    half = n * pitch / 2
+    at = lambda i, j, top: (i * (n + 1) + j) * 2 + top
+    for i in range(n + 1):
+        for j in range(n + 1):
+            points += [[i * pitch - half, j * pitch - half, z] for z in (-height / 2, height / 2)]
+    solid = lambda i, j: 0 <= i < n and 0 <= j < n and not (i % 2 and j % 2)
+    for i in range(n):
+        for j in range(n):
+            if not solid(i, j):
+                continue
+            corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+            faces += [[at(*c, 1) for c in corners], [at(*c, 0) for c in corners[::-1]]]
+            for k, (di, dj) in enumerate(((0, -1), (1, 0), (0, 1), (-1, 0))):
+                if not solid(i + di, j + dj):
+                    a, b = corners[k], corners[(k + 1) % 4]
+                    faces.append([at(*a, 0), at(*b, 0), at(*b, 1), at(*a, 1)])
+    return points, faces
+
+
 def gear(teeth, module, height, bore=0.0, backlash=0.02):
     """A spur gear of involutes, with a round bore where it is asked for."""
     outline = involute_gear(teeth, module, backlash)
