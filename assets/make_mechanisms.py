@@ -12,6 +12,7 @@ import math
 
 from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, STEEL, YELLOW, FLOOR
 from make_scenes import body, floor, main_camera, turn, write
+from mesh_shapes import bolt, circle, extruded, involute_gear, nut, plate, revolved, stadium_link, torus
 
 MESHES = FOLDER.parent / "meshes"
 
@@ -22,39 +23,6 @@ def write_mesh(name, points, faces):
     lines += ["v " + " ".join(repr(x + 0.0) for x in p) for p in points]
     lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]
     (MESHES / name).write_text("\n".join(lines) + "\n")
-
-
-def revolved(profile, sides):
-    """A closed profile of (radius, z), counter-clockwise in that plane, turned about z. Radii are above 0."""
-    points, faces = [], []
-    m = len(profile)
-    for k in range(sides):
-        angle = 2 * math.pi * k / sides
-        points += [[r * math.cos(angle), r * math.sin(angle), z] for r, z in profile]
-    for k in range(sides):
-        there = (k + 1) % sides
-        for i in range(m):
-            j = (i + 1) % m
-            faces.append([k * m + i, there * m + i, there * m + j, k * m + j])
-    return points, faces
-
-
-def extruded(outline, height):
-    """A closed outline in x and y, counter-clockwise, between -height / 2 and height / 2."""
-    n = len(outline)
-    points = [[x, y, z] for z in (-height / 2, height / 2) for x, y in outline]
-    faces = [list(range(n - 1, -1, -1)), list(range(n, 2 * n))]
-    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    return points, faces
-
-
-def circle(n, radius, centre=(0.0, 0.0), phase=0.0):
-    return [(centre[0] + radius * math.cos(2 * math.pi * (k + phase) / n),
-             centre[1] + radius * math.sin(2 * math.pi * (k + phase) / n)) for k in range(n)]
-
-
-def torus(ring_radius, tube_radius, sides, tube_sides):
-    return revolved(circle(tube_sides, tube_radius, (ring_radius, 0.0), 0.5), sides)
 
 
 def mesh(name, **rest):
@@ -88,30 +56,6 @@ def turntable():
           caption="μg/ω² = {=0.25*9.81/2^2:3} m holds   from the axis: {=sqrt([at 0.97 of the "
                   "radius.x]^2+[at 0.97 of the radius.y]^2):3} and {=sqrt([at 1.03 of the radius.x]^2+[at "
                   "1.03 of the radius.y]^2):3} m")
-
-
-def involute_gear(teeth, module, backlash=0.02, addendum=0.8, dedendum=1.0, flank=4):
-    """The outline of a spur gear, a tooth at angle 0; pressure angle 20 degrees."""
-    pitch = module * teeth / 2
-    base = pitch * math.cos(math.radians(20))
-    root, tip = pitch - dedendum * module, pitch + addendum * module
-
-    def involute(radius):
-        alpha = math.acos(min(1.0, base / radius))
-        return math.tan(alpha) - alpha
-
-    def half_angle(radius):  # of a tooth
-        return (1 - backlash) * math.pi / (2 * teeth) + involute(pitch) - involute(max(radius, base))
-
-    low = max(base, root)
-    radii = [low + (tip - low) * i / flank for i in range(flank + 1)]
-    outline = []
-    for k in range(teeth):
-        middle = 2 * math.pi * k / teeth
-        right = [(r, middle - half_angle(r)) for r in ([root] if root < low else []) + radii]
-        left = [(r, middle + half_angle(r)) for r in reversed(([root] if root < low else []) + radii)]
-        outline += [(r * math.cos(a), r * math.sin(a)) for r, a in right + left]
-    return outline
 
 
 def gears():
@@ -217,29 +161,6 @@ def linked_rings():
           caption="what is linked stays linked   swing {body:lower ring.vx:2} m/s")
 
 
-def stadium_link(half_length, radius, tube, tube_sides=6, bend=5):
-    """A chain's link: two half circles about y, joined by straight pieces along x."""
-    centres = []
-    for sign in (1, -1):
-        for i in range(bend + 1):
-            angle = -math.pi / 2 + math.pi * i / bend
-            direction = (sign * math.cos(angle), sign * math.sin(angle))
-            centres.append(((sign * half_length + radius * direction[0], radius * direction[1]), direction))
-    points, faces = [], []
-    m, n = tube_sides, len(centres)
-    for (x, y), (dx, dy) in centres:
-        for i in range(m):
-            angle = 2 * math.pi * (i + 0.5) / m
-            out, up = tube * math.cos(angle), tube * math.sin(angle)
-            points.append([x + out * dx, y + out * dy, up])
-    for k in range(n):
-        there = (k + 1) % n
-        for i in range(m):
-            j = (i + 1) % m
-            faces.append([k * m + i, there * m + i, there * m + j, k * m + j])
-    return points, faces
-
-
 def chain():
     half, radius, tube = 0.07, 0.08, 0.03
     write_mesh("link.obj", *stadium_link(half, radius, tube))
@@ -264,9 +185,71 @@ def chain():
           lookFor="No link leaves another, however hard the blow.")
 
 
+def nut_on_a_bolt():
+    pitch, root, crest, play, bare = 0.5, 0.4, 0.5, 0.02, 0.2
+    write_mesh("bolt.obj", *bolt(root, crest, pitch, 4, 24, bare, (1.0, 0.35)))
+    write_mesh("nut.obj", *nut(crest + play, root + play, pitch, 1.5, 24, 0.95))
+    base = 0.35
+    start = base + bare + 0.6 * pitch + 3 * pitch  # its tooth in the middle of the bolt's groove
+    bodies = [floor(),
+              body("bolt", mesh("bolt.obj"), [0, 0, base], static=True, material="oiled", color=STEEL),
+              body("nut", mesh("nut.obj"), [0, 0, start], material="oiled", color=ORANGE)]
+    write("nut-on-a-bolt",
+          "A nut turns down a bolt by its weight, held by nothing but the threads: 0.5 m a turn, without friction. It "
+          "turns by its fall over p, the pitch over 2 pi, within the play of the threads, and gains speed by less than "
+          "g / (1 + (k / p)^2), where k is its radius of gyration: the threads are of flat facets, and bumping over their "
+          "edges takes some of it. Then it lies down on the head.",
+          "a nut turns down a bolt by its weight, held by the threads alone",
+          {"floor": FLOOR, "oiled": {"staticFriction": 0, "density": 7800}},
+          bodies, main_camera([3.2, -5.4, 3.9], [0, 0, 1.5], 38), 7, FOLDER)
+
+
+def key_in_a_lock():
+    """A bolt with a notch over the key's axle; a plate with a keyhole before it."""
+    reach, thick, low, notch = 0.3, 0.05, 0.22, (-0.25, -0.02)
+    throw = math.sqrt(reach**2 + thick**2 / 4 - low**2) - notch[1]
+    bar = [(-0.7, low), (notch[0], low), (notch[0], 0.37), (notch[1], 0.37), (notch[1], low), (0.7, low), (0.7, 0.5), (-0.7, 0.5)]
+    write_mesh("lock-bolt.obj", *plate(bar, 0.16))
+    hole = [(x, z) for x, z in circle(24, 0.075, (0, 0), 0.5) if z > -0.06 or abs(x) > 0.045]
+    at = min(range(len(hole)), key=lambda i: math.dist(hole[i], (-0.05, -0.06)))
+    hole = hole[:at + 1] + [(-0.045, -0.33), (0.045, -0.33)] + hole[at + 1:]
+    frame = [(-0.75, -0.5), (0.75, -0.5), (0.75, 0.62), (-0.75, 0.62)]
+    write_mesh("lock-plate.obj", *plate(frame, 0.06, [hole]))
+    upright = turn([1, 0, 0], 90)
+    axle = 0.55
+    shaft = {"cylinder": {"radius": 0.05, "length": 1.1}}
+    key = {"compound": [
+        {"shape": shaft, "position": [0, 0.47, 0], "rotation": turn([1, 0, 0], 90)},
+        {"shape": {"box": [thick, 0.14, reach - 0.02]}, "position": [0, 0, -(reach + 0.02) / 2]},
+        {"shape": mesh("ring.obj", scale=0.5), "position": [0, 1.22, 0], "rotation": turn([0, 1, 0], 90)}]}
+    quarter = [turn([0, 1, 0], 90 * k) for k in range(5)]
+    path = [{"time": 0, "position": [0, 1.0, axle], "rotation": quarter[0]},
+            {"time": 1.5, "position": [0, 0, axle], "rotation": quarter[0]}]
+    path += [{"time": 1.5 + 1.25 * k, "position": [0, 0, axle], "rotation": quarter[k]} for k in range(1, 5)]
+    path.append({"time": 8, "position": [0, 1.0, axle], "rotation": quarter[0]})
+    bodies = [floor(),
+              body("plate", mesh("lock-plate.obj"), [0, 0.3, axle], rotation=upright, static=True, material="brass", color=STEEL),
+              "The key goes in, turns once, and comes out.",
+              {"name": "key", "shape": key, "kinematic": {"interpolation": "linear", "keyframes": path}, "material": "brass",
+               "color": YELLOW},
+              body("bolt", mesh("lock-bolt.obj"), [0, 0, axle + 0.0012], rotation=upright, material="brass", color=ORANGE)]
+    for name, x in (("left", -0.55), ("right", 0.55)):
+        bodies.append(body(f"{name} rail", {"box": [0.22, 0.3, 0.1]}, [x, 0, axle + low - 0.05], static=True, material="brass",
+                           color=SLATE))
+    bodies.append(body("stop", {"box": [0.1, 0.3, 0.3]}, [0.7 + throw + 0.004 + 0.05, 0, axle + 0.36], static=True, material="brass",
+                       color=SLATE))
+    write("key-in-a-lock",
+          "A key goes through the hole of a plate, turns once and comes out again. Its bit comes into the notch of a bolt "
+          f"and throws it by sqrt(R^2 + b^2 / 4 - h^2) - x = {throw:.4f} m, where R is the reach and b the thickness of the "
+          "bit, h the height of the bolt over the axle and x where the notch's wall was; a stop keeps it within 4 mm of that.",
+          "a key turns in a lock and throws its bolt",
+          {"floor": FLOOR, "brass": {"staticFriction": 0.3, "density": 8500}},
+          bodies, main_camera([-1.3, -2.1, 1.75], [0.08, 0.15, 0.55], 36), 8, FOLDER)
+
+
 def main():
     MESHES.mkdir(exist_ok=True)
-    for scene in (turntable, gears, ball_in_a_bowl, marble_in_a_funnel, linked_rings, chain):
+    for scene in (turntable, gears, ball_in_a_bowl, marble_in_a_funnel, linked_rings, chain, nut_on_a_bolt, key_in_a_lock):
         scene()
 
 

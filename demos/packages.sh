@@ -5,7 +5,7 @@
 
 # "a,b|c": a and b, or where the distribution has not both of them, c.
 carom_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgl-dev libegl-dev libassimp-dev libpng-dev libqhull-dev
-  libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev python3
+  libjpeg-dev libcairo2-dev fonts-dejavu-core libcli11-dev nlohmann-json3-dev libtinygltf-dev libgtest-dev python3
   "libosmesa6|libegl1,libegl-mesa0,libgl1-mesa-dri")  # Mesa has had no OSMesa since 25.1
 # ISA-L packs frames five times as fast as zlib; it is for these processors, and the build does without.
 case "$(uname -m)" in x86_64 | aarch64) carom_packages+=(libisal-dev) ;; esac

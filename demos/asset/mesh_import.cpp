@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <new>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 
 #include "demos/asset/asset_path.h"
 #include "demos/asset/mesh_header.h"
+#include "demos/asset/picture_file.h"
 #include "demos/format/written_precision.h"
 #include "demos/system/bounded_process.h"
 #include "engine/foundation/contract.h"
@@ -44,8 +46,9 @@ ProcessBounds boundsFor(std::uintmax_t size) {
 using Point = std::array<float, 3>;  // as assimp has it
 using Corners = std::array<std::uint32_t, 3>;
 struct Part {
-  std::vector<Point> vertices, normals, colors;
+  std::vector<Point> vertices, normals, colors, uv;  // Of the last the third number is 0.
   std::vector<Corners> triangles;
+  std::int32_t picture = -1;
 };
 using Parts = std::vector<Part>;
 
@@ -121,9 +124,94 @@ std::vector<Corners> trianglesOf(const aiMesh& mesh, bool mirrored) {
   return triangles;
 }
 
-Part placedPart(const aiMesh& mesh, const aiScene& scene, const aiMatrix4x4& X_FM) {
-  return {placedVertices(mesh, X_FM), placedNormals(mesh, X_FM), colorsOf(mesh, scene),
-          trianglesOf(mesh, aiMatrix3x3(X_FM).Determinant() < 0.0f)};
+/// The pictures that materials name, each read once.
+class PictureBook {
+ public:
+  PictureBook(const aiScene& scene, fs::path folder) : scene_(scene), folder_(std::move(folder)) {}
+
+  /// The index of the picture of the mesh's base colour, and the set of the mesh's places on it.
+  struct Choice {
+    std::int32_t picture = -1;
+    unsigned set = 0;
+  };
+  Choice of(const aiMesh& mesh) {
+    Choice choice;
+    if (mesh.mMaterialIndex >= scene_.mNumMaterials) return choice;
+    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+    aiString name;
+    if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &name, nullptr, &choice.set) != aiReturn_SUCCESS &&
+        material.GetTexture(aiTextureType_DIFFUSE, 0, &name, nullptr, &choice.set) != aiReturn_SUCCESS)
+      return choice;
+    if (choice.set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh.HasTextureCoords(choice.set)) return choice;
+    choice.picture = indexOf(name.C_Str());
+    return choice;
+  }
+  std::vector<SurfacePicture> pictures;
+  std::vector<std::string> notes;
+
+ private:
+  std::int32_t indexOf(const std::string& name) {
+    const auto [known, is_new] = indices_.insert({name, -1});
+    if (!is_new) return known->second;
+    try {
+      SurfacePicture picture = read(name);
+      bytes_ += picture.rgb.size();
+      if (bytes_ > kMostPictureBytes) throw InputError(name + ": beyond 96 MB of pictures in one file");
+      pictures.push_back(std::move(picture));
+      known->second = static_cast<std::int32_t>(pictures.size() - 1);
+    } catch (const std::exception& error) {
+      notes.push_back("picture left out: " + std::string(error.what()));
+    }
+    return known->second;
+  }
+  SurfacePicture read(std::string name) const {
+    if (const aiTexture* inside = scene_.GetEmbeddedTexture(name.c_str())) {
+      if (inside->mHeight > 0) return unpacked(*inside);
+      const auto* bytes = reinterpret_cast<const std::uint8_t*>(inside->pcData);
+      return decodePicture({bytes, inside->mWidth},
+                           name.starts_with('*') ? "picture " + name.substr(1) : name);
+    }
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return readPicture(folder_ / name);
+  }
+  static SurfacePicture unpacked(const aiTexture& texture) {
+    SurfacePicture picture{static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight), {}};
+    const std::size_t pixels = std::size_t{texture.mWidth} * texture.mHeight;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const aiTexel& texel = texture.pcData[i];
+      picture.rgb.insert(picture.rgb.end(), {texel.r, texel.g, texel.b});
+    }
+    return picture;
+  }
+
+  static constexpr std::size_t kMostPictureBytes = std::size_t{96} << 20;
+  const aiScene& scene_;
+  fs::path folder_;
+  std::map<std::string, std::int32_t> indices_;
+  std::size_t bytes_ = 0;
+};
+
+/// From the upper left corner of the picture; assimp's begin at the lower left.
+std::vector<Point> placesOnPicture(const aiMesh& mesh, unsigned set) {
+  std::vector<Point> places;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D& uv = mesh.mTextureCoords[set][i];
+    const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+    places.push_back(finite ? Point{uv.x, 1.0f - uv.y, 0.0f} : Point{});
+  }
+  return places;
+}
+
+Part placedPart(const aiMesh& mesh, const aiScene& scene, const aiMatrix4x4& X_FM, PictureBook& book) {
+  Part part{placedVertices(mesh, X_FM),
+            placedNormals(mesh, X_FM),
+            colorsOf(mesh, scene),
+            {},
+            trianglesOf(mesh, aiMatrix3x3(X_FM).Determinant() < 0.0f)};
+  const PictureBook::Choice choice = book.of(mesh);
+  part.picture = choice.picture;
+  if (part.picture >= 0) part.uv = placesOnPicture(mesh, choice.set);
+  return part;
 }
 
 /// Points and lines enclose nothing; only meshes with faces count.
@@ -132,7 +220,7 @@ bool hasFaces(const aiMesh& mesh) {
 }
 
 /// Walks the node tree from the root with a list in place of recursion: files may be deep.
-Parts collectParts(const aiScene& scene) {
+Parts collectParts(const aiScene& scene, PictureBook& book) {
   struct Visit {
     const aiNode* node;
     aiMatrix4x4 X_FN;  // node frame in the file's frame
@@ -145,7 +233,7 @@ Parts collectParts(const aiScene& scene) {
     visits.pop_back();
     for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
       const aiMesh& mesh = *scene.mMeshes[visit.node->mMeshes[i]];
-      if (hasFaces(mesh)) parts.push_back(placedPart(mesh, scene, visit.X_FN));
+      if (hasFaces(mesh)) parts.push_back(placedPart(mesh, scene, visit.X_FN, book));
     }
     if (parts.size() > kMostParts)
       throw Unsuitable("more than " + std::to_string(kMostParts) + " meshes; accepted: at most that many");
@@ -158,7 +246,8 @@ Parts collectParts(const aiScene& scene) {
 }
 
 // The answer of the process that reads: a letter, then an error's text, or the number of parts and of each
-// its four lists, with the number of their items before them.
+// its five lists and its picture's number, the pictures, and the notes; a list begins with the number of its
+// items.
 constexpr std::uint8_t kError = 'e', kParts = 'p', kRefused = 'r';  // of the last: the system's number
 
 using Bytes = std::vector<std::uint8_t>;
@@ -169,7 +258,7 @@ Bytes errorBytes(const std::string& text) {
   return bytes;
 }
 
-Bytes partsBytes(const Parts& parts) {
+Bytes partsBytes(const Parts& parts, const PictureBook& book) {
   Bytes bytes(1, kParts);
   const auto put = [&bytes](const void* from, std::size_t count) {
     const std::size_t before = bytes.size();
@@ -187,8 +276,19 @@ Bytes partsBytes(const Parts& parts) {
     putList(part.vertices);
     putList(part.normals);
     putList(part.colors);
+    putList(part.uv);
     putList(part.triangles);
+    put(&part.picture, sizeof part.picture);
   }
+  const std::size_t pictures = book.pictures.size(), notes = book.notes.size();
+  put(&pictures, sizeof pictures);
+  for (const SurfacePicture& picture : book.pictures) {
+    put(&picture.width, sizeof picture.width);
+    put(&picture.height, sizeof picture.height);
+    putList(picture.rgb);
+  }
+  put(&notes, sizeof notes);
+  for (const std::string& note : book.notes) putList(note);
   return bytes;
 }
 
@@ -203,7 +303,9 @@ Bytes readFile(const fs::path& path) {
     if (scene == nullptr) tryInputFile(path);  // assimp does not say whether the system refused the file
     if (scene == nullptr || scene->mRootNode == nullptr)
       return errorBytes("cannot be read as a mesh: " + reason);
-    return partsBytes(collectParts(*scene));
+    PictureBook book(*scene, path.parent_path());
+    const Parts parts = collectParts(*scene, book);
+    return partsBytes(parts, book);
   } catch (const Unsuitable& error) {
     return errorBytes(error.what());
   } catch (const std::system_error& error) {
@@ -222,10 +324,14 @@ class AnswerReader {
     if (!parts || *parts > kMostParts + 1) return std::nullopt;
     for (std::size_t i = 0; i < *parts; ++i) {
       MeshPart part;
-      if (!points(part.vertices) || !points(part.normals) || !points(part.colors)) return std::nullopt;
+      std::vector<Vec3> places;
+      if (!points(part.vertices) || !points(part.normals) || !points(part.colors) || !points(places))
+        return std::nullopt;
       const std::size_t vertices = part.vertices.size();
       if (!part.normals.empty() && part.normals.size() != vertices) return std::nullopt;
       if (!part.colors.empty() && part.colors.size() != vertices) return std::nullopt;
+      if (!places.empty() && places.size() != vertices) return std::nullopt;
+      for (const Vec3& place : places) part.uv.push_back(place.head<2>());
       const std::optional<std::size_t> triangles = count();
       if (!triangles || *triangles > rest_.size() / sizeof(Corners)) return std::nullopt;
       for (std::size_t k = 0; k < *triangles; ++k) {
@@ -234,9 +340,13 @@ class AnswerReader {
         if (std::max({c[0], c[1], c[2]}) >= vertices) return std::nullopt;
         part.triangles.push_back({static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2])});
       }
+      std::int32_t picture = -1;
+      if (rest_.size() < sizeof picture) return std::nullopt;
+      take(&picture, sizeof picture);
+      if (picture >= 0 && !part.uv.empty()) part.picture_of.assign(part.triangles.size(), picture);
       mesh.parts.push_back(std::move(part));
     }
-    if (!rest_.empty()) return std::nullopt;
+    if (!pictures(mesh) || !notes(mesh) || !rest_.empty()) return std::nullopt;
     return mesh;
   }
 
@@ -249,6 +359,39 @@ class AnswerReader {
       take(&p, sizeof p);
       into.emplace_back(p[0], p[1], p[2]);
       if (!into.back().allFinite()) return false;
+    }
+    return true;
+  }
+  bool pictures(ImportedMesh& mesh) {
+    const std::optional<std::size_t> number = count();
+    if (!number || *number > rest_.size()) return false;
+    for (std::size_t k = 0; k < *number; ++k) {
+      SurfacePicture picture;
+      if (rest_.size() < 2 * sizeof(int)) return false;
+      take(&picture.width, sizeof picture.width);
+      take(&picture.height, sizeof picture.height);
+      const std::optional<std::size_t> bytes = count();
+      if (!bytes || *bytes > rest_.size() || picture.width < 1 || picture.height < 1 ||
+          *bytes != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+        return false;
+      picture.rgb.resize(*bytes);
+      take(picture.rgb.data(), *bytes);
+      mesh.pictures.push_back(std::move(picture));
+    }
+    for (const MeshPart& part : mesh.parts)
+      for (const int picture : part.picture_of)
+        if (picture >= static_cast<int>(mesh.pictures.size())) return false;
+    return true;
+  }
+  bool notes(ImportedMesh& mesh) {
+    const std::optional<std::size_t> number = count();
+    if (!number || *number > rest_.size()) return false;
+    for (std::size_t k = 0; k < *number; ++k) {
+      const std::optional<std::size_t> length = count();
+      if (!length || *length > rest_.size()) return false;
+      std::string note(*length, ' ');
+      take(note.data(), *length);
+      mesh.notes.push_back(std::move(note));
     }
     return true;
   }

@@ -57,6 +57,12 @@ void addHulls(const ImportedMesh& mesh, MeshSolid& made) {
   if (made.parts.empty()) throw InputError(reason);
 }
 
+/// Of a file with pictures every part has places on them, if on none.
+void fillPictures(MeshPart& part) {
+  if (part.uv.empty()) part.uv.assign(part.vertices.size(), Vec2::Zero());
+  if (part.picture_of.empty()) part.picture_of.assign(part.triangles.size(), -1);
+}
+
 /// Closed meshes each for itself; those that are open may be closed together, as a file's materials part
 /// them.
 std::vector<MeshPart> surfacesOf(const ImportedMesh& mesh) {
@@ -66,9 +72,11 @@ std::vector<MeshPart> surfacesOf(const ImportedMesh& mesh) {
                                     [](const MeshPart& part) { return part.normals.empty(); });
   const bool colors = std::any_of(mesh.parts.begin(), mesh.parts.end(),
                                   [](const MeshPart& part) { return !part.colors.empty(); });
+  const bool pictures = !mesh.pictures.empty();
   for (MeshPart part : mesh.parts) {
     if (!normals) part.normals.clear();
     if (colors && part.colors.empty()) part.colors.assign(part.vertices.size(), Vec3::Ones());
+    if (pictures) fillPictures(part);
     if (isClosed({part.vertices, part.triangles})) {
       surfaces.push_back(std::move(part));
       continue;
@@ -77,6 +85,8 @@ std::vector<MeshPart> surfacesOf(const ImportedMesh& mesh) {
     rest.vertices.insert(rest.vertices.end(), part.vertices.begin(), part.vertices.end());
     rest.normals.insert(rest.normals.end(), part.normals.begin(), part.normals.end());
     rest.colors.insert(rest.colors.end(), part.colors.begin(), part.colors.end());
+    rest.uv.insert(rest.uv.end(), part.uv.begin(), part.uv.end());
+    rest.picture_of.insert(rest.picture_of.end(), part.picture_of.begin(), part.picture_of.end());
     for (const Triangle& t : part.triangles)
       rest.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
@@ -104,8 +114,10 @@ void addLooks(const MeshPart& part, const ClosedSurface& closed, BoundingSurface
         surface.normals.push_back(n.dot(flat) < 0.0 ? Vec3(-n) : n);
       }
       if (!part.colors.empty()) color += part.colors[at(v)] / 3.0;
+      if (!part.uv.empty()) surface.uv.push_back(part.uv[at(v)]);
     }
     if (!part.colors.empty()) surface.colors.push_back(color);
+    if (!part.picture_of.empty()) surface.picture_of.push_back(part.picture_of[at(closed.source[t])]);
   }
 }
 
@@ -166,8 +178,10 @@ void addSurfaces(const ImportedMesh& mesh, MeshSolid& made) {
         "; accepted: a closed surface that bounds a solid, or \"hull\": true (--hull) for its convex hull");
   }
   if (saysNothing(made.surface)) made.surface.normals.clear();
+  made.surface.pictures = mesh.pictures;
+  made.report.pictures = static_cast<int>(mesh.pictures.size());
   // Polyhedra of one colour are drawn as the engine's own.
-  const bool plain = made.surface.normals.empty() && made.surface.colors.empty();
+  const bool plain = made.surface.normals.empty() && made.surface.colors.empty() && made.surface.uv.empty();
   if (plain && made.parts.size() == surfaces.size())
     made.surface = {};
   else
@@ -182,13 +196,16 @@ std::string counted(int count, const char* one, const char* many) {
 
 std::string MeshReport::text() const {
   std::ostringstream line;
-  if (as_hull)
+  if (triangles > 0)
+    line << "drawn in its place: " << counted(triangles, "triangle", "triangles") << " of "
+         << counted(surfaces, "mesh", "meshes");
+  else if (as_hull)
     line << "the convex " << (surfaces == 1 ? "hull" : "hulls") << " of "
          << counted(surfaces, "mesh", "meshes");
   else
     line << counted(surfaces, "surface", "surfaces") << " in "
          << counted(pieces, "convex piece", "convex pieces");
-  line << " of " << volume_m3 << " m^3";
+  if (triangles == 0) line << " of " << volume_m3 << " m^3";
   if (!as_hull && hull_volume_m3 > volume_m3 * (1.0 + 1e-6))
     line << " (as hulls " << hull_volume_m3 / volume_m3 << " times that)";
   if (handles > 0) line << "  " << counted(handles, "hole", "holes");
@@ -196,7 +213,9 @@ std::string MeshReport::text() const {
   if (turned > 0) line << "  turned outwards: " << turned;
   if (slivers > 0) line << "  slivers left out: " << slivers << " of " << sliver_volume_m3 << " m^3";
   if (left_out > 0) line << "  left out as flat: " << left_out;
+  if (pictures > 0) line << "  " << counted(pictures, "picture", "pictures");
   line << "  " << (y_up ? "y" : "z") << " up  scale " << scale;
+  for (const std::string& note : notes) line << "  " << note;
   return line.str();
 }
 
@@ -209,16 +228,20 @@ Json MeshReport::json() const {
                        {"hullVolume", hull_volume_m3},
                        {"holes", handles},
                        {"cavities", cavities},
+                       {"pictures", pictures},
+                       {"drawn", triangles},
                        {"up", y_up ? "y" : "z"},
                        {"scale", scale}});
 }
 
-MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request) {
+namespace {
+
+/// The file upright and in its size; what was done is in the report.
+ImportedMesh placedMesh(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report) {
   ImportedMesh mesh = importMesh(path);
-  MeshSolid made;
-  MeshReport& report = made.report;
   report.file = path.filename().string();
   report.as_hull = request.as_hull;
+  report.notes = mesh.notes;
   report.y_up = request.y_up.value_or(mesh.y_up);
   report.scale = request.scale;
   if (report.y_up) turnUpright(mesh);
@@ -226,19 +249,51 @@ MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& reques
     for (Vec3& p : part.vertices) p *= request.scale;
   mesh.coordinate_error_m *= request.scale;
   mesh.written_error_m *= request.scale;
+  if (!request.fit_m) return mesh;
+  const double factor = fitInto(mesh, *request.fit_m);
+  mesh.coordinate_error_m *= factor;
+  mesh.written_error_m *= factor;
+  report.scale *= factor;
+  return mesh;
+}
+
+/// As it is drawn, of whatever triangles; both sides of those that bound nothing.
+void addLookOf(MeshPart part, BoundingSurface& look) {
+  const bool closed = isClosed({part.vertices, part.triangles});
+  const std::size_t count = part.triangles.size();
+  for (std::size_t t = 0; t < count && !closed; ++t) {
+    const Triangle& triangle = part.triangles[t];
+    part.triangles.push_back({triangle[0], triangle[2], triangle[1]});
+    if (!part.picture_of.empty()) part.picture_of.push_back(part.picture_of[t]);
+  }
+  ClosedSurface whole;
+  whole.mesh = {part.vertices, {}};
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+    const Triangle& triangle = part.triangles[t];
+    const Vec3& a = part.vertices[at(triangle[0])];
+    if (!((part.vertices[at(triangle[1])] - a).cross(part.vertices[at(triangle[2])] - a).norm() > 0.0))
+      continue;
+    whole.mesh.triangles.push_back(triangle);
+    whole.source.push_back(static_cast<int>(t));
+    whole.turned.push_back(0);
+  }
+  addLooks(part, whole, look);
+}
+
+}  // namespace
+
+MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request) {
+  MeshSolid made;
+  MeshReport& report = made.report;
   try {
-    if (request.fit_m) {
-      const double factor = fitInto(mesh, *request.fit_m);
-      mesh.coordinate_error_m *= factor;
-      mesh.written_error_m *= factor;
-      report.scale *= factor;
-    }
+    const ImportedMesh mesh = placedMesh(path, request, report);
     if (request.as_hull)
       addHulls(mesh, made);
     else
       addSurfaces(mesh, made);
   } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
+    const std::string text = error.what();
+    throw InputError(text.starts_with(path.string()) ? text : path.string() + ": " + text);
   }
   report.pieces = static_cast<int>(made.parts.size());
   if (request.as_hull) {
@@ -246,6 +301,34 @@ MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& reques
     report.hull_volume_m3 = report.volume_m3;
   }
   return made;
+}
+
+BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report) {
+  ImportedMesh mesh;
+  try {
+    mesh = placedMesh(path, request, report);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    throw InputError(text.starts_with(path.string()) ? text : path.string() + ": " + text);
+  }
+  BoundingSurface look;
+  const bool normals = std::none_of(mesh.parts.begin(), mesh.parts.end(),
+                                    [](const MeshPart& part) { return part.normals.empty(); });
+  const bool colors = std::any_of(mesh.parts.begin(), mesh.parts.end(),
+                                  [](const MeshPart& part) { return !part.colors.empty(); });
+  for (MeshPart& part : mesh.parts) {
+    if (!normals) part.normals.clear();
+    if (colors && part.colors.empty()) part.colors.assign(part.vertices.size(), Vec3::Ones());
+    if (!mesh.pictures.empty()) fillPictures(part);
+    addLookOf(std::move(part), look);
+  }
+  if (look.mesh.triangles.empty()) throw InputError(path.string() + ": holds no triangle with an area");
+  if (saysNothing(look)) look.normals.clear();
+  look.pictures = mesh.pictures;
+  report.surfaces = static_cast<int>(mesh.parts.size());
+  report.pictures = static_cast<int>(mesh.pictures.size());
+  report.triangles = static_cast<int>(look.mesh.triangles.size());
+  return look;
 }
 
 }  // namespace carom::demos

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "demos/format/json.h"
 #include "engine/solid/solid.h"
@@ -32,8 +33,11 @@ struct MeshReport {
   int slivers = 0;  ///< Pieces too thin to be kept.
   double sliver_volume_m3 = 0.0;
   double volume_m3 = 0.0;
-  double hull_volume_m3 = 0.0;  ///< Of the hulls of the surfaces.
-  double tolerance_m = 0.0;     ///< What counted as flat.
+  double hull_volume_m3 = 0.0;     ///< Of the hulls of the surfaces.
+  double tolerance_m = 0.0;        ///< What counted as flat.
+  int pictures = 0;                ///< That it is covered with.
+  int triangles = 0;               ///< Of a mesh that is only drawn; 0 of one that is a body.
+  std::vector<std::string> notes;  ///< Of its looks, what is left out.
   bool y_up = false;
   double scale = 1.0;
 
@@ -51,5 +55,8 @@ struct MeshSolid {
 /// Throws InputError, with the path, for a file that cannot be read, and unless hulls are asked for for a
 /// surface that is open, not manifold, goes through itself, or needs more pieces than a body may have.
 MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request = {});
+
+/// The file as it is drawn in place of a body, whether or not it bounds one. Throws InputError.
+BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report);
 
 }  // namespace carom::demos

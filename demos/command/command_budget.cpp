@@ -230,7 +230,7 @@ ExitCode budget(const BudgetOptions& options) {
   settings.backend = renderer::backendOf(options.gl);
   settings.preset = renderer::presetOf(options.preset);
   settings.light = chosenLight(scene.light, options.light, {}).light;
-  renderer::FrameRenderer pictures(settings, made.world.solids());
+  renderer::FrameRenderer pictures(settings, made.drawnSolids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   // Work is the same on every machine; times are not.
   if (baseline)

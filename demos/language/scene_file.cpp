@@ -7,13 +7,13 @@
 #include "demos/asset/asset_path.h"
 #include "demos/format/json.h"
 #include "demos/format/nearest_name.h"
-#include "demos/language/common_shapes.h"
 #include "demos/language/scene_cameras.h"
 #include "demos/language/scene_expansion.h"
 #include "demos/language/scene_mistakes.h"
 #include "demos/language/scene_motion.h"
 #include "demos/language/scene_pattern.h"
 #include "demos/language/scene_remedies.h"
+#include "demos/language/scene_shape.h"
 #include "demos/language/scene_values.h"
 #include "engine/foundation/contract.h"
 
@@ -75,94 +75,6 @@ NamedMaterial chooseMaterial(const Json& json, const Materials& materials) {
   json.fail("unknown material \"" + name + "\"" + acceptedNames(name, names));
 }
 
-// Shapes: one of box, sphere, capsule, hull, mesh, compound.
-
-/// A "hull", of points or a file; a "mesh" is a file as it is, or with "hull": true its hull.
-HullShape readHull(const Json& json, const std::filesystem::path& scene_file, bool is_mesh) {
-  HullShape hull;
-  if (is_mesh) {
-    json.onlyKeys({"file", "scale", "fit", "up", "hull", "replaceable"});
-    json.at("file");
-    const Json* as_hull = json.find("hull");
-    hull.as_hull = as_hull != nullptr && as_hull->asBoolean();
-  } else {
-    json.onlyKeys({"file", "points", "scale", "fit", "up", "replaceable"});
-  }
-  const Json* file = json.find("file");
-  const Json* points = json.find("points");
-  if ((file == nullptr) == (points == nullptr)) json.fail("accepted: either \"file\" or \"points\"");
-  if (file != nullptr) {
-    const std::optional<std::filesystem::path> found = findBeside(scene_file, file->asString());
-    if (!found) file->fail("no file " + file->shown() + " beside the scene or in the assets folder");
-    hull.file = *found;
-  }
-  if (points != nullptr)
-    for (const Json& point : points->items()) hull.points.push_back(readVec3(point, kCoordinate));
-  if (const Json* scale = json.find("scale")) hull.scale = readNumber(*scale, {1e-9, 1e9});
-  if (const Json* fit = json.find("fit")) {
-    if (json.find("scale") != nullptr) fit->fail("given together with \"scale\"; accepted: one of them");
-    hull.fit_m = readNumber(*fit, kLength);
-  }
-  if (const Json* up = json.find("up")) {
-    if (file == nullptr) up->fail("only a \"file\" has an axis that is up");
-    if (up->asString() != "y" && up->asString() != "z") up->fail(up->shown() + "; accepted: \"y\", \"z\"");
-    hull.y_up = up->asString() == "y";
-  }
-  if (const Json* replaceable = json.find("replaceable")) {
-    hull.replaceable = replaceable->asBoolean();
-    if (hull.replaceable && file == nullptr) replaceable->fail("only a hull with a \"file\" can be replaced");
-  }
-  return hull;
-}
-
-Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound = false);
-
-CompoundShape readCompound(const Json& json, const std::filesystem::path& file) {
-  CompoundShape compound;
-  if (json.items().size() > kMostParts)
-    json.fail(std::to_string(json.items().size()) + " parts; accepted: at most " +
-              std::to_string(kMostParts));
-  for (const Json& item : json.items()) {
-    item.onlyKeys({"shape", "position", "rotation"});
-    compound.parts.push_back({readShape(item.at("shape"), file, true), readPose(item)});
-  }
-  if (compound.parts.empty()) json.fail("a compound needs at least one part");
-  return compound;
-}
-
-Shape readShape(const Json& json, const std::filesystem::path& file, bool inside_compound) {
-  json.onlyKeys({"box", "sphere", "capsule", "cylinder", "cone", "prism", "wedge", "roundedBox", "hull",
-                 "mesh", "compound"});
-  if (json.members().size() != 1)
-    json.fail(
-        "accepted: exactly one of box, sphere, capsule, cylinder, cone, prism, wedge, roundedBox, hull, "
-        "mesh, "
-        "compound");
-  const auto& [kind, value] = json.members().front();
-  Shape shape;
-  if (isCommonShape(kind)) shape = readCommonShape(kind, value);
-  shape.place = placeOf(value, file);
-  if (isCommonShape(kind)) return shape;
-  if (kind == "box") {
-    shape.form = BoxShape{readVec3(value, kLength)};
-  } else if (kind == "sphere") {
-    value.onlyKeys({"radius"});
-    shape.form = SphereShape{readNumber(value.at("radius"), kLength)};
-  } else if (kind == "capsule") {
-    value.onlyKeys({"radius", "length"});
-    shape.form =
-        CapsuleShape{readNumber(value.at("radius"), kLength), readNumber(value.at("length"), kLength)};
-  } else if (kind == "hull") {
-    shape.form = readHull(value, file, false);
-  } else if (kind == "mesh") {
-    shape.form = readHull(value, file, true);
-  } else {
-    if (inside_compound) value.fail("a compound cannot hold a compound; accepted: any other shape");
-    shape.form = readCompound(value, file);
-  }
-  return shape;
-}
-
 // Bodies.
 
 /// What it was given in its group's frame, in the world's.
@@ -179,12 +91,13 @@ Body readBody(const ExpandedBody& written, const Materials& materials, std::vect
   const std::filesystem::path& file = written.file;
   json.onlyKeys({"name", "shape", "position", "rotation", "linearVelocity", "angularVelocity", "material",
                  "dragCoefficient", "color", "static", "repeat", "mass", "kinematic", "locked", "force",
-                 "torque", "bodyForce", "bodyTorque"});
+                 "torque", "bodyForce", "bodyTorque", "visual"});
   Body body;
   body.place = placeOf(json, file);
   body.name = json.at("name").asString();
   if (body.name.empty()) json.at("name").fail("a body needs a name");
   body.shape = readShape(json.at("shape"), file);
+  if (const Json* visual = json.find("visual")) body.visual = readVisual(*visual, file);
   body.X_WS = readPose(json);
   if (const Json* velocity = json.find("linearVelocity")) body.linear_velocity = readVec3(*velocity, kSpeed);
   if (const Json* velocity = json.find("angularVelocity"))

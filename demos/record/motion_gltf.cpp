@@ -7,12 +7,14 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <tuple>
 
 #include <tiny_gltf.h>
 
 #include "demos/system/build_info.h"
 #include "demos/system/exit_code.h"
 #include "engine/foundation/contract.h"
+#include "renderer/image/png.h"
 #include "renderer/mesh/solid_mesh.h"
 #include "renderer/view/projection.h"
 
@@ -47,7 +49,9 @@ class Accessors {
   int add(std::span<const float> values, std::size_t width, int target) {
     tinygltf::Accessor accessor;
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = width == 1 ? TINYGLTF_TYPE_SCALAR : width == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4;
+    constexpr int kTypes[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
+                              TINYGLTF_TYPE_VEC4};
+    accessor.type = kTypes[width - 1];
     accessor.count = values.size() / width;
     for (std::size_t i = 0; i < width; ++i) {
       float least = values[i], most = values[i];
@@ -59,6 +63,19 @@ class Accessors {
       accessor.maxValues.push_back(static_cast<double>(most));
     }
     return push(std::move(accessor), std::as_bytes(values), target);
+  }
+
+  /// Index of the bytes' view.
+  int addFile(const std::vector<std::uint8_t>& bytes) {
+    std::vector<unsigned char>& data = model_.buffers[0].data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = bytes.size();
+    data.insert(data.end(), bytes.begin(), bytes.end());
+    data.resize((data.size() + 3) / 4 * 4);  // What follows has elements of four bytes.
+    model_.bufferViews.push_back(std::move(view));
+    return static_cast<int>(model_.bufferViews.size()) - 1;
   }
 
   int addIndices(std::span<const std::uint32_t> indices) {
@@ -126,22 +143,98 @@ std::map<MaterialKey, int> addMaterials(tinygltf::Model& model, const SceneWorld
   return indices;
 }
 
-/// The triangles of a solid in its own frame; edges are sharp, as in the simulation.
-tinygltf::Primitive solidPrimitive(Accessors& accessors, const Solid& solid) {
+/// Triangles that are covered with the same picture of their solid, or with none.
+struct SolidPrimitive {
+  tinygltf::Primitive primitive;
+  int picture = -1;
+};
+
+/// The triangles of a solid in its own frame, as they are drawn; edges are sharp, as in the simulation.
+std::vector<SolidPrimitive> solidPrimitives(Accessors& accessors, const Solid& solid) {
   const renderer::TriangleMesh mesh =
       renderer::buildMesh(solid, {renderer::Edges::kSharp, 0.0, kRoundSegments});
-  std::vector<float> positions, normals;
+  std::vector<float> positions, normals, colors, places;
   for (const renderer::MeshVertex& v : mesh.vertices) {
     positions.insert(positions.end(), v.position, v.position + kXyz);
     normals.insert(normals.end(), v.normal, v.normal + kXyz);
+    for (std::size_t i = 0; i < kXyz; ++i) colors.push_back(static_cast<float>(v.tint[i]) / 255.0f);
+    places.insert(places.end(), v.picture, v.picture + 2);
   }
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.attributes["POSITION"] = accessors.add(positions, kXyz, TINYGLTF_TARGET_ARRAY_BUFFER);
-  primitive.attributes["NORMAL"] = accessors.add(normals, kXyz, TINYGLTF_TARGET_ARRAY_BUFFER);
-  primitive.indices = accessors.addIndices(mesh.indices);
-  return primitive;
+  std::map<int, std::vector<std::uint32_t>> by_picture;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    std::vector<std::uint32_t>& into =
+        by_picture[static_cast<int>(mesh.vertices[mesh.indices[i]].picture[2])];
+    into.insert(into.end(), &mesh.indices[i], &mesh.indices[i] + 3);
+  }
+  tinygltf::Primitive shared;
+  shared.mode = TINYGLTF_MODE_TRIANGLES;
+  shared.attributes["POSITION"] = accessors.add(positions, kXyz, TINYGLTF_TARGET_ARRAY_BUFFER);
+  shared.attributes["NORMAL"] = accessors.add(normals, kXyz, TINYGLTF_TARGET_ARRAY_BUFFER);
+  if (!solid.surface().colors.empty())
+    shared.attributes["COLOR_0"] = accessors.add(colors, kXyz, TINYGLTF_TARGET_ARRAY_BUFFER);
+  if (!solid.surface().uv.empty())
+    shared.attributes["TEXCOORD_0"] = accessors.add(places, 2, TINYGLTF_TARGET_ARRAY_BUFFER);
+  std::vector<SolidPrimitive> primitives;
+  for (const auto& [picture, indices] : by_picture) {
+    primitives.push_back({shared, picture});
+    primitives.back().primitive.indices = accessors.addIndices(indices);
+  }
+  return primitives;
 }
+
+/// The index of the picture as a texture.
+int addTexture(tinygltf::Model& model, Accessors& accessors, const SurfacePicture& picture) {
+  tinygltf::Image image;
+  image.mimeType = "image/png";
+  image.bufferView = accessors.addFile(
+      renderer::encodeSmallPng(renderer::Image{picture.width, picture.height, picture.rgb}));
+  tinygltf::Texture texture;
+  texture.source = static_cast<int>(model.images.size());
+  model.images.push_back(std::move(image));
+  model.textures.push_back(std::move(texture));
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+/// What covers bodies: materials of the scene, each again with every picture that it is seen with.
+class Covers {
+ public:
+  Covers(tinygltf::Model& model, Accessors& accessors, const SceneWorld& world)
+      : model_(model), accessors_(accessors), world_(world) {}
+
+  /// `drawn` is the number of a drawn solid.
+  int of(int material, int drawn, int picture) {
+    if (picture < 0) return material;
+    const auto [known, is_new] = materials_.try_emplace({material, drawn, picture}, -1);
+    if (!is_new) return known->second;
+    const auto [texture, unknown] = textures_.try_emplace({drawn, picture}, -1);
+    if (unknown) texture->second = textureOf(pictureOf(drawn, picture));
+    tinygltf::Material covered = model_.materials[static_cast<std::size_t>(material)];
+    covered.name += " picture " + std::to_string(texture->second + 1);
+    covered.pbrMetallicRoughness.baseColorTexture.index = texture->second;
+    known->second = static_cast<int>(model_.materials.size());
+    model_.materials.push_back(std::move(covered));
+    return known->second;
+  }
+
+ private:
+  const SurfacePicture& pictureOf(int drawn, int picture) const {
+    return world_.drawnSolids()[static_cast<std::size_t>(drawn)]
+        .surface()
+        .pictures[static_cast<std::size_t>(picture)];
+  }
+  /// Equal pictures of several solids are one.
+  int textureOf(const SurfacePicture& picture) {
+    for (const auto& [where, texture] : textures_)
+      if (texture >= 0 && pictureOf(where.first, where.second) == picture) return texture;
+    return addTexture(model_, accessors_, picture);
+  }
+
+  tinygltf::Model& model_;
+  Accessors& accessors_;
+  const SceneWorld& world_;
+  std::map<std::tuple<int, int, int>, int> materials_;
+  std::map<std::pair<int, int>, int> textures_;
+};
 
 /// "crate" of "crate[7]": the name that the copies of a body share.
 std::string sharedName(const std::string& name) {
@@ -152,21 +245,24 @@ std::string sharedName(const std::string& name) {
 /// mesh.
 std::vector<int> addMeshes(tinygltf::Model& model, Accessors& accessors, const SceneWorld& world) {
   const std::map<MaterialKey, int> materials = addMaterials(model, world);
-  std::map<int, tinygltf::Primitive> primitives;
+  Covers covers(model, accessors, world);
+  std::map<int, std::vector<SolidPrimitive>> primitives;
   std::map<std::pair<int, int>, int> meshes;
   std::vector<int> of_body;
   for (std::size_t i = 0; i < world.names.size(); ++i) {
-    const int solid = world.world.bodies()[i].solid;
+    const int solid = world.drawnSolid(i);
     const int material = materials.at(materialKey(world.looks[i]));
     if (!primitives.contains(solid))
-      primitives[solid] = solidPrimitive(accessors, world.world.solids()[static_cast<std::size_t>(solid)]);
+      primitives[solid] = solidPrimitives(accessors, world.drawnSolids()[static_cast<std::size_t>(solid)]);
     const auto [mesh, is_new] = meshes.try_emplace({solid, material}, static_cast<int>(model.meshes.size()));
     of_body.push_back(mesh->second);
     if (!is_new) continue;
     tinygltf::Mesh added;
     added.name = sharedName(world.names[i]);
-    added.primitives.push_back(primitives[solid]);
-    added.primitives[0].material = material;
+    for (const SolidPrimitive& part : primitives[solid]) {
+      added.primitives.push_back(part.primitive);
+      added.primitives.back().material = covers.of(material, solid, part.picture);
+    }
     model.meshes.push_back(std::move(added));
   }
   return of_body;

@@ -599,7 +599,7 @@ ExitCode render(const RenderOptions& options) {
   manifest.has_caption = options.caption && !plan.scene.caption.empty();
   const CameraPath camera(plan.camera.camera, made, static_cast<double>(options.width) / options.height);
   const SceneCaption caption(plan.scene, made);
-  const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.world.solids(),
+  const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.drawnSolids(),
                                         camera.at(0.0, made.world.states()));
   if (!plan.outputs.empty()) manifest.outputs = outputsJson(plan.outputs, scale, made.names);
   renderer::Settings settings{.width = options.width, .height = options.height};
@@ -614,7 +614,7 @@ ExitCode render(const RenderOptions& options) {
   if (names) claim.emplace(folderClaim(options, manifest, *names));
   std::optional<renderer::FrameRenderer> here;
   if (workers_wanted == 1) {
-    here.emplace(settings, made.world.solids());
+    here.emplace(settings, made.drawnSolids());
     manifest.gl = here->info();
   }
   RunFacts facts;
@@ -649,7 +649,7 @@ ExitCode render(const RenderOptions& options) {
   if (workers_wanted > 1) {
     settings.gl_threads = 1;
     workers.emplace(workers_wanted, [&](renderer::ContextInfo& gl) -> FrameWorkers::Draw {
-      const auto pictures = std::make_shared<renderer::FrameRenderer>(settings, made.world.solids());
+      const auto pictures = std::make_shared<renderer::FrameRenderer>(settings, made.drawnSolids());
       gl = manifest.gl = pictures->info();
       return [&, pictures](const FrameJob& job) { return drawThere(run, *pictures, sink, job); };
     });

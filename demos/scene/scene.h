@@ -75,6 +75,16 @@ struct CompoundPart {
   Pose X_SP;  ///< Part frame in the frame of the compound shape.
 };
 
+/// A mesh file that is drawn in place of a body's shape; nothing else follows from it.
+struct Visual {
+  std::filesystem::path file;
+  double scale = 1.0;
+  std::optional<double> fit_m;
+  std::optional<bool> y_up;
+  Pose X_SV;  ///< The mesh's frame in that of the shape.
+  Place place;
+};
+
 struct SurfaceLook {
   renderer::Color color;
   bool checker = false;                                                 ///< A ground, ...
@@ -104,6 +114,7 @@ struct Repeat {
 struct Body {
   std::string name;
   Shape shape;
+  std::optional<Visual> visual;
   Pose X_WS;  ///< The frame the shape is described in; in a group X_GS.
   bool in_group = false;
   Pose X_WG;  ///< Of its group.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "demos/asset/asset_path.h"
+#include "demos/asset/mesh_companions.h"
 #include "demos/format/content_hash.h"
 #include "demos/scene/body_palette.h"
 #include "demos/scene/random_stream.h"
@@ -117,11 +118,38 @@ renderer::Surface surfaceOf(const SurfaceLook& look, const Solid& solid, const s
   return {look.surface, scale_m, static_cast<std::uint32_t>(ContentHash().add(name).value())};
 }
 
+/// The number of the solid that is drawn for the body.
+int addLook(const Body& body, int solid, SceneWorld& made) {
+  if (!body.visual) return solid;
+  MeshReport report;
+  const Solid& shape = made.world.solids()[static_cast<std::size_t>(solid)];
+  made.looking_otherwise.push_back(shape.shownAs(visualSurface(*body.visual, report)));
+  made.meshes.emplace_back(body.name, std::move(report));
+  return -static_cast<int>(made.looking_otherwise.size());  // Not yet behind the world's.
+}
+
+/// All solids are known: those that are drawn otherwise come behind the world's own.
+void numberLooks(SceneWorld& made) {
+  if (made.looking_otherwise.empty()) {
+    made.drawn_as.clear();
+    return;
+  }
+  std::vector<Solid> all(made.world.solids().begin(), made.world.solids().end());
+  for (int& number : made.drawn_as)
+    if (number < 0) number = static_cast<int>(all.size()) - 1 - number;
+  for (Solid& solid : made.looking_otherwise) all.push_back(std::move(solid));
+  made.looking_otherwise = std::move(all);
+}
+
 void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh) {
   const Body& body = scene.bodies[index];
   std::vector<MeshReport> reports;
   const int solid = made.world.addSolid(makeSolid(body.shape, mesh, &reports));
   for (MeshReport& report : reports) made.meshes.emplace_back(body.name, std::move(report));
+  const int drawn = addLook(body, solid, made);
+  const BoundingSurface& look = drawn < 0 ? made.looking_otherwise.back().surface()
+                                          : made.world.solids()[static_cast<std::size_t>(solid)].surface();
+  const bool has_look = !look.colors.empty() || !look.pictures.empty();
   const Pose X_SB{Quat::Identity(), -made.world.solids()[static_cast<std::size_t>(solid)].origin_B()};
   for (int copy = 0; copy < body.repeat.total(); ++copy) {
     BodyDescription description;
@@ -141,9 +169,8 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
       made.looks.back().color = paletteColor(made.looks.size() - 1);
     if (!body.look.has_color) setNaturalColor(made.looks.back());
     // What a mesh's colours are multiplied by, unless the scene says otherwise.
-    if (!body.look.has_color &&
-        !made.world.solids()[static_cast<std::size_t>(solid)].surface().colors.empty())
-      made.looks.back().color = {1.0f, 1.0f, 1.0f};
+    if (!body.look.has_color && has_look) made.looks.back().color = {1.0f, 1.0f, 1.0f};
+    made.drawn_as.push_back(drawn);
     if (!body.colors.empty())
       made.looks.back().color = body.colors[static_cast<std::size_t>(copy) % body.colors.size()];
   }
@@ -194,9 +221,15 @@ std::vector<Overlap> startedWith(SceneWorld& made, const Scene& scene) {
   throw OverlapsAtStart(message.str(), std::move(pairs));
 }
 
+/// The file, and those that it names for its looks.
+void addMeshFile(ContentHash& hash, const std::filesystem::path& file) {
+  hash.add(readTextFile(file));
+  for (const std::filesystem::path& other : filesNamedBy(file)) hash.add(readTextFile(other));
+}
+
 void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {
   if (const auto* hull = std::get_if<HullShape>(&shape.form)) {
-    if (!hull->file.empty()) hash.add(readTextFile(hull->replaceable && mesh ? *mesh : hull->file));
+    if (!hull->file.empty()) addMeshFile(hash, hull->replaceable && mesh ? *mesh : hull->file);
     if (hull->told_hull) hash.add("hull");
   } else if (const auto* compound = std::get_if<CompoundShape>(&shape.form)) {
     for (const CompoundPart& part : compound->parts) addMeshFiles(hash, part.shape, mesh);
@@ -220,6 +253,7 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
     made.surfaces.push_back(
         surfaceOf(made.looks[i], made.world.solids()[static_cast<std::size_t>(solid)], made.names[i]));
   }
+  numberLooks(made);
   requireFewParts(made, scene);
   const std::vector<Overlap> overlaps = startedWith(made, scene);
   if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);
@@ -231,7 +265,7 @@ std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::spa
   std::vector<renderer::Instance> instances;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const SurfaceLook& look = scene.looks[i];
-    instances.push_back({scene.world.bodies()[i].solid, states[i].X_WB, look.color, look.checker,
+    instances.push_back({scene.drawnSolid(i), states[i].X_WB, look.color, look.checker,
                          look.pattern, scene.surfaces[i]});
   }
   return instances;
@@ -242,7 +276,10 @@ std::uint64_t sceneHash(const Scene& scene, const Mesh& mesh) {
   hash.add(readTextFile(scene.file));
   for (const std::filesystem::path& file : scene.included) hash.add(readTextFile(file));
   for (const std::string& setting : scene.settings) hash.add(setting);
-  for (const Body& body : scene.bodies) addMeshFiles(hash, body.shape, mesh);
+  for (const Body& body : scene.bodies) {
+    addMeshFiles(hash, body.shape, mesh);
+    if (body.visual) addMeshFile(hash, body.visual->file);
+  }
   hash.add(std::to_string(scene.seed));
   return hash.value();
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,16 @@ struct SceneWorld {
       {};  ///< What was made of mesh files, by the body's name.
   /// The places of what moves in the whole run (run_extent.h): runs the scene once, in a world of its own.
   std::function<std::vector<Vec3>()> movedPoints = {};
+  std::vector<Solid> looking_otherwise = {};  ///< Solids as they are drawn, where some body has a "visual":
+                                              ///< the world's own, then the others.
+  std::vector<int> drawn_as = {};  ///< Of each body the solid that is drawn, then; else none.
+
+  std::span<const Solid> drawnSolids() const {
+    return looking_otherwise.empty() ? std::span<const Solid>(world.solids()) : looking_otherwise;
+  }
+  int drawnSolid(std::size_t body) const {
+    return drawn_as.empty() ? world.bodies()[body].solid : drawn_as[body];
+  }
 };
 
 /// A scene whose bodies overlap, or that touch and have no room to part.

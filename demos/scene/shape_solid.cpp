@@ -29,19 +29,18 @@ void fitInto(std::vector<Vec3>& points, double longest_m) {
 }
 
 /// A hull of a body has the size of any other shape, and lies as near.
-void requireLengths(const std::vector<ConvexPart>& parts) {
+void requireLengths(const std::vector<Vec3>& points, const std::string& what) {
   Eigen::AlignedBox3d bounds;
-  for (const ConvexPart& part : parts)
-    for (const Vec3& p : part.core.vertices()) bounds.extend(p);
+  for (const Vec3& p : points) bounds.extend(p);
   const double longest_m = bounds.sizes().maxCoeff();
   const double farthest_m = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
   std::ostringstream message;
   if (!(longest_m >= kSmallestLength_m && longest_m <= kLargestLength_m))
-    message << "the hull's longest side is " << longest_m << " m; accepted: " << kSmallestLength_m << " to "
-            << kLargestLength_m << ", see \"scale\" and \"fit\"";
+    message << "the " << what << "'s longest side is " << longest_m << " m; accepted: " << kSmallestLength_m
+            << " to " << kLargestLength_m << ", see \"scale\" and \"fit\"";
   else if (farthest_m > kLargestLength_m)
-    message << "the hull reaches to " << farthest_m << " m; accepted: " << -kLargestLength_m << " to "
-            << kLargestLength_m << ", see \"fit\"";
+    message << "the " << what << " reaches to " << farthest_m << " m; accepted: " << -kLargestLength_m
+            << " to " << kLargestLength_m << ", see \"fit\"";
   if (message.tellp() > 0) throw InputError(message.str());
 }
 
@@ -94,7 +93,10 @@ class PartMaker {
       if (hull.fit_m) fitInto(points, *hull.fit_m);
       made.parts.push_back({convexHull(points).polyhedron, 0.0});
     }
-    requireLengths(made.parts);
+    std::vector<Vec3> corners;
+    for (const ConvexPart& part : made.parts)
+      corners.insert(corners.end(), part.core.vertices().begin(), part.core.vertices().end());
+    requireLengths(corners, "hull");
     return made;
   }
 
@@ -114,6 +116,7 @@ class PartMaker {
     if (from.mesh.triangles.empty()) return;
     // What has no normals or colours of its own gets those that change nothing.
     const std::size_t before = to.mesh.triangles.size(), added = from.mesh.triangles.size();
+    appendPictures(from, before, added, to);
     if (!from.colors.empty() || !to.colors.empty()) {
       to.colors.resize(before, Vec3::Ones());
       to.colors.insert(to.colors.end(), from.colors.begin(), from.colors.end());
@@ -128,6 +131,19 @@ class PartMaker {
     for (const Vec3& p : from.mesh.vertices) to.mesh.vertices.push_back(X_SP * p);
     for (const Triangle& t : from.mesh.triangles)
       to.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+
+  static void appendPictures(const BoundingSurface& from, std::size_t before, std::size_t added,
+                             BoundingSurface& to) {
+    if (from.pictures.empty() && to.pictures.empty()) return;
+    to.uv.resize(3 * before, Vec2::Zero());
+    to.picture_of.resize(before, -1);
+    const int first = static_cast<int>(to.pictures.size());
+    to.uv.insert(to.uv.end(), from.uv.begin(), from.uv.end());
+    for (const int picture : from.picture_of) to.picture_of.push_back(picture < 0 ? -1 : first + picture);
+    to.uv.resize(3 * (before + added), Vec2::Zero());
+    to.picture_of.resize(before + added, -1);
+    to.pictures.insert(to.pictures.end(), from.pictures.begin(), from.pictures.end());
   }
 
   static std::vector<Vec3> flatNormals(const SurfaceMesh& mesh) {
@@ -156,6 +172,18 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path) {
     return convexHull(points, {.coordinate_error_m = file.coordinate_error_m}).polyhedron;
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+BoundingSurface visualSurface(const Visual& visual, MeshReport& report) {
+  try {
+    BoundingSurface look = meshLook(visual.file, {visual.scale, visual.fit_m, visual.y_up, false}, report);
+    for (Vec3& p : look.mesh.vertices) p = visual.X_SV * p;
+    for (Vec3& n : look.normals) n = visual.X_SV.rotation * n;
+    requireLengths(look.mesh.vertices, "mesh");
+    return look;
+  } catch (const InputError& error) {
+    throw InputError(visual.place + ": " + error.what());
   }
 }
 

@@ -21,4 +21,7 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path);
 Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh,
                 std::vector<MeshReport>* reports = nullptr);
 
+/// What is drawn for it, in the frame of the shape. Throws InputError.
+BoundingSurface visualSurface(const Visual& visual, MeshReport& report);
+
 }  // namespace carom::demos

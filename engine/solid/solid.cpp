@@ -65,6 +65,14 @@ Solid::Solid(std::vector<ConvexPart> parts, BoundingSurface surface)
   width_m_ = widthOf(parts_);
 }
 
+Solid Solid::shownAs(BoundingSurface look) const {
+  Solid shown = *this;
+  shown.surface_ = std::move(look);
+  shown.surface_.of_part.assign(parts_.size(), 1);
+  for (Vec3& p : shown.surface_.mesh.vertices) p += origin_B_;
+  return shown;
+}
+
 Solid Solid::box(const Vec3& size_m) {
   return Solid({{boxPolyhedron(size_m), 0.0}});
 }

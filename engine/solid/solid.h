@@ -5,6 +5,7 @@
 // described in went. Solids are immutable; bodies refer to them by index. Tested in
 // tests/engine/solid/solid_test.cpp.
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/solid/convex_polyhedron.h"
@@ -22,6 +23,14 @@ struct ConvexPart {
   double width() const { return core.width() + 2.0 * radius_m; }
 };
 
+/// A picture on a surface: rows from the top, red, green and blue of each pixel in sRGB.
+struct SurfacePicture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+  bool operator==(const SurfacePicture&) const = default;
+};
+
 /// The surface that some parts of a solid are the pieces of: what is drawn in their place, and what their
 /// mass is that of.
 struct BoundingSurface {
@@ -29,6 +38,10 @@ struct BoundingSurface {
   std::vector<Vec3> normals;  ///< Of each corner of each triangle, unit; or none: the triangles' own.
   std::vector<Vec3> colors;   ///< Of each triangle, red, green, blue of 0 to 1; or none.
   std::vector<char> of_part;  ///< Of each part of the solid: whether it is a piece of this.
+  std::vector<Vec2> uv;       ///< Of each corner of each triangle: its place on the picture, from its upper
+                              ///< left to its lower right corner (0, 0) to (1, 1), repeated beyond; or none.
+  std::vector<int> picture_of;  ///< Of each triangle its picture, -1 for none; or none has one.
+  std::vector<SurfacePicture> pictures;
 };
 
 class Solid {
@@ -54,6 +67,9 @@ class Solid {
   const BoundingSurface& surface() const { return surface_; }
   bool hasSurface() const { return !surface_.mesh.triangles.empty(); }
   bool isPiece(std::size_t part) const { return hasSurface() && surface_.of_part[part] != 0; }
+  /// The same body with another look: the surface, in the frame that the solid was described in, is drawn in
+  /// place of all parts. It need not be closed; nothing but what is drawn follows from it.
+  Solid shownAs(BoundingSurface look) const;
   /// For unit density, about the origin of B (the centre of mass).
   double volume() const { return mass_.mass; }
   const Mat3& unitInertia() const { return mass_.inertia; }

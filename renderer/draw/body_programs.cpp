@@ -6,8 +6,8 @@
 
 namespace carom::renderer {
 
-BodyPrograms::BodyPrograms(const GlFunctions& gl, const Settings& settings)
-    : gl_(gl), lines_(frameLines(settings)) {}
+BodyPrograms::BodyPrograms(const GlFunctions& gl, const Settings& settings, bool has_pictures)
+    : gl_(gl), lines_(frameLines(settings) + (has_pictures ? "#define PICTURES\n" : "")) {}
 
 GLuint BodyPrograms::of(const BodyLook& look, bool mirrored) {
   const auto [at, is_new] = programs_.try_emplace({look, mirrored}, 0);

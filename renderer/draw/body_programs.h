@@ -14,8 +14,8 @@ namespace carom::renderer {
 
 class BodyPrograms {
  public:
-  /// `gl` must outlive this.
-  BodyPrograms(const GlFunctions& gl, const Settings& settings);
+  /// `gl` must outlive this. `has_pictures`: some surface shows one (picture_array.h).
+  BodyPrograms(const GlFunctions& gl, const Settings& settings, bool has_pictures);
 
   GLuint of(const BodyLook& look) { return of(look, false); }
   /// As the ground mirrors it.

@@ -110,7 +110,17 @@ bool drawsSingleFaces(int level) {
 SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solids) {
   Pool pool;
   const double cap = bevelCap(solids);
-  for (const Solid& solid : solids) solids_.push_back(addSolid(pool, solid, cap));
+  for (const Solid& solid : solids) {
+    const std::size_t first = pool.vertices.size();
+    solids_.push_back(addSolid(pool, solid, cap));
+    const std::vector<SurfacePicture>& pictures = solid.surface().pictures;
+    std::vector<float> layers;
+    for (const SurfacePicture& picture : pictures)
+      layers.push_back(static_cast<float>(pictures_.add(picture)));
+    for (std::size_t i = first; i < pool.vertices.size() && !layers.empty(); ++i)
+      if (float& layer = pool.vertices[i].picture[2]; layer >= 0.0f)
+        layer = layers[static_cast<std::size_t>(layer)];
+  }
 
   GLuint buffers[3];
   gl.GenBuffers(3, buffers);
@@ -146,6 +156,12 @@ SceneGeometry::SceneGeometry(const GlFunctions& gl, std::span<const Solid> solid
                          offset(offsetof(InstanceRecord, half)));
   for (const GLuint i : {8u, 9u, 11u, 12u}) gl.VertexAttribDivisor(i, 1);
   for (GLuint i = 0; i < 13; ++i) gl.EnableVertexAttribArray(i);
+  if (pictures_.empty()) return;
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+  gl.VertexAttribPointer(15, 3, GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
+                         offset(offsetof(MeshVertex, picture)));
+  gl.EnableVertexAttribArray(15);
+  pictures_.upload(gl);
 }
 
 void SceneGeometry::uploadInstances(const GlFunctions& gl, std::span<const InstanceRecord> records) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/draw/picture_array.h"
 #include "renderer/gl/gl_functions.h"
 #include "renderer/mesh/face_light.h"
 #include "renderer/view/solid_extent.h"
@@ -63,6 +64,8 @@ class SceneGeometry {
   SceneGeometry(const GlFunctions& gl, std::span<const Solid> solids);
 
   const SolidGeometry& solid(int index) const { return solids_[static_cast<std::size_t>(index)]; }
+  /// Those of the solids' surfaces: bound while bodies are drawn.
+  const PictureArray& pictures() const { return pictures_; }
   int solidCount() const { return static_cast<int>(solids_.size()); }
 
   /// Makes `records` the instances that draws refer to by index.
@@ -71,6 +74,7 @@ class SceneGeometry {
 
  private:
   std::vector<SolidGeometry> solids_;
+  PictureArray pictures_;
   GLuint vertex_array_ = 0;
   GLuint instance_buffer_ = 0;
 };

@@ -3,8 +3,8 @@
 // share. Frame E: the world's axes, origin at the eye; light is linear until the sRGB framebuffer encodes it.
 // Variants are chosen by lines between the head and the rest: PRINT (white surroundings), SMALL_SHADOWS (2x2
 // texels), MIRROR (bodies as the ground mirrors them), POLISHED (the ground shows what it mirrors), SUNLIT
-// (faces that no other body can darken), CHECKER (bodies whose level faces are checker boards). Tested in
-// tests/renderer/draw/shaders_test.cpp.
+// (faces that no other body can darken), CHECKER (bodies whose level faces are checker boards), PICTURES
+// (surfaces with pictures of their own). Tested in tests/renderer/draw/shaders_test.cpp.
 
 #include <string>
 #include <vector>

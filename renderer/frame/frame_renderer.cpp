@@ -111,7 +111,7 @@ struct FrameRenderer::Impl {
         shadow_map(gl, quality.shadow_texels),
         occlusion_pass(gl, frameLines(settings)),
         surface_pass(gl, {settings.width, settings.height}),
-        body_programs(gl, settings) {
+        body_programs(gl, settings, !geometry.pictures().empty()) {
     createTargets();
     if (quality.mirror)
       mirror_pass = std::make_unique<MirrorPass>(gl, body_programs, settings.width, settings.height);
@@ -395,6 +395,7 @@ void FrameRenderer::Impl::uploadBlock(const FrameBlock& block) const {
 }
 
 void FrameRenderer::Impl::bindTextures() const {
+  geometry.pictures().bind(gl);
   gl.ActiveTexture(GL_TEXTURE1);
   gl.BindTexture(GL_TEXTURE_2D, mirror_pass ? mirror_pass->texture() : 0);
   gl.ActiveTexture(GL_TEXTURE0);

@@ -59,6 +59,7 @@ namespace carom::renderer {
   X(Scissor, PFNGLSCISSORPROC)                                                                         \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                                               \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                                                   \
+  X(TexImage3D, PFNGLTEXIMAGE3DPROC)                                                                   \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                                             \
   X(UseProgram, PFNGLUSEPROGRAMPROC)                                                                   \
   X(VertexAttribDivisor, PFNGLVERTEXATTRIBDIVISORPROC)                                                 \

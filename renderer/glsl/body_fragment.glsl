@@ -8,6 +8,10 @@ flat in float sunlight;
 in vec3 shadow;
 #endif
 flat in vec4 albedo;
+#ifdef PICTURES
+in vec3 on_picture;
+layout(binding = 4) uniform sampler2DArray pictures;
+#endif
 #ifdef SURFACE
 in vec3 p_S;
 in vec3 n_S;
@@ -39,6 +43,10 @@ void main() {
   float lifted = clamp(1.0 - (p_E.z - ground.x) / max(0.16 * abs(albedo.w), 1e-6), 0.0, 1.0);
   n = normalize(vec3(n.xy, n.z + lifted * max(-n.z, 0.0)));
   vec3 base = albedo.rgb;
+#ifdef PICTURES
+  vec3 pictured = texture(pictures, vec3(on_picture.xy, max(on_picture.z, 0.0))).rgb;
+  if (on_picture.z > -0.5) base *= pictured;
+#endif
 #ifdef CHECKER
   if (albedo.w < 0.0 && n.z > 0.5) base = groundBase(p_E.xy, albedo.rgb);
 #endif

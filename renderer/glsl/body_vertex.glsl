@@ -9,6 +9,10 @@ layout(location = 7) in uint face;
 layout(location = 8) in uint faces;
 layout(location = 9) in uint sunlit_faces;
 layout(location = 10) in vec4 tint;
+#ifdef PICTURES
+layout(location = 15) in vec3 picture;
+out vec3 on_picture;
+#endif
 #ifdef SURFACE
 layout(location = 11) in vec4 finish;     // Of the coordinates: 1 / scale, the axis of the body that is z; the body's number in [0, 1).
 layout(location = 12) in vec4 half_size;  // In the body's own frame.
@@ -46,6 +50,9 @@ void main() {
               dot(row2.xyz, bend_and_nearness.xyz));
   nearness = bend_and_nearness.w;
   albedo = vec4(color.rgb * tint.rgb, color.w);
+#ifdef PICTURES
+  on_picture = picture;
+#endif
 #ifdef SURFACE
   p_S = finish.x * alongLongest(p_B);
   n_S = alongLongest(n_B);

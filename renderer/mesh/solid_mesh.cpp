@@ -241,9 +241,12 @@ void addPart(TriangleMesh& mesh, const ConvexPart& part, const MeshDetail& detai
     for (int f = 0; f < core.faceCount(); ++f) addShadedFace(mesh, core, f, detail.bevel_m);
 }
 
-// Corners of equal place, normal and colour are one.
-void addSurface(TriangleMesh& mesh, const BoundingSurface& surface) {
-  std::map<std::array<double, 7>, std::uint32_t> known;
+enum class SurfaceNormals { kOwn, kFlat };
+
+// Corners of equal place, normal, colour and place on a picture are one.
+void addSurface(TriangleMesh& mesh, const BoundingSurface& surface, SurfaceNormals normals) {
+  std::map<std::array<double, 10>, std::uint32_t> known;
+  const bool own = normals == SurfaceNormals::kOwn && !surface.normals.empty();
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     const Triangle& triangle = surface.mesh.triangles[t];
     const auto corner = [&](std::size_t k) -> const Vec3& {
@@ -253,17 +256,25 @@ void addSurface(TriangleMesh& mesh, const BoundingSurface& surface) {
     const Vec3 color = surface.colors.empty() ? Vec3(Vec3::Ones()) : surface.colors[t];
     std::array<std::uint32_t, 3> indices{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& n = surface.normals.empty() ? flat : surface.normals[3 * t + k];
+      const Vec3& n = own ? surface.normals[3 * t + k] : flat;
+      const int picture = surface.uv.empty() || surface.picture_of.empty() ? -1 : surface.picture_of[t];
+      const Vec2 uv = picture < 0 ? Vec2(Vec2::Zero()) : surface.uv[3 * t + k];
       const std::uint32_t packed = static_cast<std::uint32_t>(std::lround(255.0 * color.x())) << 16 |
                                    static_cast<std::uint32_t>(std::lround(255.0 * color.y())) << 8 |
                                    static_cast<std::uint32_t>(std::lround(255.0 * color.z()));
       const Vec3& p = corner(k);
       const auto [found, is_new] =
-          known.insert({{p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), static_cast<double>(packed)}, 0});
+          known.insert({{p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), static_cast<double>(packed), uv.x(),
+                         uv.y(), static_cast<double>(picture)},
+                        0});
       if (is_new) {
         found->second = mesh.addVertex(p, n);
         std::uint8_t* tint = mesh.vertices.back().tint;
         for (int i = 0; i < 3; ++i) tint[i] = static_cast<std::uint8_t>(packed >> (16 - 8 * i) & 255);
+        float* place = mesh.vertices.back().picture;
+        place[0] = static_cast<float>(uv.x());
+        place[1] = static_cast<float>(uv.y());
+        place[2] = static_cast<float>(picture);
       }
       indices[k] = found->second;
     }
@@ -275,8 +286,7 @@ void addSurface(TriangleMesh& mesh, const BoundingSurface& surface) {
 
 std::uint32_t TriangleMesh::addVertex(const Vec3& p, const Vec3& n) {
   const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-  vertices.push_back(
-      {{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace, {255, 255, 255, 255}});
+  vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {}, 0.0f, kNoFace});
   return static_cast<std::uint32_t>(vertices.size() - 1);
 }
 
@@ -292,7 +302,7 @@ TriangleMesh buildMesh(const Solid& solid, const MeshDetail& detail) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < solid.parts().size(); ++i)
     if (!solid.isPiece(i)) addPart(mesh, solid.parts()[i], detail);
-  addSurface(mesh, solid.surface());
+  addSurface(mesh, solid.surface(), SurfaceNormals::kOwn);
   return mesh;
 }
 
@@ -300,7 +310,7 @@ TriangleMesh buildFlatMesh(const Solid& solid) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < solid.parts().size(); ++i)
     if (!solid.isPiece(i) && solid.parts()[i].radius_m == 0.0) addSharpPart(mesh, solid.parts()[i].core);
-  addSurface(mesh, solid.surface());
+  addSurface(mesh, solid.surface(), SurfaceNormals::kFlat);
   return mesh;
 }
 

@@ -21,7 +21,8 @@ struct MeshVertex {
   float nearness;      ///< How much of it a pixel adds: 1 at the edge, 0 or less from a bevel's width on.
   std::uint32_t face;  ///< Its face's number; kNoFace where it has none or shares one, and from there on.
   std::uint8_t tint[4] = {255, 255, 255,
-                          255};  ///< What the body's colour is multiplied by; the last is unused.
+                          255};            ///< What the body's colour is multiplied by; the last is unused.
+  float picture[3] = {0.0f, 0.0f, -1.0f};  ///< Its place on a picture of the solid's, and which; -1: none.
 };
 
 struct TriangleMesh {

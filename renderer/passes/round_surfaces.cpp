@@ -155,8 +155,10 @@ void addRoundSurfaces(std::span<const Instance> instances, std::span<const Solid
   const View view{camera, cameraAxes(camera), focalLengthPixels(camera, surfaces.depth.height)};
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (static_cast<int>(i) == ground) continue;
-    for (const ConvexPart& part : solids[static_cast<std::size_t>(instances[i].solid)].parts())
-      if (part.radius_m > 0.0) addPart(view, instances[i].X_WB, part, static_cast<int>(i), surfaces);
+    const Solid& solid = solids[static_cast<std::size_t>(instances[i].solid)];
+    for (std::size_t k = 0; k < solid.parts().size(); ++k)
+      if (solid.parts()[k].radius_m > 0.0 && !solid.isPiece(k))
+        addPart(view, instances[i].X_WB, solid.parts()[k], static_cast<int>(i), surfaces);
   }
 }
 

@@ -10,6 +10,10 @@ namespace {
 struct Corners {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  void include(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   void include(const ConvexPart& part) {
     for (const Vec3& p : part.core.vertices()) {
       low = low.cwiseMin((p.array() - part.radius_m).matrix());
@@ -52,7 +56,9 @@ RoundedBox boxOfSegment(const ConvexPart& part) {
 
 Extent solidExtent(const Solid& solid) {
   Corners corners;
-  for (const ConvexPart& part : solid.parts()) corners.include(part);
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i)) corners.include(solid.parts()[i]);
+  for (const Vec3& p : solid.surface().mesh.vertices) corners.include(p);
   return {0.5 * (corners.low + corners.high), 0.5 * (corners.high - corners.low)};
 }
 

@@ -87,6 +87,7 @@ inline const std::vector<Library>& guardedLibraries() {
                                               {"ISA-L", "isa-l", {"renderer/image/quick_deflate.cpp"}},
                                               {"libpng", "png", {"renderer/image/png.cpp"}},
                                               {"Cairo", "cairo", {"renderer/drawing/canvas.cpp"}},
+                                              {"libjpeg", "jpeglib.h", {"demos/asset/jpeg_picture.cpp"}},
                                               {"assimp", "assimp/", {"demos/asset/mesh_import.cpp"}},
                                               {"tinygltf", "tiny_gltf.h", {"demos/record/motion_gltf.cpp"}},
                                               {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};

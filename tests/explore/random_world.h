@@ -15,6 +15,9 @@ struct ExploredWorld {
   demos::Scene scene;  ///< Its duration is that of the run.
 };
 
+/// Seeds from here on make worlds of moved, locked and concave bodies (moved_worlds.h).
+inline constexpr std::uint64_t kMovedWorlds = 1'000'000'000;
+
 ExploredWorld randomWorld(std::uint64_t seed);
 
 /// Steps of a run: the scene's duration at its rate.

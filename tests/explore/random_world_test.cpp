@@ -41,6 +41,20 @@ TEST(RandomWorld, ComesInAllFamiliesAndKeepsItsLimits) {
   EXPECT_EQ(families.size(), 13u);
 }
 
+TEST(MovedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  std::set<std::string> families;
+  for (std::uint64_t seed = kMovedWorlds; seed < kMovedWorlds + 60; ++seed) {
+    const ExploredWorld world = randomWorld(seed);
+    families.insert(world.family);
+    const std::string text = sceneText(world.scene);
+    EXPECT_TRUE(text == sceneText(randomWorld(seed).scene)) << seed;
+    EXPECT_EQ(readBack(world.scene).bodies.size(), world.scene.bodies.size()) << seed;
+    const std::optional<Meeting> meeting = overlapOfStart(world.scene);
+    EXPECT_FALSE(meeting) << seed << ' ' << meeting->depth_m;
+  }
+  EXPECT_EQ(families.size(), 3u);
+}
+
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const auto meeting = overlapOfStart(randomWorld(seed).scene);

@@ -33,6 +33,12 @@ Json formJson(const demos::CapsuleShape& capsule) {
       {{"capsule", Json::object({{"radius", capsule.radius_m}, {"length", capsule.length_m}})}});
 }
 Json formJson(const demos::HullShape& hull) {
+  if (!hull.file.empty()) {
+    // Of the assets: named as a scene beside them names it.
+    Json mesh = Json::object({{"file", "meshes/" + hull.file.filename().string()}});
+    if (hull.fit_m) mesh.set("fit", *hull.fit_m);
+    return Json::object({{hull.as_hull ? "hull" : "mesh", std::move(mesh)}});
+  }
   Json points = Json::array();
   for (const Vec3& p : hull.points) points.push(numbers(hull.scale * p));
   return Json::object({{"hull", Json::object({{"points", std::move(points)}})}});
@@ -62,11 +68,41 @@ Json materialJson(const Material& m) {
                        {"density", m.density_kgpm3}});
 }
 
+Json kinematicJson(const demos::Body& body) {
+  if (body.keyframes.empty()) return Json(true);
+  Json keys = Json::array();
+  for (const Keyframe& key : body.keyframes) {
+    Json json = Json::object({{"time", key.time_s}});
+    setPose(json, key.X_WB);
+    keys.push(std::move(json));
+  }
+  return Json::object({{"interpolation", body.interpolation == Interpolation::kSmooth ? "smooth" : "linear"},
+                       {"repeats", body.path_repeats},
+                       {"keyframes", std::move(keys)}});
+}
+
+Json locksJson(const AxisLocks& locks) {
+  Json names = Json::array();
+  constexpr const char* kMoving[] = {"x", "y", "z"};
+  constexpr const char* kTurning[] = {"turnX", "turnY", "turnZ"};
+  for (int i = 0; i < 3; ++i)
+    if (locks.free_axes[i] == 0.0) names.push(kMoving[i]);
+  for (int i = 0; i < 3; ++i)
+    if (locks.turning == AxisLocks::Turning::kLocked ||
+        (locks.turning == AxisLocks::Turning::kOneAxis && locks.axis_W[i] == 0.0))
+      names.push(kTurning[i]);
+  return names;
+}
+
 Json bodyJson(const demos::Body& body) {
   Json json = Json::object({{"name", body.name}});
   if (body.is_static) json.set("static", true);
   json.set("shape", shapeJson(body.shape));
-  setPose(json, body.X_WS);
+  if (body.is_kinematic) json.set("kinematic", kinematicJson(body));
+  if (body.keyframes.empty()) setPose(json, body.X_WS);
+  if (body.locks.any()) json.set("locked", locksJson(body.locks));
+  if (!body.load.force_W.isZero(0.0)) json.set("force", numbers(body.load.force_W));
+  if (!body.load.torque_W.isZero(0.0)) json.set("torque", numbers(body.load.torque_W));
   if (!body.linear_velocity.isZero(0.0)) json.set("linearVelocity", numbers(body.linear_velocity));
   if (!body.angular_velocity.isZero(0.0)) json.set("angularVelocity", numbers(body.angular_velocity));
   json.set("material", materialJson(body.material));

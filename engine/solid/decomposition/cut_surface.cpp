@@ -46,6 +46,8 @@ struct Frame2 {
   Vec2 operator()(const Vec3& p) const { return {basis.t1.dot(p), basis.t2.dot(p)}; }
 };
 
+constexpr signed char kUnlabelled = 2;
+
 double cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -172,11 +174,12 @@ Vec3 CutSurface::crossing(const Plane& plane, int half) const {
 
 CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const NotchPlane& by) {
   const Plane& plane = by.plane;
-  label_.assign(points_.size(), 0);
+  label_.assign(points_.size(), kUnlabelled);
   node_of_point_.assign(points_.size(), -1);
   node_of_half_.assign(mates_.size(), -1);
   for (const int t : piece)
     for (const int v : triangles_[at(t)]) {
+      if (label_[at(v)] != kUnlabelled) continue;
       const double d = plane.signedDistance(point(v));
       label_[at(v)] = static_cast<signed char>(std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1);
     }
@@ -197,7 +200,12 @@ CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const Notc
     return node >= 0 ? node : node = curves.add();
   };
   std::vector<int> crossed;
+  std::vector<int> met;  // The triangles that touch the plane, in order: few of many.
   for (const int t : piece) {
+    const Triangle& c = triangles_[at(t)];
+    if (label_[at(c[0])] != 0 && label_[at(c[0])] == label_[at(c[1])] && label_[at(c[0])] == label_[at(c[2])])
+      continue;
+    met.push_back(t);
     int first = -1;
     const auto meet = [&](int node) {
       if (first < 0) first = node;
@@ -217,7 +225,7 @@ CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const Notc
   // in it.
   const Frame2 flat{tangentBasis(plane.normal)};
   std::vector<Eigen::AlignedBox2d> boxes(at(curves.count()));
-  for (const int t : piece)
+  for (const int t : met)
     for (int half = 3 * t; half < 3 * t + 3; ++half) {
       if (label_[at(tail(half))] == 0)
         boxes[at(curves.rootOf(pointNode(tail(half))))].extend(flat(point(tail(half))));
@@ -242,7 +250,7 @@ CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const Notc
   section.plane = plane;
   section.near_notch.assign(points_.size(), 0);
   section.edge_chosen.assign(mates_.size(), 0);
-  for (const int t : piece)
+  for (const int t : met)
     for (const int v : triangles_[at(t)])
       if (label_[at(v)] == 0) section.near_notch[at(v)] = chosen[at(curves.rootOf(pointNode(v)))];
   for (const int half : crossed)
@@ -252,7 +260,7 @@ CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const Notc
     }
 
   // The area by the curves' segments, on whose left the section is: against the triangles' own direction.
-  for (const int t : piece) {
+  for (const int t : met) {
     std::optional<Vec2> up, down;
     for (int half = 3 * t; half < 3 * t + 3; ++half) {
       const int from = label_[at(tail(half))], to = label_[at(head(half))];
@@ -417,7 +425,21 @@ bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
     return smallest;
   };
   const std::optional<std::size_t> outer = areas[own] > 0.0 ? std::optional(own) : around(own);
-  if (!outer) return false;
+  if (!outer && all[own].size() == 2) {
+    // Two edges between the same corners: the piece hangs together by a line there, and comes apart without
+    // a cap.
+    const int a = all[own][0], b = all[own][1], mate_a = mate(a), mate_b = mate(b);
+    pair(a, b);
+    pair(mate_a, mate_b);
+    return true;
+  }
+  if (!outer) {
+    // The same with corners on the line: its caps are triangles without area.
+    double length_m = 0.0;
+    for (const int half : all[own]) length_m += (point(head(half)) - point(tail(half))).norm();
+    if (std::abs(areas[own]) > tolerance_m_ * length_m) return false;
+    return addCaps({all[own]}, section, by, piece);
+  }
   std::vector<std::vector<int>> chosen{all[*outer]};
   for (std::size_t i = 0; i < rings.size(); ++i)
     if (!(areas[i] > 0.0) && i != *outer && around(i) == outer) chosen.push_back(all[i]);

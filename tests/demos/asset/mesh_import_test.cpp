@@ -88,6 +88,10 @@ const ShippedMesh kShipped[] = {
     {"gear-27.obj", surfaceVolume("gear-27.obj"), 28},
     {"link.obj", surfaceVolume("link.obj"), 12},
     {"ring.obj", surfaceVolume("ring.obj"), 16},
+    {"bolt.obj", surfaceVolume("bolt.obj"), 99},
+    {"nut.obj", surfaceVolume("nut.obj"), 142},
+    {"lock-bolt.obj", surfaceVolume("lock-bolt.obj"), 3},
+    {"lock-plate.obj", surfaceVolume("lock-plate.obj"), 20},
 };
 
 class ShippedMeshes : public testing::TestWithParam<ShippedMesh> {};

@@ -88,6 +88,46 @@ TEST(FunnelScene, LetsEveryMarbleFallIntoTheCup) {
   }
 }
 
+// What the threads allow: z falls by the pitch over 2 pi times the angle, within their play (a tenth of the
+// pitch along the axis), no faster than a body of that much inertia. The threads are of flat facets, whose
+// edges it bumps over: they take some of its speed.
+TEST(NutScene, TurnsAsItsThreadSaysAndLiesDownOnTheHead) {
+  Played played("nut-on-a-bolt");
+  const double lead = 0.5 / (2.0 * 3.14159265358979323846);
+  const auto found = std::find(played.made.names.begin(), played.made.names.end(), "nut");
+  const auto body = static_cast<std::size_t>(found - played.made.names.begin());
+  const Solid& nut =
+      played.made.world.solids()[static_cast<std::size_t>(played.made.world.bodies()[body].solid)];
+  const double gyration2 = nut.unitInertia()(2, 2) / nut.volume();
+  const double acceleration = 9.81 / (1.0 + gyration2 / (lead * lead));
+  const double start = played.state("nut").X_WB.position.z();
+  double turned = 0.0, farthest_off = 0.0;
+  double at_two_seconds = 0.0;
+  while (played.made.world.time() < played.scene.duration_s) {
+    played.made.world.step();
+    turned += played.state("nut").angular_velocity.z() * played.made.world.settings().step_s;
+    const double fallen = start - played.state("nut").X_WB.position.z();
+    if (start - fallen > 0.35 + 0.56 + 0.01)
+      farthest_off = std::max(farthest_off, std::abs(fallen - std::abs(turned) * lead));
+    if (played.made.world.time() < 2.0) at_two_seconds = std::abs(played.state("nut").angular_velocity.z());
+  }
+  EXPECT_LT(farthest_off, 0.1 * 0.5);
+  EXPECT_LT(at_two_seconds * lead / (2.0 * acceleration), 1.0);
+  EXPECT_GT(at_two_seconds * lead / (2.0 * acceleration), 0.75);
+  EXPECT_NEAR(played.state("nut").X_WB.position.z(), 0.35 + 0.56, 0.002);
+}
+
+TEST(LockScene, ThrowsItsBoltAsFarAsTheBitReaches) {
+  Played played("key-in-a-lock");
+  const double start = played.state("bolt").X_WB.position.x();
+  played.run(played.scene.duration_s);
+  const double thrown = played.state("bolt").X_WB.position.x() - start;
+  const double reach = std::sqrt(0.3 * 0.3 + 0.05 * 0.05 / 4.0 - 0.22 * 0.22) + 0.02;
+  EXPECT_GE(thrown, reach - 0.001);
+  EXPECT_LE(thrown, reach + 0.004);
+  EXPECT_EQ(played.made.world.audit().kinematic_late_s, 0.0) << "the key comes out again";
+}
+
 // The linking number of two closed curves by Gauss' integral over their chords, rounded: +-1 where one goes
 // through the other once.
 double linking(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {

@@ -100,7 +100,8 @@ std::optional<Meeting> overlapOfStart(const demos::Scene& scene) {
     BodyDescription d;
     d.solid = solid;
     d.is_static = body.is_static;
-    d.X_WB = body.X_WS * Pose{Quat::Identity(), -world.solids().back().origin_B()};
+    const Pose& X_WS = body.keyframes.empty() ? body.X_WS : body.keyframes.front().X_WB;
+    d.X_WB = X_WS * Pose{Quat::Identity(), -world.solids().back().origin_B()};
     world.addBody(d);
     rounding_m = std::max(rounding_m, 0x1p-44 * (d.X_WB.position.norm() + world.solids().back().radius()));
   }

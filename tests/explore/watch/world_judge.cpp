@@ -29,6 +29,7 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
       energy_(world, bodies_, start_),
       flight_(world, bodies_, world.states()),
       glide_(scene, world),
+      moved_(world),
       apart_(world) {
   const Air& air = world.settings().air;
   const bool dry = world.settings().fluids.empty();
@@ -56,6 +57,7 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
   }
   if (keeps_momentum_) checkMomentum(now, step);
   glide_.look(states, step, findings_);
+  moved_.look(states, world_.audit().kinematic_late_s, step, findings_);
   return true;
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+// Shapes and materials of the explorer's worlds. Tested through tests/explore/random_world_test.cpp.
+
+#include "demos/scene/scene.h"
+#include "tests/oracle/test_shapes.h"
+
+namespace carom::explore {
+
+inline constexpr double kSmallestShape_m = 1e-4;  ///< What a scene may hold.
+inline constexpr double kLargestSpeed = 1e4;
+
+bool oneIn(oracle::Random& random, int n);
+/// The radius of the ball about the shape's own origin that holds it.
+double reachOf(const demos::Shape& shape);
+demos::Shape boxOf(const Vec3& size);
+/// Boxes, needles, plates, balls, capsules, hulls, compounds; `size`: the longest extent, about.
+demos::Shape anyShape(oracle::Random& random, double size);
+Material anyMaterial(oracle::Random& random);
+/// One of the shipped meshes as it is: rings, links, cups, gears, a nut, a bolt, ...; its longest side.
+demos::Shape concaveOf(oracle::Random& random, double size);
+
+}  // namespace carom::explore
