@@ -15,6 +15,7 @@
 #include "engine/simulation/bodies/step_paths.h"
 #include "engine/simulation/contacts/lasting_contact.h"
 #include "engine/simulation/contacts/pair_table.h"
+#include "engine/simulation/contacts/path_lifts.h"
 #include "engine/simulation/events/event_loop.h"
 #include "engine/simulation/events/step_record.h"
 #include "engine/simulation/resting_islands.h"
@@ -94,6 +95,7 @@ struct World::Impl {
       potential_J;  ///< Of each body as it was published, where there is neither air nor water.
   PairTable table;
   LastingContacts contacts;  ///< Of the last substep.
+  PathLifts lifts;
   FlightPlanner planner;
   RestingIslands resting_islands;
   EventMemory event_memory;
@@ -204,6 +206,7 @@ void World::Impl::endPath(std::size_t index) {
   const Vec3 spin_before = body.velocity.angular;
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
+  body.lift += (substep.step_s - body.path.start_s) * body.lifting;
   body.X_WB = body.X_end;
   body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
   if (!flew_freely || spin_before.isZero(0.0)) {
@@ -231,6 +234,11 @@ void World::Impl::finishStep(PhaseClock* clock) {
     REQUIRE(body.X_WB.position.allFinite() && body.velocity.linear.allFinite() &&
             body.velocity.angular.allFinite());
   });
+  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
+    const ShapePair& pair = table.pairs()[at(of_pair.pair)];
+    lifts.join(pair.body_a, pair.body_b, bodies);
+  }
+  lifts.pay(bodies, active.list(), settings.gravity);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }
@@ -360,7 +368,8 @@ bool World::Impl::advance(PhaseClock* clock) {
     return moved;
   };
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory,
+  lifts.begin(bodies.size());
+  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory, lifts,
                    std::ref(solve_landings));  // so that it allocates nothing
 }
 

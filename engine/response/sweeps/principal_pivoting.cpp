@@ -7,7 +7,8 @@ namespace carom {
 namespace {
 
 constexpr Eigen::Index kPivots = 4;  // a row
-constexpr double kRegular = 1e-13;   // of a row's own response: so much, one that repeats another gives way
+constexpr std::size_t kMostRows = 32;
+constexpr double kRegular = 1e-13;  // of a row's own response: so much, one that repeats another gives way
 
 }  // namespace
 
@@ -41,6 +42,28 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
     impulses(pressing) = solved;
   }
   return std::nullopt;
+}
+
+bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps) {
+  if (rows.size() > kMostRows) return false;
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  const auto rowAt = [&](Eigen::Index i) -> ContactRow& { return rows[static_cast<std::size_t>(i)]; };
+  Eigen::VectorXd missing(size);
+  for (Eigen::Index i = 0; i < size; ++i) missing[i] = -rowMiss(rowAt(i), bodies).x();
+  std::vector<ImpulseBody> moved(bodies.begin(), bodies.end());
+  Eigen::MatrixXd response(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (ImpulseBody& body : moved) body.velocity = {};
+    applyToRow(rowAt(i), Vec3::UnitX(), moved);
+    for (Eigen::Index k = 0; k < size; ++k) response(k, i) = rowVelocity(rowAt(k), moved).x();
+  }
+  const std::optional<Eigen::VectorXd> impulses = pivotImpulses(response, missing, slack_mps);
+  if (!impulses) return false;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    rowAt(i).impulse = {(*impulses)[i], 0.0, 0.0};
+    applyToRow(rowAt(i), rowAt(i).impulse, bodies);
+  }
+  return true;
 }
 
 }  // namespace carom

@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
+
+#include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 
@@ -14,5 +17,9 @@ namespace carom {
 /// other, or no such are found in four pivots a row. Rows that repeat each other share what they press.
 std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, const Eigen::VectorXd& missing,
                                              const Eigen::VectorXd& slack);
+
+/// Gives bodies the normal impulses by which all rows, which have had none, part at their lowest speeds less
+/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none, or for more than 32 rows.
+bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps);
 
 }  // namespace carom

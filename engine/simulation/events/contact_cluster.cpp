@@ -7,10 +7,13 @@
 #include "engine/foundation/index.h"
 #include "engine/response/collision.h"
 #include "engine/response/conjugate_sweeps.h"
+#include "engine/response/standing_solver.h"
+#include "engine/response/sweeps/principal_pivoting.h"
 #include "engine/response/sweeps/energy_bound.h"
 #include "engine/response/sweeps/turning_resistance.h"
 #include "engine/simulation/contacts/carried_path.h"
 #include "engine/simulation/contacts/internal_edges.h"
+#include "engine/simulation/events/path_change.h"
 
 namespace carom {
 namespace {
@@ -278,6 +281,7 @@ void ContactCluster::solveSpreading(double careful_mps) {
   const double safe = safeResidual();
   long visits = 0;
   bool resumes = false;
+  bool solved_at_once = false;
   bool reached = false;  // all whom the impulses reach have joined
   for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
     const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
@@ -299,7 +303,33 @@ void ContactCluster::solveSpreading(double careful_mps) {
     const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
     if (!grew && report.residual_mps <= enough) return;
     reached = !grew;
+    const bool diverges = fine && !grew && report.residual_mps > safe;
+    if (!diverges || solved_at_once || rows_.size() > kFewRows) continue;
+    solved_at_once = true;
+    solveAtOnce(enough);
   }
+}
+
+// Few rows that sweeps do not bring to rest: bodies of very different mass lie on each other.
+void ContactCluster::solveAtOnce(double enough_mps) {
+  if (stage_ == Stage::kPath) return pivotPaths();
+  const SolverSettings settings{.sweeps = kFineSweeps, .residual_mps = enough_mps};
+  visits_ += solveStandingContacts(rows_, stageBodies(), settings).visits;
+}
+
+// From where the paths began.
+void ContactCluster::pivotPaths() {
+  std::vector<ContactRow> rows = rows_;
+  for (ContactRow& row : rows) row.impulse.setZero();
+  std::vector<ImpulseBody> before = paths_;
+  for (std::size_t i = 0; i < before.size(); ++i) before[i].velocity = solve_before_[i];
+  std::vector<ImpulseBody> paths = before;
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (!pivotRows(rows, paths, Eigen::VectorXd::Constant(size, kPathShare * safeResidual())) ||
+      !staysNear(before, paths))
+    return;
+  rows_ = rows;
+  paths_ = paths;
 }
 
 std::vector<double> ContactCluster::findRestitution() {

@@ -137,6 +137,8 @@ class ContactCluster {
   void findBends();
   bool raiseForTurning(bool all);
   void solveSpreading(double careful_mps);
+  void solveAtOnce(double enough_mps);
+  void pivotPaths();
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();
 

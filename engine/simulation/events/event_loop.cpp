@@ -49,7 +49,7 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
+            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts)
       : bodies_(world.bodies),
         shapes_(world.shapes),
         table_(world.table),
@@ -62,6 +62,7 @@ class EventLoop {
         watchers_(watchers),
         cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
         clearing_(memory.clearing),
+        lifts_(lifts),
         predictions_(memory.predictions),
         struck_(memory.struck),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
@@ -426,7 +427,10 @@ class EventLoop {
     for (const int i : changed_) bring(i, time_s);
     if (leads) {
       const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, table_, bodies_);
-      for (std::size_t k = 0; k < changed_.size(); ++k) lead(changed_[k], paths[k].velocity, rest);
+      for (std::size_t k = 0; k < changed_.size(); ++k) {
+        lead(changed_[k], paths[k].velocity, rest);
+        lifts_.join(changed_.front(), changed_[k], bodies_);
+      }
     } else if (spent <= kMostClearings + kMostHalvings) {
       for (const int i : changed_) halve(i, rest);
     } else {
@@ -437,14 +441,25 @@ class EventLoop {
 
   // Straight on, at this mean velocity.
   void lead(int index, const Velocity& mean, double rest_of_step_s) {
-    bodies_[at(index)].travel = Travel::kCarried;
-    carryAlong(bodies_[at(index)], mean, rest_of_step_s, false);
+    Body& body = bodies_[at(index)];
+    countLift(body, meanOf(body.path, rest_of_step_s), mean.linear);
+    body.travel = Travel::kCarried;
+    carryAlong(body, mean, rest_of_step_s, false);
+  }
+
+  static Vec3 meanOf(const Trajectory& path, double rest_of_step_s) {
+    return path.velocity + 0.5 * rest_of_step_s * path.acceleration;
+  }
+
+  // From now on the body goes on at another mean velocity than it would have.
+  void countLift(Body& body, const Vec3& mean_before, const Vec3& mean) const {
+    body.lifting += settings_.gravity.dot(mean_before - mean);
   }
 
   void halve(int index, double rest_of_step_s) {
     const Trajectory& path = bodies_[at(index)].path;
-    const Vec3 mean = path.velocity + 0.5 * rest_of_step_s * path.acceleration;
-    lead(index, {0.5 * mean, 0.5 * path.angularVelocityAt(path.start_s)}, rest_of_step_s);
+    lead(index, {0.5 * meanOf(path, rest_of_step_s), 0.5 * path.angularVelocityAt(path.start_s)},
+         rest_of_step_s);
   }
 
   // The impulses of one event, the paths that follow, and the searches that these make out of date.
@@ -499,6 +514,7 @@ class EventLoop {
     counters_.work_J += planner_.workOfLoad(index, body, time_s);
     if (watchers_.paths != nullptr) watchers_.paths->add(at(index), body, time_s);
     const Pose X_WB = body.path.at(time_s);
+    body.lift += (time_s - body.path.start_s) * body.lifting;
     body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
     body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
     body.path.velocity = body.path.velocityAt(time_s);
@@ -535,6 +551,7 @@ class EventLoop {
         keepPath(body, i, rest);
         continue;
       }
+      body.lifting = 0.0;  // its path is that of its momentum again
       const bool flies = body.travel == Travel::kBallistic || member.expanded || !(rest > 0.0);
       if (flies && !cluster_.pressed(i)) {
         body.travel = Travel::kBallistic;
@@ -576,8 +593,7 @@ class EventLoop {
 
   void straighten(Body& body, double rest_of_step_s) {
     body.travel = Travel::kCarried;
-    const Vec3 mean = body.path.velocity + 0.5 * rest_of_step_s * body.path.acceleration;
-    carryAlong(body, {mean, body.path.spin}, rest_of_step_s, false);
+    carryAlong(body, {meanOf(body.path, rest_of_step_s), body.path.spin}, rest_of_step_s, false);
   }
 
   void takePaths(double time_s, bool crowded) {
@@ -596,12 +612,13 @@ class EventLoop {
       }
       body.travel = Travel::kCarried;
       carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
+      for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
+        lifts_.join(first, index, bodies_);
     }
   }
 
   // Its momentum goes on, and so do the forces of its contacts, which others have the opposites of: they have
-  // just been solved together, and the next step solves them again. What weight would give it without a fall
-  // is energy from nowhere.
+  // just been solved together, and the next step solves them again.
   void hold(int index) {
     Body& body = bodies_[at(index)];
     if (body.is_static || body.travel == Travel::kHeld) return;
@@ -609,12 +626,8 @@ class EventLoop {
       stop(index);
       return;
     }
+    countLift(body, meanOf(body.path, settings_.step_s - body.path.start_s), Vec3::Zero());
     endPath(body);
-    const double rest = settings_.step_s - body.path.start_s;
-    const Vec3 unfallen = body.acceleration - body.locks.movingPart(settings_.gravity);
-    if ((body.momentum_velocity.linear + rest * unfallen).squaredNorm() <
-        (body.momentum_velocity.linear + rest * body.acceleration).squaredNorm())
-      body.acceleration = unfallen;
     ++counters_.stopped_bodies;
   }
 
@@ -660,6 +673,7 @@ class EventLoop {
   StepWatchers watchers_;
   ContactCluster cluster_;
   PathClearing& clearing_;
+  PathLifts& lifts_;
   std::vector<Prediction>& predictions_;  ///< By place of the pair.
   std::vector<int>& struck_;              ///< Pairs that have had impacts in this step.
   long search_work_ = 0;                  ///< Of all searches in this step: see TimeOfImpact::work.
@@ -672,9 +686,9 @@ class EventLoop {
 }  // namespace
 
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts,
                const LandingSolver& solve_landings) {
-  return EventLoop(world, planner, counters, clock, watchers, memory).run(solve_landings);
+  return EventLoop(world, planner, counters, clock, watchers, memory, lifts).run(solve_landings);
 }
 
 }  // namespace carom

@@ -19,6 +19,7 @@
 #include "engine/simulation/bodies/step_paths.h"
 #include "engine/simulation/bodies/step_view.h"
 #include "engine/simulation/contacts/lasting_contact.h"
+#include "engine/simulation/contacts/path_lifts.h"
 #include "engine/simulation/events/contact_cluster.h"
 #include "engine/simulation/events/path_clearing.h"
 
@@ -58,7 +59,7 @@ using LandingSolver = std::function<std::optional<std::vector<int>>(std::span<co
 /// where it began, if lower) throughout. The bodies' paths then end at `X_end`. Whether it could; if not, the
 /// step must be planned anew.
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts,
                const LandingSolver& solve_landings);
 
 }  // namespace carom

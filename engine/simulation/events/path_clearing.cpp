@@ -8,6 +8,7 @@
 #include "engine/foundation/tolerances.h"
 #include "engine/response/one_point/impulse.h"
 #include "engine/response/sweeps/principal_pivoting.h"
+#include "engine/simulation/events/path_change.h"
 
 namespace carom {
 namespace {
@@ -17,8 +18,7 @@ constexpr double kOpened = 0.5;       // of what a gap misses to the rest gap
 constexpr double kSlowShare = 0.5;    // of the collision speed: the fastest closing left to a wider one
 constexpr double kSlack = 0.05;       // of the rest gap: a place that misses less has been led apart
 constexpr double kMuch = 0.25;  // rad: of what turns by less, the rows have seen the end of the arc to 1 %
-constexpr Eigen::Index kPivoted = 32;  // rows: more are not solved at once
-constexpr int kVisits = 2000;          // of rows in one solve, 0.1 ms
+constexpr int kVisits = 2000;   // of rows in one solve, 0.1 ms
 
 // What a body's path does in the mean over the rest of the step.
 Velocity meanOf(const Body& body, double time_s, double rest_s) {
@@ -98,6 +98,7 @@ void PathClearing::setPaths(const std::vector<int>& members, double time_s, doub
   for (const int i : touched_) path_of_[at(i)] = -1;
   touched_.clear();
   for (const int i : members) addPath(i, time_s, rest_s, bodies);
+  before_ = paths_;
 }
 
 int PathClearing::addPath(int index, double time_s, double rest_s, const std::vector<Body>& bodies) {
@@ -171,31 +172,19 @@ bool PathClearing::sweepRows() {
 }
 
 bool PathClearing::pivotRows() {
-  const auto size = static_cast<Eigen::Index>(rows_.size());
-  if (size > kPivoted) return false;
-  const auto partings = [&] {
-    Eigen::VectorXd speeds(size);
-    for (Eigen::Index i = 0; i < size; ++i) speeds[i] = partingOf(rows_[static_cast<std::size_t>(i)]);
-    return speeds;
-  };
-  Eigen::MatrixXd response(size, size);
-  Eigen::VectorXd missing = -partings(), slack(size);
-  const std::vector<ImpulseBody> moving = paths_;
-  for (ImpulseBody& path : paths_) path.velocity = {};
-  const std::vector<ImpulseBody> still = paths_;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    missing[i] += row.place->wanted_mps;
-    slack[i] = row.place->slack_mps;
-    push(row, 1.0);
-    response.col(i) = partings();
-    paths_ = still;
+  std::vector<ContactRow> rows(rows_.size());
+  Eigen::VectorXd slack(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows_[i];
+    rows[i].a = row.a;
+    rows[i].b = row.b;
+    rows[i].n = row.place->n_W;
+    rows[i].r_a = row.r_a;
+    rows[i].r_b = row.r_b;
+    rows[i].lowest_speed = row.place->wanted_mps;
+    slack[static_cast<Eigen::Index>(i)] = row.place->slack_mps;
   }
-  paths_ = moving;
-  const std::optional<Eigen::VectorXd> impulses = pivotImpulses(response, missing, slack);
-  if (!impulses) return false;
-  for (Eigen::Index i = 0; i < size; ++i) push(rows_[static_cast<std::size_t>(i)], (*impulses)[i]);
-  return true;
+  return carom::pivotRows(rows, paths_, slack);
 }
 
 void PathClearing::push(const Row& row, double impulse) {
@@ -211,9 +200,11 @@ std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members
     setRows(time_s, rest_s, table, bodies);
   };
   begin();
-  if (!sweepRows()) {
+  if (!sweepRows() || !staysNear(before_, paths_)) {
     begin();
-    if (!pivotRows()) {  // nothing keeps all of them apart: at least the one that was added last
+    if (!pivotRows() ||
+        !staysNear(before_,
+                   paths_)) {  // nothing keeps all of them apart: at least the one that was added last
       for (std::size_t i = 0; i < places_.size(); ++i) places_[i].gathered = i == last_added_;
       begin();
       sweepRows();

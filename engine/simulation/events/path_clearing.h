@@ -85,8 +85,9 @@ class PathClearing {
   std::vector<Place> places_;  ///< Of this step.
   std::size_t last_added_ = 0;
   std::vector<ImpulseBody> paths_;
-  std::vector<int> path_of_;  ///< By body: its place in `paths_`; -1: none.
-  std::vector<int> touched_;  ///< Bodies that have one.
+  std::vector<ImpulseBody> before_;  ///< The members' as they were.
+  std::vector<int> path_of_;         ///< By body: its place in `paths_`; -1: none.
+  std::vector<int> touched_;         ///< Bodies that have one.
   std::vector<Row> rows_;
 };
 

@@ -29,6 +29,8 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
       energy_(world, bodies_, start_),
       flight_(world, bodies_, world.states()),
       glide_(scene, world),
+      leap_(world, bodies_),
+      kinetic_before_J_(start_.kinetic_J),
       moved_(world),
       apart_(world) {
   const Air& air = world.settings().air;
@@ -54,7 +56,9 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
         energy_.after(now, flight_.after(states, step, findings_) + counters.work_J);
     totals_.worst_gain = std::max(totals_.worst_gain, gain.of_tolerance);
     if (gain.of_scale > 0.0) findings_.add("energy", gain.of_scale, step, gain.detail);
+    leap_.after(states, kinetic_before_J_ + now.kinetic_J + std::abs(Real{counters.work_J}), step, findings_);
   }
+  kinetic_before_J_ = now.kinetic_J;
   if (keeps_momentum_) checkMomentum(now, step);
   glide_.look(states, step, findings_);
   moved_.look(states, world_.audit().kinematic_late_s, step, findings_);

@@ -5,6 +5,7 @@
 #include "tests/explore/watch/apart_watch.h"
 #include "tests/explore/watch/flight_watch.h"
 #include "tests/explore/watch/glide_watch.h"
+#include "tests/explore/watch/leap_watch.h"
 #include "tests/explore/watch/moved_watch.h"
 
 namespace carom::explore {
@@ -54,6 +55,8 @@ class WorldJudge {
   EnergyWatch energy_;
   FlightWatch flight_;
   GlideWatch glide_;
+  LeapWatch leap_;
+  Real kinetic_before_J_ = 0;
   MovedWatch moved_;
   ApartWatch apart_;
   Real momentum_scale_ = 0, angular_scale_ = 0;

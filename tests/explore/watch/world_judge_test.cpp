@@ -88,6 +88,13 @@ TEST(WorldJudge, GivesTheFigureOfAGainAsAShareOfWhatThereWas) {
   EXPECT_EQ(finding->step, 5);
 }
 
+TEST(WorldJudge, SeesABodyLeap) {
+  const auto beside = [](std::vector<BodyState>& s, StepCounters&) { s[1].X_WB.position.y() += 0.3; };
+  EXPECT_TRUE(of(judged(kFalling, beside), "leap"));
+  const auto opened = [](std::vector<BodyState>& s, StepCounters&) { s[1].X_WB.position.y() += 1e-3; };
+  EXPECT_FALSE(of(judged(kFalling, opened), "leap")) << "as far as a gap opens in a step";
+}
+
 TEST(WorldJudge, SeesMomentumOfAClosedSystemChange) {
   const auto pushed = [](std::vector<BodyState>& s, StepCounters&) { s[0].linear_velocity.y() += 1e-10; };
   EXPECT_TRUE(of(judged(kClosed, pushed), "momentum"));

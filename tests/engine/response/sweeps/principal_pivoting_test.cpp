@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/oracle/test_shapes.h"
 
 namespace carom {
@@ -66,6 +68,26 @@ TEST(PivotImpulses, OfRowsThatContradictEachOther_AreNone) {
   response << 1.0, -1.0, -1.0, 1.0;
   EXPECT_FALSE(
       pivotImpulses(response, Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d::Constant(1e-3)).has_value());
+}
+
+// The same as rows of bodies: between the ground and a ton lies a plate of 1 g.
+TEST(PivotRows, KeepALightBodyApartFromTheGroundAndAHeavyOne) {
+  std::vector<ImpulseBody> bodies(3);  // the ground, the plate, the ton
+  bodies[1].inverse_mass = 1e3;
+  bodies[2].inverse_mass = 1e-3;
+  bodies[2].velocity.linear.z() = -1.0;
+  std::vector<ContactRow> rows(2);
+  rows[0].a = 0;
+  rows[0].b = 1;
+  rows[1].a = 1;
+  rows[1].b = 2;
+  rows[1].lowest_speed = -0.25;
+  ASSERT_TRUE(pivotRows(rows, bodies, Eigen::Vector2d::Constant(1e-6)));
+  EXPECT_NEAR(bodies[1].velocity.linear.z(), 0.0, 1e-6);
+  EXPECT_NEAR(bodies[2].velocity.linear.z(), -0.25, 1e-6);
+  EXPECT_NEAR(rows[0].impulse.x(), 750.0, 1e-3);
+  std::vector<ContactRow> many(33, rows[0]);
+  EXPECT_FALSE(pivotRows(many, bodies, Eigen::VectorXd::Zero(33)));
 }
 
 }  // namespace

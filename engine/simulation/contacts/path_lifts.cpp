@@ -1,0 +1,59 @@
+#include "engine/simulation/contacts/path_lifts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/foundation/index.h"
+
+namespace carom {
+namespace {
+
+// Takes energy, J/kg, out of the speed along `down`. Returns what that has less.
+double slowFall(Body& body, double energy, const Vec3& down) {
+  const double falling = body.velocity.linear.dot(down);
+  const double left = falling * falling - 2.0 * energy;
+  body.velocity.linear += (std::copysign(std::sqrt(std::max(0.0, left)), falling) - falling) * down;
+  return std::max(0.0, -0.5 * left);
+}
+
+// A body that rises, falls or tips does so by what lifted it: first this pays. Where nothing moves, a gap has
+// been opened under what lies, or was held up.
+void takeBack(Body& body, double energy, const Vec3& gravity) {
+  const double left = slowFall(body, energy, body.locks.movingPart(gravity).normalized());
+  if (!(left > 0.0)) return;
+  const double all = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity) / body.inertia.mass_kg;
+  const double kept = all > left ? std::sqrt(1.0 - left / all) : 0.0;
+  body.velocity.linear *= kept;
+  body.velocity.angular *= kept;
+}
+
+}  // namespace
+
+void PathLifts::begin(std::size_t bodies) {
+  together_.part(static_cast<int>(bodies));
+  accounts_.resize(bodies);
+}
+
+void PathLifts::join(int a, int b, const std::vector<Body>& bodies) {
+  if (bodies[at(a)].moves() && bodies[at(b)].moves()) together_.join(a, b);
+}
+
+void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, const Vec3& gravity) {
+  const auto accountOf = [&](int i) -> Account& { return accounts_[at(together_.of(i))]; };
+  for (const int i : active) accountOf(i) = {};
+  for (const int i : active) {
+    const Body& body = bodies[at(i)];
+    const double lift_J = body.inertia.mass_kg * body.lift;
+    accountOf(i).net_J += lift_J;
+    accountOf(i).raised_J += std::max(0.0, lift_J);
+  }
+  for (const int i : active) {
+    Body& body = bodies[at(i)];
+    const Account& account = accountOf(i);
+    if (body.lift > 0.0 && account.net_J > 0.0)
+      takeBack(body, body.lift * (account.net_J / account.raised_J), gravity);
+    body.lift = body.lifting = 0.0;
+  }
+}
+
+}  // namespace carom
