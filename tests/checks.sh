@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What holds beside the tests of the release build. checks.sh [STAGE...] runs the stages that are named; without names, those
-# of `bash tests/run.sh --all`, which continuous integration runs:
+# of `bash tests/run.sh --all`:
 #
 #   format      clang-format changes nothing
 #   lint        clang-tidy finds nothing in the engine (.clang-tidy)

@@ -14,7 +14,7 @@
 #include "demos/system/build_info.h"
 #include "demos/system/exit_code.h"
 #include "engine/motion/rigid_body.h"
-#include "renderer/view/view.h"
+#include "renderer/look/light.h"
 
 namespace carom::demos {
 namespace {
@@ -99,6 +99,19 @@ std::string shaderElements() {
     elements.append(source.text).append("</script>\n");
   }
   return elements;
+}
+
+/// As the renderer's shaders have it: what lights bodies before exposure, what the sky shows after it.
+Json lightJson(const renderer::Light& light) {
+  const auto lit = [&](const Vec3& color) { return numbers(light.exposure * color); };
+  const auto shown = [&](const Vec3& color) { return numbers(renderer::exposed(color, light.exposure)); };
+  return Json::object({{"toSun", numbers(light.to_light)},
+                       {"sun", lit(light.sun)},
+                       {"skyLight", lit(light.sky_light)},
+                       {"groundLight", lit(light.ground_light)},
+                       {"horizon", shown(light.horizon)},
+                       {"zenith", shown(light.zenith)},
+                       {"below", shown(light.below)}});
 }
 
 }  // namespace
@@ -208,7 +221,6 @@ Json PlayerPage::sceneJson() const {
 }
 
 Json PlayerPage::factsJson() const {
-  const renderer::Settings settings;
   Json facts = Json::object({{"format", 1},
                              {"program", "carom " + programVersion()},
                              {"scene", sceneJson()},
@@ -223,7 +235,7 @@ Json PlayerPage::factsJson() const {
                                                       {"speed", quanta_.speed_mps},
                                                       {"spin", quanta_.spin_radps},
                                                       {"fov", 1.0 / kFovSteps}})},
-                             {"light", Json::object({{"toSun", numbers(settings.to_light)}})},
+                             {"light", lightJson(scene_.light.light)},
                              {"modes", modesJson()},
                              {"water", waterJson(scene_)},
                              {"cameras", camerasJson()},
