@@ -49,7 +49,7 @@ def turntable():
           "not held by friction (0.25) and slides off: the three red blocks at 1.03, 1.2 and 1.4 of that, not the "
           "green ones at 0.6, 0.8 and 0.97.",
           "on a turntable friction holds what is within mu g / w^2: green blocks ride, red ones slide off",
-          {"floor": FLOOR, "rubber": {"staticFriction": friction, "density": 800}},
+          {"floor": FLOOR, "rubber": {"staticFriction": friction, "density": 800, "surface": "rubber"}},
           bodies, main_camera([0.15, -2.4, 1.85], [0.05, -0.03, 0.16], 38), 3.5, FOLDER,
           group="sliding and resting",
           lookFor="Green blocks ride along for ever, red ones slide off: the limit lies between 0.97 and 1.03.",
@@ -77,7 +77,7 @@ def gears():
           "through their teeth alone: the idler turns at -18/27 of that, the last at the rate of the first, within "
           "their play.",
           "gears of 18, 27 and 18 teeth: the first is turned, the others are driven by their teeth",
-          {"floor": FLOOR, "steel": {"staticFriction": 0.1, "density": 7800}},
+          {"floor": FLOOR, "steel": {"staticFriction": 0.1, "density": 7800, "surface": "steel"}},
           bodies, main_camera([0.4, -3.9, 3.5], [0, -0.1, 0.2], 44), 5, FOLDER,
           group="machines",
           lookFor="The idler turns the other way, at 18/27 of the rate.",

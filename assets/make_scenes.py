@@ -19,6 +19,7 @@ GRAVITY = 9.81
 BLUE, ORANGE, GREEN, YELLOW = "#0072b2", "#e69f00", "#009e73", "#f0e442"
 SKY, RED, PINK, STEEL, SLATE = "#56b4e9", "#d55e00", "#cc79a7", "#8e9aa6", "#5f6b76"
 FLOOR = {"staticFriction": 0.6, "color": "#d6d3cc", "checker": True}
+CONCRETE, PLANKS, SAND = ({"staticFriction": 0.6, "ground": name} for name in ("concrete", "planks", "sand"))
 
 
 def rounded(value, digits=9):
@@ -133,7 +134,7 @@ def cradle(folder):
           "one, two and three of five elastic balls strike the others, again and again",
           {"floor": FLOOR,
            "trough": {"staticFriction": 0, "restitution": 1, "density": 700, "color": "#b9c1c8"},
-           "steel": {"staticFriction": 0, "restitution": 1, "density": 7800}},
+           "steel": {"staticFriction": 0, "restitution": 1, "density": 7800, "surface": "steel"}},
           bodies, main_camera([2.0, -7.9, 3.7], [0.05, -0.1, 0.3], 27), 8, folder,
           group="accuracy beside theory",
           lookFor="As many balls leave as have come, with the same speed.",
@@ -166,7 +167,7 @@ def overhang(folder):
           "the stack stands, with 1.01 it falls.",
           "eight blocks 1 % short of the greatest overhang stand; 1 % beyond it they fall",
           {"floor": FLOOR, "table": {"staticFriction": 0.7, "color": SLATE},
-           "oak": {"staticFriction": 0.7, "density": 700}},
+           "oak": {"staticFriction": 0.7, "density": 700, "surface": "wood"}},
           bodies, main_camera([1.4, -11.0, 2.9], [0.35, 0, 1.1], 30), 3.6, folder,
           group="sliding and resting",
           lookFor="One stack in a hundred short of the limit stands, one in a hundred beyond it falls.",
@@ -344,7 +345,7 @@ def rolling_race(folder):
           "costs.",
           "a sliding block, a ball, a capsule and prisms race down an incline",
           {"floor": FLOOR, "ramp": {"staticFriction": 0.6, "color": "#b9c1c8"},
-           "ice": {"staticFriction": 0, "density": 900}, "rubber": {"staticFriction": 0.6, "density": 1100}},
+           "ice": {"staticFriction": 0, "density": 900}, "rubber": {"staticFriction": 0.6, "density": 1100, "surface": "rubber"}},
           bodies, main_camera([7.4, -8.4, 4.4], [0.35, -0.3, 0.45], 33), 3.1, folder,
           group="accuracy beside theory",
           lookFor="The block without friction wins; edges cost the prism of 12 sides most.",
@@ -538,7 +539,7 @@ def pyramid(folder):
           "A pyramid of 210 boxes in twenty rows, at rest, until a ball takes its top away; the rest "
           "stays.",
           "a pyramid of 210 boxes, and a ball that takes its top away",
-          {"floor": FLOOR, "brick": {"staticFriction": 0.6, "density": 700}},
+          {"floor": SAND, "brick": {"staticFriction": 0.6, "density": 700, "surface": "brick"}},
           bodies, main_camera([2.5, -15.5, 4.9], [-0.1, 0, 3.0], 31), 3.4, folder, 60,
           group="large",
           lookFor="The top goes, the rest of the 210 boxes stays as it was.",
@@ -576,7 +577,7 @@ def wall(folder, rows=11, columns=13):
     write("wall",
           f"A wall of {count} bricks in running bond without mortar, and a ball.",
           f"a wall of {count} bricks without mortar, and a ball",
-          {"floor": FLOOR, "brick": {"staticFriction": 0.6, "density": 1800}},
+          {"floor": CONCRETE, "brick": {"staticFriction": 0.6, "density": 1800, "surface": "brick"}},
           bodies, main_camera([4.3, -8.6, 2.8], [0.1, 0.2, 1.05], 34), 3.2, folder, 120,
           group="large",
           lookFor="The ball punches a hole; the bricks above bridge it for a moment, then come down.",
@@ -605,7 +606,7 @@ def tower_hit(folder):
     write("tower-hit",
           "A tower of planks, three a storey and crosswise, stands until a ball hits it.",
           "a tower of planks is hit by a ball",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.5, "density": 600}},
+          {"floor": PLANKS, "wood": {"staticFriction": 0.5, "density": 600, "surface": "wood"}},
           bodies, main_camera([4.2, -8.0, 3.0], [0.75, 0, 1.35], 33), 2.8, folder,
           group="many contacts",
           lookFor="The ball goes through the middle; what stood above comes down where it was.",

@@ -8,7 +8,7 @@ Usage: python3 assets/make_showpieces.py        (needs nothing but Python 3)
 import math
 import random
 
-from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, YELLOW, FLOOR
+from make_scenes import CONCRETE, PLANKS, SAND, BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, YELLOW, FLOOR
 from make_scenes import body, floor, main_camera, turn, write
 from make_mechanisms import mesh
 from make_theory import DARK_OAK, OAK, SLATE_FLOOR, part
@@ -49,7 +49,7 @@ def billiard_break():
           "A break that hits the rack in its middle: rack and cue ball are their own mirror image, and without friction "
           "they stay so for some time: what begins as the last bit of a number grows with every impact.",
           "a break on a table without friction, mirror-symmetric for a while",
-          {"floor": SLATE_FLOOR, "cloth": {"staticFriction": 0}, "rubber": {"staticFriction": 0, "restitution": 0.85},
+          {"floor": SLATE_FLOOR, "cloth": {"staticFriction": 0}, "rubber": {"staticFriction": 0, "restitution": 0.85, "surface": "rubber"},
            "ivory": {"staticFriction": 0, "restitution": 0.95, "density": 1700}},
           bodies, main_camera([-1.4, -9.3, 7.6], [0.1, -0.25, 0.3], 38), 6, FOLDER, group="showpieces",
           lookFor="The upper half of the table is the mirror image of the lower one until rounding has grown visible.",
@@ -95,7 +95,7 @@ def hourglass():
           "Grains run through a neck of six radii at one rate however many lie above it, unlike water: arches that "
           "form and break over the neck carry what is higher up (Beverloo).",
           f"{count} grains run through the neck of an hourglass at one rate",
-          {"floor": SLATE_FLOOR, "wood": {"staticFriction": 0.4}, "glass": {"staticFriction": 0.1},
+          {"floor": SLATE_FLOOR, "wood": {"staticFriction": 0.4, "surface": "wood"}, "glass": {"staticFriction": 0.1},
            "sand": {"staticFriction": 0.2, "density": 2500}},
           bodies, main_camera([0.5, -11.6, 3.4], [0, 0, 2.75], 30), 8, FOLDER, 240, group="many contacts",
           lookFor="The level above sinks evenly; now and then an arch forms over the neck and breaks.",
@@ -134,7 +134,7 @@ def double_cone():
           "Two cones base to base roll up two rails: the rails part faster than they rise, so while the rails climb the "
           "axle sinks. It goes if tan(rise) < tan(half the angle between the rails) tan(half the cone's angle).",
           "a double cone rolls uphill on rails that part",
-          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.8}, "wood": {"staticFriction": 0.8, "density": 600}},
+          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.8, "surface": "steel"}, "wood": {"staticFriction": 0.8, "density": 600, "surface": "wood"}},
           bodies, main_camera([1.2, -5.6, 2.4], [0.05, 0, 0.8], 36), 4, FOLDER, 480, group="accuracy beside theory",
           lookFor="The rails rise to the right, the cone rolls to the right, and its axle sinks.",
           caption="tan(rise) = {=tan(3.2):3} < {=tan(17)*0.55/1.15:3} = tan φ tan β: it rolls up   axle "
@@ -169,7 +169,7 @@ def domino_spiral():
           f"Two spirals of {arms} dominoes fall from the inside out; both arms are the same, turned by half a turn, and "
           "so are their waves.",
           f"two spirals of {arms} dominoes fall from the inside out",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.3, "dynamicFriction": 0.25, "density": 700}},
+          {"floor": PLANKS, "wood": {"staticFriction": 0.3, "dynamicFriction": 0.25, "density": 700, "surface": "wood"}},
           bodies, {"main": {"keyframes": [
               {"time": 0, "eye": [1.6, -4.2, 2.6], "target": [0, 0.1, 0.2]},
               {"time": 5.5, "eye": [2.2, -6.6, 5.6], "target": [0.1, -0.15, 0.1]}], "fovDegrees": 38}}, 6, FOLDER, 240,
@@ -200,7 +200,7 @@ def bowling():
     write("bowling",
           "A ball rolls into ten pins, a little beside the middle. What falls falls by impacts from pin to pin.",
           "a bowling ball rolls into ten pins",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.25}, "pin": {"staticFriction": 0.4, "restitution": 0.35, "density": 650},
+          {"floor": CONCRETE, "wood": {"staticFriction": 0.25, "surface": "wood"}, "pin": {"staticFriction": 0.4, "restitution": 0.35, "density": 650},
            "ball": {"staticFriction": 0.3, "restitution": 0.1, "density": 1300}},
           bodies, {"main": {"keyframes": [
               {"time": 0, "eye": [-4.6, -2.9, 2.3], "target": [0.6, 0, 0.5]},
@@ -228,7 +228,7 @@ def tin_cans():
           "Ten cups, upside down in a pyramid, and a ball. The cups are hollow meshes: they tumble, roll round on their "
           "rims and can come to stand over each other.",
           "a ball is thrown into a pyramid of ten hollow cups",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.5}, "steel": {"staticFriction": 0.3, "restitution": 0.3, "density": 900}},
+          {"floor": PLANKS, "wood": {"staticFriction": 0.5, "surface": "wood"}, "steel": {"staticFriction": 0.3, "restitution": 0.3, "density": 900, "surface": "steel"}},
           bodies, main_camera([2.3, -5.6, 2.9], [0.05, 0.2, 1.35], 34), 3.5, FOLDER, 240, group="meshes",
           lookFor="Cups roll in circles on their rims, as hollow cones do.",
           caption="ten hollow cups   the ball: {body:ball.speed:2} m/s")
@@ -250,7 +250,7 @@ def ring_toss():
           "Five rings are thrown at once, at five heights, so that they come down over the post one after the other: a "
           "ring is a mesh with a hole, and the post goes through it.",
           "five rings come down over a post, one after the other",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.4}, "rubber": {"staticFriction": 0.5, "restitution": 0.1, "density": 1100}},
+          {"floor": SAND, "wood": {"staticFriction": 0.4, "surface": "wood"}, "rubber": {"staticFriction": 0.5, "restitution": 0.1, "density": 1100, "surface": "rubber"}},
           bodies, main_camera([1.5, -5.4, 2.6], [-0.8, 0, 1.5], 45), 3.4, FOLDER, 240, group="meshes",
           lookFor="The rings stay on the post: what goes through a hole is never lost to it.",
           caption="rings over the post: the last one flies {=0.6+4*0.38:2} s   t = {=time:2} s")
@@ -280,8 +280,8 @@ def roller_conveyor():
           "Rollers of radius r that turn at w carry what lies on them at w r: crates that fall on them slip until they "
           "have that speed, ride along without slipping, and drop at the end.",
           "driven rollers carry crates along and drop them on a heap",
-          {"floor": FLOOR, "rubber": {"staticFriction": 0.5}, "steel": {"staticFriction": 0.1},
-           "cardboard": {"staticFriction": 0.5, "density": 200}},
+          {"floor": FLOOR, "rubber": {"staticFriction": 0.5, "surface": "rubber"}, "steel": {"staticFriction": 0.1, "surface": "steel"},
+           "cardboard": {"staticFriction": 0.5, "density": 200, "surface": "cardboard"}},
           bodies, main_camera([2.0, -8.2, 3.6], [0.55, 0, 1.15], 36), 8, FOLDER, 240, group="machines",
           lookFor="Each crate slips for a moment, then rides at the speed of the rollers' surface.",
           caption="ωr = {=w*r:3} m/s   measured: first crate {body:crate 1.vx:3} m/s, second {body:crate 2.vx:3} m/s",
@@ -322,9 +322,9 @@ def catapult():
           "A weight of 1500 kg falls on one end of a beam that turns about its middle and throws the ball on the other "
           "end into a wall of boxes.",
           "a falling weight throws a ball over a beam into a wall",
-          {"floor": FLOOR, "concrete": {"staticFriction": 0.6}, "wood": {"staticFriction": 0.5, "density": 500},
-           "marble": {"staticFriction": 0.4, "density": 3500}, "steel": {"staticFriction": 0.5, "density": 7800},
-           "cardboard": {"staticFriction": 0.5, "density": 100}},
+          {"floor": CONCRETE, "concrete": {"staticFriction": 0.6, "surface": "concrete"}, "wood": {"staticFriction": 0.5, "density": 500, "surface": "wood"},
+           "marble": {"staticFriction": 0.4, "density": 3500, "surface": "marble"}, "steel": {"staticFriction": 0.5, "density": 7800, "surface": "steel"},
+           "cardboard": {"staticFriction": 0.5, "density": 100, "surface": "cardboard"}},
           bodies, main_camera([-0.4, -9.4, 3.3], [-1.15, 0, 2.1], 38), 2.8, FOLDER, 240, group="machines",
           lookFor="The weight falls on the far end; what the ball gets of it takes it right into the wall.",
           caption="the ball: {body:shot.speed:1} m/s, {body:shot.z:1} m high")
@@ -348,7 +348,7 @@ def raft_in_waves():
           "A raft of six logs carries twelve crates through waves; the crates hold on by friction alone until a wave "
           "is too steep for it.",
           "a raft with a pile of crates rides in waves",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.5, "density": 500}, "cardboard": {"staticFriction": 0.35, "density": 180}},
+          {"floor": FLOOR, "wood": {"staticFriction": 0.5, "density": 500, "surface": "wood"}, "cardboard": {"staticFriction": 0.35, "density": 180, "surface": "cardboard"}},
           bodies, main_camera([3.6, -6.0, 2.9], [0.1, 0, 0.35], 36), 8, FOLDER, 120, group="air and water",
           lookFor="The raft follows the slope of the water, and the pile leans, shifts and begins to slide.",
           caption="wave steepness up to {=360*0.16/5.2+360*0.05/2.3:0}°, friction holds 19° in the pile, 22° on the deck   raft at {body:raft.tilt:1}°", air={},
@@ -425,7 +425,7 @@ def avalanche(count=130):
           f"{count} stones lie behind a gate on a slope of {slope:.0f} degrees, steeper than their friction holds. The gate "
           "is lifted, and they come down, spread and stop.",
           f"{count} stones come down a slope when a gate is lifted",
-          {"floor": FLOOR, "rock": {"staticFriction": 0.45}, "steel": {"staticFriction": 0.05},
+          {"floor": FLOOR, "rock": {"staticFriction": 0.45}, "steel": {"staticFriction": 0.05, "surface": "steel"},
            "stone": {"staticFriction": 0.45, "restitution": 0.1, "density": 2400}},
           bodies, main_camera([11.0, -14.2, 8.4], [-1.7, 0, 1.9], 38), 5, FOLDER, 120, group="many contacts",
           lookFor="The front runs out on the floor, the tail still slides: the heap stops from the front backwards.",

@@ -47,8 +47,8 @@ def loop_the_loop():
           "its middle). With 0.85 and 0.97 of that speed it leaves the ring before the top, with 1.03 it never does. "
           "Beads and rings are elastic, so the sum of energies stays.",
           "beads with a little too little and with enough speed to go round a ring",
-          {"floor": SLATE_FLOOR, "wood": {"staticFriction": 0.5},
-           "steel": {"staticFriction": 0, "restitution": 1, "density": 2500}},
+          {"floor": SLATE_FLOOR, "wood": {"staticFriction": 0.5, "surface": "wood"},
+           "steel": {"staticFriction": 0, "restitution": 1, "density": 2500, "surface": "steel"}},
           bodies, main_camera([0.9, -8.6, 2.2], [0, 0, 1.02], 28), 6, FOLDER,
           group="accuracy beside theory",
           lookFor="The red and the orange bead fall from the ring before its top, the green one goes round for ever.",
@@ -106,7 +106,7 @@ def dzhanibekov():
           "(Dzhanibekov's handle). Euler's equations, solved apart from the engine, say when: the stem crosses the "
           f"level at {first:.3f} s and then every {second - first:.3f} s. Energy stays.",
           "a T-shaped handle that spins without weight turns over at regular times",
-          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.3, "density": density}},
+          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0.3, "density": density, "surface": "steel"}},
           bodies, main_camera([1.3, -4.8, 2.2], [0, 0, 1.33], 29), 3 * (second - first) + first + 0.3, FOLDER,
           gravity=[0, 0, 0], group="accuracy beside theory",
           lookFor="The stem points down, turns over within a moment, points up, and comes back: always "
@@ -206,7 +206,7 @@ def brachistochrone():
           f"{times['cycloid']:.3f} s, against {times['straight']:.3f} s straight and {times['deep']:.3f} s along a "
           "deeper curve, which is steeper at first and longer.",
           "beads race down a straight line, a cycloid and a deeper curve; the cycloid wins",
-          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0, "restitution": 1}, "rubber": {"staticFriction": 0.9},
+          {"floor": SLATE_FLOOR, "steel": {"staticFriction": 0, "restitution": 1, "surface": "steel"}, "rubber": {"staticFriction": 0.9, "surface": "rubber"},
            "bead": {"staticFriction": 0, "density": 2500}},
           bodies, main_camera([7.0, -20.5, 8.8], [0.75, 0, 3.6], 33), 3.4, FOLDER, group="accuracy beside theory",
           lookFor="The green bead on the cycloid arrives first, though its way is longer than the red one's.",
@@ -247,7 +247,7 @@ def seesaw():
           "The law of the lever: 10 kg at 1.3 m hold 20 kg at 0.65 m, on a beam that turns about its middle; 21 kg tip "
           "it. On the third beam a weight that falls makes another one jump.",
           "beams in balance, just out of it, and far from it",
-          {"floor": FLOOR, "concrete": {"staticFriction": 0.5}, "wood": {"staticFriction": 0.6, "density": 500}},
+          {"floor": FLOOR, "concrete": {"staticFriction": 0.5, "surface": "concrete"}, "wood": {"staticFriction": 0.6, "density": 500, "surface": "wood"}},
           bodies, main_camera([1.7, -6.8, 3.2], [0.1, 0, 0.9], 34), 4, FOLDER, group="machines",
           lookFor="The far beam stays level, the middle one, 5 % out of balance, tips, the near one throws "
                   "its load up.",
@@ -261,7 +261,7 @@ def archimedes():
     floats = ((150, YELLOW, "cork"), (350, ORANGE, "pine"), (550, RED, "oak"), (750, PINK, "ash"), (920, SKY, "ice"))
     bodies = [floor(), body("plinth", {"box": [8.6, 2.6, 0.2]}, [0, 0, 0.1], static=True, material="concrete",
                             color="#8d9196")]
-    materials = {"floor": FLOOR, "concrete": {"staticFriction": 0.5}}
+    materials = {"floor": FLOOR, "concrete": {"staticFriction": 0.5, "surface": "concrete"}}
     shown = []
     for k, (density, color, name) in enumerate(floats):
         draft = density / 1000 * high
