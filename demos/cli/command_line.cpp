@@ -847,7 +847,9 @@ ExitCode runCommandLine(int argc, char** argv) {
   }
   checkValues(line);
   for (int i = 1; i < argc; ++i) line.budget_options.words.emplace_back(argv[i]);
-  line.render_options.caption = line.caption.empty() ? !line.render_options.portable : line.caption == "on";
+  const RenderOptions& asked = line.render_options;
+  line.render_options.caption =
+      line.caption.empty() ? !asked.portable && asked.background == "scene" : line.caption == "on";
   line.render_options.states = line.render_options.states || line.render_options.portable;
   line.render_options.command_line = quotedCommandLine(argc, argv);
   if (line.list_command->parsed()) return list(line.list_options);

@@ -26,7 +26,7 @@
 #include "demos/frames/manifest.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
-#include "demos/overlay/caption_painter.h"
+#include "demos/video/caption_painter.h"
 #include "demos/overlay/overlays.h"
 #include "demos/record/motion_recorder.h"
 #include "demos/record/recorded_scene.h"
@@ -555,6 +555,7 @@ void requireAlpha(const RenderOptions& options, const OverlayChoice& shown) {
   };
   if (options.style != "daylight") refuse("--style " + options.style, "--style daylight");
   if (shown.any()) refuse("--overlay", "none");
+  if (options.caption) refuse("--caption on", "--caption off");
   if (!options.sheet.empty()) refuse("--sheet", "PNG frames");
   if (!options.moving.empty()) refuse(options.moving.string(), "PNG frames");
   if (!options.stream.empty() && options.stream != "png")

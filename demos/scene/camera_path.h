@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "demos/scene/curved_path.h"
+#include "demos/formula/curved_path.h"
 #include "demos/scene/scene_camera.h"
 #include "demos/scene/scene_world.h"
 

@@ -265,8 +265,8 @@ std::vector<renderer::Instance> drawnInstances(const SceneWorld& scene, std::spa
   std::vector<renderer::Instance> instances;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const SurfaceLook& look = scene.looks[i];
-    instances.push_back({scene.drawnSolid(i), states[i].X_WB, look.color, look.checker,
-                         look.pattern, scene.surfaces[i]});
+    instances.push_back(
+        {scene.drawnSolid(i), states[i].X_WB, look.color, look.checker, look.pattern, scene.surfaces[i]});
   }
   return instances;
 }

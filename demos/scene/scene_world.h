@@ -31,7 +31,7 @@ struct SceneWorld {
   std::function<std::vector<Vec3>()> movedPoints = {};
   std::vector<Solid> looking_otherwise = {};  ///< Solids as they are drawn, where some body has a "visual":
                                               ///< the world's own, then the others.
-  std::vector<int> drawn_as = {};  ///< Of each body the solid that is drawn, then; else none.
+  std::vector<int> drawn_as = {};             ///< Of each body the solid that is drawn, then; else none.
 
   std::span<const Solid> drawnSolids() const {
     return looking_otherwise.empty() ? std::span<const Solid>(world.solids()) : looking_otherwise;

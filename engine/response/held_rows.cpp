@@ -25,7 +25,8 @@ bool isHeld(const ContactRow& row) {
 
 // What of a held row is an equation: if it slides, or all do, its normal part.
 Mat3 stiffnessOf(const ContactRow& row, bool friction) {
-  const bool slides = !friction || row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
+  const bool slides =
+      !friction || row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
   if (!slides) return HeldRows::kStiffness * row.inverse_response;
   Mat3 stiffness = Mat3::Zero();
   stiffness(0, 0) = HeldRows::kStiffness / row.normal_response.x();

@@ -52,11 +52,10 @@ class Saved {
 SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                    const SolverSettings& settings) {
   SolverReport total = solveContactsFocused(rows, bodies, settings);
-  const SolverSettings after{
-      .sweeps = kSweepsAfter,
-      .residual_mps = kFiner * settings.residual_mps,
-      .friction = settings.friction,
-      .crew = settings.crew};
+  const SolverSettings after{.sweeps = kSweepsAfter,
+                             .residual_mps = kFiner * settings.residual_mps,
+                             .friction = settings.friction,
+                             .crew = settings.crew};
   if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
   total.products = held.products();

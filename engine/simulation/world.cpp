@@ -95,7 +95,6 @@ struct World::Impl {
       potential_J;  ///< Of each body as it was published, where there is neither air nor water.
   PairTable table;
   LastingContacts contacts;  ///< Of the last substep.
-  PathLifts lifts;
   FlightPlanner planner;
   RestingIslands resting_islands;
   EventMemory event_memory;
@@ -236,9 +235,9 @@ void World::Impl::finishStep(PhaseClock* clock) {
   });
   for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
     const ShapePair& pair = table.pairs()[at(of_pair.pair)];
-    lifts.join(pair.body_a, pair.body_b, bodies);
+    event_memory.lifts.join(pair.body_a, pair.body_b, bodies);
   }
-  lifts.pay(bodies, active.list(), settings.gravity);
+  event_memory.lifts.pay(bodies, active.list(), settings.gravity);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }
@@ -368,8 +367,8 @@ bool World::Impl::advance(PhaseClock* clock) {
     return moved;
   };
   const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
-  lifts.begin(bodies.size());
-  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory, lifts,
+  event_memory.lifts.begin(bodies.size());
+  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory,
                    std::ref(solve_landings));  // so that it allocates nothing
 }
 

@@ -49,7 +49,7 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts)
+            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
       : bodies_(world.bodies),
         shapes_(world.shapes),
         table_(world.table),
@@ -62,7 +62,7 @@ class EventLoop {
         watchers_(watchers),
         cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
         clearing_(memory.clearing),
-        lifts_(lifts),
+        lifts_(memory.lifts),
         predictions_(memory.predictions),
         struck_(memory.struck),
         most_search_work_(std::max(tolerance::kLeastSearchWork,
@@ -686,9 +686,9 @@ class EventLoop {
 }  // namespace
 
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
                const LandingSolver& solve_landings) {
-  return EventLoop(world, planner, counters, clock, watchers, memory, lifts).run(solve_landings);
+  return EventLoop(world, planner, counters, clock, watchers, memory).run(solve_landings);
 }
 
 }  // namespace carom

@@ -48,6 +48,7 @@ struct EventMemory {
   std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
   ClusterMemory cluster;
   PathClearing clearing;
+  PathLifts lifts;
 };
 
 /// Solves the landings of these pairs (ShapePair::landing), or of some of them, with the step's lasting
@@ -59,7 +60,7 @@ using LandingSolver = std::function<std::optional<std::vector<int>>(std::span<co
 /// where it began, if lower) throughout. The bodies' paths then end at `X_end`. Whether it could; if not, the
 /// step must be planned anew.
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory, PathLifts& lifts,
+               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
                const LandingSolver& solve_landings);
 
 }  // namespace carom

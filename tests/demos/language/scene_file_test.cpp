@@ -47,8 +47,8 @@ const char kOneOfShapes[] =
 const Refusal kRefusals[] = {
     {"MisspeltTopKey", "{ \"format\": 1, \"boddies\": [] }",
      ":1: boddies: unknown key \"boddies\"; did you mean \"bodies\"? accepted: $schema, format, "
-     "description, set, include, gravity, rate, seed, materials, air, fluids, bodies, cameras, duration, "
-     "light"},
+     "description, lookFor, group, caption, set, include, gravity, rate, seed, materials, air, fluids, "
+     "bodies, cameras, duration, light"},
     {"MisspeltShape", bodyScene("\"shape\": { \"bx\": [1, 1, 1] }"),
      ":3: bodies[0].shape.bx: unknown key \"bx\"; did you mean \"box\"? accepted: box, sphere, capsule, "
      "cylinder, cone, prism, wedge, roundedBox, hull, mesh, compound"},
@@ -59,8 +59,8 @@ const Refusal kRefusals[] = {
      ":2: bodies[0].material: unknown material \"wod\"; did you mean \"wood\"? accepted: wood"},
     {"KeyOfALaterFormat",
      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " } ],\n \"sound\": [] }",
-     ":2: sound: unknown key \"sound\"; accepted: $schema, format, description, set, include, gravity, "
-     "rate, seed, materials, air, fluids, bodies, cameras, duration, light"},
+     ":2: sound: unknown key \"sound\"; accepted: $schema, format, description, lookFor, group, "
+     "caption, set, include, gravity, rate, seed, materials, air, fluids, bodies, cameras, duration, light"},
     {"UnknownFormat", "{ \"format\": 2, \"bodies\": [] }", ":1: format: 2 is unknown; accepted: 1"},
     {"MissingFormat", "{ \"bodies\": [] }", ":1: key \"format\" is missing"},
     {"NoBodies", "{ \"format\": 1, \"bodies\": [] }", ":1: bodies: a scene needs at least one body"},
@@ -139,7 +139,8 @@ const Refusal kRefusals[] = {
      ":2: cameras.main: eye and target coincide"},
     {"MisspeltCamera", cameraScene("{ \"folow\": \"a\" }"),
      ":2: cameras.main.folow: unknown key \"folow\"; did you mean \"follow\"? accepted: eye, target, "
-     "fovDegrees, fit, direction, follow, offset, orbit, aperture, focus"},
+     "fovDegrees, fit, direction, frame, fill, follow, offset, orbit, keyframes, interpolation, dolly, "
+     "aperture, focus"},
     {"TwoKindsOfCamera", cameraScene("{ \"fit\": true, \"eye\": [1, 2, 3] }"),
      ":2: cameras.main.eye: unknown key \"eye\"; accepted: fit, direction, fovDegrees, aperture, focus"},
     {"FitThatDoesNot", cameraScene("{ \"fit\": false }"),

@@ -1,4 +1,4 @@
-#include "demos/overlay/caption_painter.h"
+#include "demos/video/caption_painter.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // (Barry and Goldman, SIGGRAPH 1988; Yuksel, Schaefer and Keyser, Computer-Aided Design 43, 2011: no cusps,
 // no loops within a piece), walked by the length of its arc. A value through keyframes in time is a monotone
 // cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980): never beyond the keyframes around it, so that
-// what stands between two of them stands. Tested in tests/demos/scene/curved_path_test.cpp.
+// what stands between two of them stands. Tested in tests/demos/formula/curved_path_test.cpp.
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // Draws a frame's caption: white letters on a dark band near the lower edge, on one line or, where it would
-// be too small to read, on two. Tested in tests/demos/overlay/caption_painter_test.cpp.
+// be too small to read, on two. Tested in tests/demos/video/caption_painter_test.cpp.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "demos/scene/curved_path.h"
+#include "demos/formula/curved_path.h"
 
 #include <array>
 #include <cmath>
