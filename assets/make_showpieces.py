@@ -324,7 +324,7 @@ def catapult():
           "a falling weight throws a ball over a beam into a wall",
           {"floor": CONCRETE, "concrete": {"staticFriction": 0.6, "surface": "concrete"}, "wood": {"staticFriction": 0.5, "density": 500, "surface": "wood"},
            "marble": {"staticFriction": 0.4, "density": 3500, "surface": "marble"}, "steel": {"staticFriction": 0.5, "density": 7800, "surface": "steel"},
-           "cardboard": {"staticFriction": 0.5, "density": 100, "surface": "cardboard"}},
+           "cardboard": {"staticFriction": 0.5, "density": 100}},
           bodies, main_camera([-0.4, -9.4, 3.3], [-1.15, 0, 2.1], 38), 2.8, FOLDER, 240, group="machines",
           lookFor="The weight falls on the far end; what the ball gets of it takes it right into the wall.",
           caption="the ball: {body:shot.speed:1} m/s, {body:shot.z:1} m high")

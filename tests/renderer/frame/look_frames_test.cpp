@@ -223,7 +223,7 @@ double spread(const Image& image) {
   return std::sqrt(square / sum - x_sum * x_sum / (sum * sum));
 }
 
-// The blur of a lens of width a, focused at f, at distance d: a disc a |d - f| / d / f wide, times the focal
+// The blur of a lens of width a, sharp at f, at distance d: a disc a |d - f| / d / f wide, times the focal
 // length, whose variance along x (a sixteenth of its width squared) adds to the ball's own.
 TEST(Lens, BlursByTheCircleOfConfusion) {
   Settings settings = sized(240, 240);
