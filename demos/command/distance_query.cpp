@@ -146,10 +146,10 @@ const ConvexPart& HullStore::hullOf(const std::string& file) {
 Json DistanceAnswers::answer(const DistanceQuery& query) {
   const ConvexPart& a = hulls_.hullOf(query.a);
   const ConvexPart& b = hulls_.hullOf(query.b);
-  if (start_ == Start::kCold || query.a != last_a_ || query.b != last_b_) memory_.emplace();
+  if (start_ == Start::kCold || query.a != last_a_ || query.b != last_b_) memory_ = {};
   last_a_ = query.a;
   last_b_ = query.b;
-  const ClosestFeatures closest = closestFeatures(a, query.X_WA, b, query.X_WB, *memory_);
+  const ClosestFeatures closest = closestFeatures(a, query.X_WA, b, query.X_WB, memory_);
   return Json::object({{"status", nameOf(closest.status)},
                        {"distance", closest.distance_m},
                        {"pointA", toJson(closest.p_A_W)},

@@ -56,7 +56,7 @@ class DistanceAnswers {
   Start start_;
   HullStore hulls_;
   std::string last_a_, last_b_;
-  std::optional<PairMemory> memory_ = std::optional<PairMemory>(std::in_place);
+  PairMemory memory_;
 };
 
 }  // namespace carom::demos

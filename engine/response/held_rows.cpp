@@ -23,10 +23,9 @@ bool isHeld(const ContactRow& row) {
   return row.impulse.x() > 0.0 && row.lowest_speed >= 0.0;
 }
 
-// What of a held row is an equation: if it slides, or all do, its normal part.
-Mat3 stiffnessOf(const ContactRow& row, bool friction) {
-  const bool slides =
-      !friction || row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
+// What of a held row is an equation: if it slides, its normal part.
+Mat3 stiffnessOf(const ContactRow& row) {
+  const bool slides = row.impulse.tail<2>().norm() >= kInsideCone * row.coefficient * row.impulse.x();
   if (!slides) return HeldRows::kStiffness * row.inverse_response;
   Mat3 stiffness = Mat3::Zero();
   stiffness(0, 0) = HeldRows::kStiffness / row.normal_response.x();
@@ -150,7 +149,7 @@ void HeldRows::addRow(const RowPlace& place, const Mat3& stiffness, const Vec3& 
     blocks_[at(place.block)].value += place.of_b.transpose() * on_a;
 }
 
-bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction) {
+bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   diagonal_ = inertia_;
   for (OffDiagonalBlock& block : blocks_) block.value.setZero();
   push_.setZero(6 * static_cast<int>(inertia_.size()));
@@ -158,7 +157,7 @@ bool HeldRows::step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, b
   equations.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!isHeld(rows[i])) continue;
-    equations.push_back({i, stiffnessOf(rows[i], friction), rowMiss(rows[i], bodies)});
+    equations.push_back({i, stiffnessOf(rows[i]), rowMiss(rows[i], bodies)});
     addRow(places_[i], equations.back().stiffness, equations.back().miss);
   }
   if (!factor_->factorize(diagonal_, blocks_)) return false;

@@ -29,7 +29,7 @@ class HeldRows {
 
   /// Changes the impulses of the rows that press, and the velocities with them. Impulses may leave their
   /// cones: sweeps must follow. False when the system could not be solved; then nothing has changed.
-  bool step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction = true);
+  bool step(std::span<ContactRow> rows, std::span<ImpulseBody> bodies);
   /// What a step takes: products of 6 x 6 blocks.
   long products() const { return factor_->products(); }
 

@@ -52,10 +52,8 @@ class Saved {
 SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                    const SolverSettings& settings) {
   SolverReport total = solveContactsFocused(rows, bodies, settings);
-  const SolverSettings after{.sweeps = kSweepsAfter,
-                             .residual_mps = kFiner * settings.residual_mps,
-                             .friction = settings.friction,
-                             .crew = settings.crew};
+  const SolverSettings after{
+      .sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps, .crew = settings.crew};
   if (total.residual_mps <= settings.residual_mps) return total;
   HeldRows held(rows, bodies);
   total.products = held.products();
@@ -63,7 +61,7 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   Saved best(rows, bodies, total.residual_mps);
   const int most_steps = rows.size() < kFocusedRows ? kSteps : kCrowdSteps;
   for (int step = 0; step < most_steps; ++step) {
-    if (!held.step(rows, bodies, settings.friction)) break;
+    if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFocused(rows, bodies, after);
     total.sweeps += report.sweeps;
     total.visits += report.visits;

@@ -30,8 +30,9 @@ namespace carom {
 
 class InnerPolytope {
  public:
+  InnerPolytope() : InnerPolytope(nullptr) {}
   /// Its memory comes from `memory`, that of a copy from the heap.
-  explicit InnerPolytope(Arena* memory = nullptr)
+  explicit InnerPolytope(Arena* memory)
       : corners_(memory),
         triangles_(memory),
         reach_(memory),
