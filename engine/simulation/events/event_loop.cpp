@@ -545,6 +545,8 @@ class EventLoop {
       body.momentum_velocity = cluster_.momentum(i);
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) drive(body, cluster_.end(i), rest);
+        // It stays, whatever its new momentum would fall by.
+        body.lifting = settings_.gravity.dot(body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
         continue;
       }
       if (keeps_path) {
