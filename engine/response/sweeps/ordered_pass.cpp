@@ -38,10 +38,11 @@ void settle(std::span<const UpperEnd> ends, std::span<const ContactRow> rows, st
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const ContactRow& row = rows[ends[k].row];
       const bool is_b = row.b == ends[k].body;
+      const double miss = row.n.dot(rowVelocityInWorld(row, bodies)) - row.lowest_speed;
+      if (miss >= 0.0 && impulses[k] == 0.0) continue;
       const Vec3& r = is_b ? row.r_b : row.r_a;
       const Vec3 lever = r.cross(row.n);
       const double response = body.inverseMassAlong(row.n) + lever.dot(body.inverse_tensor * lever);
-      const double miss = row.n.dot(rowVelocityInWorld(row, bodies)) - row.lowest_speed;
       const double impulse = std::max(0.0, impulses[k] - miss / response);
       const double change = impulse - impulses[k];
       if (change == 0.0) continue;

@@ -1,6 +1,7 @@
 #include "engine/simulation/contacts/contact_assembly.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 #include "engine/foundation/index.h"
@@ -19,6 +20,7 @@ constexpr double kNoticedTurning = 1e-6;
 // Pairs of one island, or more, that one thread sweeps: half of them are some 40 us of work.
 constexpr std::size_t kPairsOfAPart = 1000;
 constexpr int kMostLevels = 5;
+constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
 
 // No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
 // height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
@@ -44,6 +46,7 @@ class Assembly {
 
   void assemble() {
     seeBodies();
+    foreseeLandings();
     findLastingPairs();
     dissectIslands();
     std::sort(lasting_.begin(), lasting_.end());
@@ -97,6 +100,90 @@ class Assembly {
     });
   }
 
+  // Those that come down within the step on the paths that their bodies are likely to take.
+  void foreseeLandings() {
+    findNear();
+    const std::vector<int>& active = world_.table.active();
+    world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      StepCounters made;
+      for (std::size_t i = begin; i < end; ++i) {
+        ShapePair& pair = world_.table.pairs()[at(active[i])];
+        if (!pair.landing && comesDown(pair)) pair.landing = foreseenLanding(pair, made);
+      }
+      std::atomic_ref(counters_.distance_queries) += made.distance_queries;
+      std::atomic_ref(counters_.states_walked) += made.states_walked;
+      std::atomic_ref(counters_.newton_steps) += made.newton_steps;
+    });
+  }
+
+  // Which bodies are near enough to others to be held by them.
+  void findNear() {
+    std::vector<char>& near = contacts_.room.near;
+    near.resize(world_.bodies.size());
+    for (const int i : world_.active.list()) near[at(i)] = 0;
+    for (const int i : world_.table.active()) {
+      const ShapePair& pair = world_.table.pairs()[at(i)];
+      if (isLasting(pair, world_.settings.step_s)) near[at(pair.body_a)] = near[at(pair.body_b)] = 1;
+    }
+  }
+
+  // Whether nobody knows yet what holds the body.
+  bool isInDoubt(int body) const {
+    return moves(body) && contacts_.room.near[at(body)] != 0 &&
+           world_.bodies[at(body)].contact_force.isZero(0.0);
+  }
+
+  // What is held goes on as it was held in the last step; planned alone, it would sink.
+  Trajectory likelyPath(int index) const {
+    const Body& body = world_.bodies[at(index)];
+    Trajectory path = body.path;
+    if (!moves(index) || body.contact_force.isZero(0.0)) return path;
+    const Vec3 acceleration = world_.settings.gravity + body.contact_force / body.inertia.mass_kg;
+    path.velocity = body.velocity.linear + 0.5 * world_.settings.step_s * acceleration;
+    path.acceleration.setZero();
+    return path;
+  }
+
+  // Whether a pair that will not bounce approaches so fast at its closest points that it could.
+  bool comesDown(const ShapePair& pair) const {
+    if (pair.restitution > 0.0 || !givesWay(pair, world_.bodies)) return false;
+    const auto meanAt = [&](int index, const Vec3& p_W) {
+      const Body& body = world_.bodies[at(index)];
+      return Velocity{body.velocity.linear, body.path.spin}.at(p_W - body.X_WB.position);
+    };
+    const double step_s = world_.settings.step_s;
+    const double parting = pair.closest.n_W.dot(meanAt(pair.body_b, pair.closest.p_B_W) -
+                                                meanAt(pair.body_a, pair.closest.p_A_W));
+    // So much nearer at most, with what gravity adds.
+    const double nearer = step_s * (0.5 * step_s * world_.settings.gravity.norm() - parting);
+    return nearer > step_s * pair.collision_speed_mps &&
+           pair.closest.distance_m - nearer < pair.window.landing && !isInDoubt(pair.body_a) &&
+           !isInDoubt(pair.body_b);
+  }
+
+  std::optional<Landing> foreseenLanding(const ShapePair& pair, StepCounters& made) const {
+    const double step_s = world_.settings.step_s;
+    const Trajectory a = likelyPath(pair.body_a), b = likelyPath(pair.body_b);
+    const Pose X_WA = a.at(step_s), X_WB = b.at(step_s);
+    const auto movingPart = [&](int shape, const Trajectory& path, const Pose& X_end) {
+      const Shape& s = world_.shapes[at(shape)];
+      return MovingPart{s.part, &path, s.reach_m, &X_end};
+    };
+    FeaturePair tracked = pair.tracked;
+    const TimeOfImpact found = timeOfImpact(
+        movingPart(pair.shapes.a, a, X_WA), movingPart(pair.shapes.b, b, X_WB),
+        {pair.window, pair.collision_speed_mps, 0.0, step_s, true, false}, pair.closest, tracked);
+    made.distance_queries += found.queries;
+    made.states_walked += found.states;
+    made.newton_steps += found.newton_steps;
+    const auto pieceEnd = [&](int body) { return world_.bodies[at(body)].piece_end_s; };
+    // By its piece's end a kinematic body goes another way.
+    if (found.outcome != TimeOfImpact::Outcome::kImpact ||
+        found.time_s > std::min(pieceEnd(pair.body_a), pieceEnd(pair.body_b)))
+      return std::nullopt;
+    return landingOn(a, b, found);
+  }
+
   // Those of what moves. What the others remember is over, but what resting pairs remember they keep.
   void findLastingPairs() {
     const std::vector<int>& active = world_.table.active();
@@ -111,14 +198,31 @@ class Assembly {
     });
     Islands& islands = contacts_.room.joined;
     islands.part(static_cast<int>(world_.bodies.size()));
+    std::vector<int> landings;
+    std::size_t rows = 0;  // as many as the step before had
     for (std::size_t i = 0; i < lasts.size(); ++i) {
       if (!lasts[i]) continue;
       const ShapePair& pair = world_.table.pairs()[at(active[i])];
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
       lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, pair.rank, active[i]});
+      if (pair.landing) landings.push_back(active[i]);
+      rows += pair.remembered.size();
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
+    keepCrowded(landings, rows);
+  }
+
+  // The landings of the others are events; they last, or not, as they lie now.
+  void keepCrowded(std::span<const int> landings, std::size_t rows) {
+    if (landings.empty()) return;
+    crowdedLandings(landings, world_, rows, contacts_.room.joined);
+    std::erase_if(lasting_, [&](const LastingPair& lasting) {
+      ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
+      if (pair.landing || isLasting(pair, world_.settings.step_s)) return false;
+      pair.remembered.clear();
+      return true;
+    });
   }
 
   PlacedPair placed(int index) const {
@@ -372,6 +476,33 @@ class Assembly {
 };
 
 }  // namespace
+
+Landing landingOn(const Trajectory& a, const Trajectory& b, const TimeOfImpact& found) {
+  const double t = found.time_s;
+  const auto mean = [&](const Trajectory& path) {
+    return Velocity{path.velocity + 0.5 * t * path.acceleration, path.angularVelocityAt(t)};
+  };
+  return {t, found.closest, a.at(t), b.at(t), mean(a), mean(b)};
+}
+
+std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world, std::size_t rows,
+                                 Islands& islands) {
+  const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
+  std::vector<int> island_of;  // the pairs
+  for (const int index : pairs) {
+    const ShapePair& pair = world.table.pairs()[at(index)];
+    island_of.push_back(islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  }
+  const int most = sweepsInBudget(rows) / kVisitsOfAnEvent;
+  std::vector<int> crowded;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (std::count(island_of.begin(), island_of.end(), island_of[k]) > most)
+      crowded.push_back(pairs[k]);
+    else
+      world.table.pairs()[at(pairs[k])].landing.reset();
+  }
+  return crowded;
+}
 
 std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) const {
   std::vector<int> listed;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/contact/time_of_impact.h"
 #include "engine/modes/islands.h"
 #include "engine/simulation/bodies/active_bodies.h"
 #include "engine/simulation/bodies/half_turn.h"
@@ -48,6 +49,7 @@ struct ContactRoom {
   std::vector<char> bends;
   std::vector<Vec3> accelerations;
   std::vector<BodyMotion> motions;
+  std::vector<char> near;  ///< Whether a body is within reach of lasting contact.
   Islands joined;
 };
 
@@ -101,6 +103,17 @@ struct LastingWorld {
   const WorldSettings& settings;
   Crew& crew;
 };
+
+/// Where and how a pair comes down whose search has `found` it to, on these paths.
+Landing landingOn(const Trajectory& a, const Trajectory& b, const TimeOfImpact& found);
+
+/// Of pairs that come down within the step (ShapePair::landing), those that are solved with the lasting
+/// contacts, before anything moves; the others are few enough to be left to their times of impact, and their
+/// landings are reset. An impact that is solved ahead of its time takes from what holds the bodies until
+/// then: the error is first order in the step, and accuracy is bought while the budget of row visits lasts,
+/// of `rows`. `islands`: of the bodies, the pairs' joined.
+std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world, std::size_t rows,
+                                 Islands& islands);
 
 /// So often can each of `rows` be visited within a step's budget.
 inline int sweepsInBudget(std::size_t rows) {

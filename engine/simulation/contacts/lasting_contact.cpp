@@ -17,9 +17,8 @@
 namespace carom {
 namespace {
 
-constexpr int kLandingSweeps = 8;     // over rows that landings stir; the next step solves on
-constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
-constexpr double kFewMoving = 0.05;   // of a crowd's bodies: so many falling about do not set it in motion
+constexpr int kLandingSweeps = 8;    // over rows that landings stir; the next step solves on
+constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
 
 std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
   contacts.room.motions.resize(world.bodies.size());
@@ -293,20 +292,7 @@ std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld&
   };
   for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) join(of_pair.pair);
   for (const int pair : pairs) join(pair);
-  std::vector<int> islands;  // of the pairs
-  for (const int index : pairs) {
-    const ShapePair& pair = world.table.pairs()[at(index)];
-    islands.push_back(joined.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
-  }
-  const int most = sweepsInBudget(contacts.rows.size()) / kVisitsOfAnEvent;
-  std::vector<int> crowded;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (std::count(islands.begin(), islands.end(), islands[k]) > most)
-      crowded.push_back(pairs[k]);
-    else
-      world.table.pairs()[at(pairs[k])].landing.reset();
-  }
-  return crowded;
+  return crowdedLandings(pairs, world, contacts.rows.size(), joined);
 }
 
 std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& world,

@@ -21,10 +21,7 @@ bool wakePressed(const LastingWorld& world, const LastingContacts& contacts);
 void solveLastingContacts(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
                           LastingContacts& contacts);
 
-/// Of pairs that come down within the step (ShapePair::landing), those that are solved with the lasting
-/// contacts, before anything moves; the others are few enough to be left to their times of impact. An impact
-/// that is solved ahead of its time takes from what holds the bodies until then: the error is first order in
-/// the step, and accuracy is bought while the budget of row visits lasts.
+/// The same of pairs that were foreseen on the paths of what has been solved.
 std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world,
                                  LastingContacts& contacts);
 /// Solves them with their islands. Returns the moving bodies of these, whose paths are new.

@@ -166,20 +166,10 @@ class EventLoop {
       // By then it goes another way.
       if (found.time_s > std::min(bodies_[at(pair.body_a)].piece_end_s, bodies_[at(pair.body_b)].piece_end_s))
         continue;
-      pair.landing = landingOf(pair, found);
+      pair.landing = landingOn(bodies_[at(pair.body_a)].path, bodies_[at(pair.body_b)].path, found);
       landings.push_back(i);
     }
     return landings;
-  }
-
-  Landing landingOf(const ShapePair& pair, const TimeOfImpact& found) const {
-    const double t = found.time_s;
-    const Trajectory& a = bodies_[at(pair.body_a)].path;
-    const Trajectory& b = bodies_[at(pair.body_b)].path;
-    const auto mean = [&](const Trajectory& path) {
-      return Velocity{path.velocity + 0.5 * t * path.acceleration, path.angularVelocityAt(t)};
-    };
-    return {t, found.closest, a.at(t), b.at(t), mean(a), mean(b)};
   }
 
   // Freezes the bodies of a pair that its search has not cleared.

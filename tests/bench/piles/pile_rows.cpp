@@ -142,7 +142,7 @@ Experiment wall() {
         lay(world, brick, Vec3((i - (course % 2 == 0 ? 0.0 : 0.5)) * size.x(), 0, z));
     if (course % 2 == 0) continue;
     lay(world, half, Vec3(-0.25 * size.x(), 0, z));
-    lay(world, half, Vec3((29 - 0.25) * size.x(), 0, z));
+    lay(world, half, Vec3((29 + 0.25) * size.x(), 0, z));
   }
   return world;
 }
