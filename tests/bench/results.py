@@ -22,9 +22,11 @@ TABLES = {
     "physics": ("Closed forms, beside Bullet and ODE", "bash tests/bench/physics.sh", False),
     "closest-features": ("Closest features, beside FCL, Bullet and ODE, and wrong answers on adversarial pairs",
                          "bash tests/bench/run.sh", False),
+    "piles": ("Piles from release to quiet, beside Bullet and ODE", "bash tests/bench/pile.sh", False),
     "resting": ("Sixty in flight over many at rest", "bash tests/bench/resting.sh 1000 8000", False),
     "frames": ("Frames a second, end to end", "bash tests/bench/frames.sh", False),
     "stress-small": ("Contact, the small suite", "bash tests/bench/stress.sh --small", False),
+    "piles-all": ("Piles, with the large ones", "bash tests/bench/pile.sh --all", True),
     "physics-all": ("Closed forms, with the long rows", "bash tests/bench/physics.sh --all", True),
     "stress": ("Contact, the long suite", "bash tests/bench/stress.sh", True),
 }

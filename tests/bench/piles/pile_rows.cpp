@@ -153,14 +153,16 @@ Experiment awake(Experiment world) {
 }
 
 PileRow boxRow(int count, bool is_long) {
-  return {"boxes-" + std::to_string(count),
-          std::to_string(count) + " boxes of 0.5 m dropped into a bin",
-          [=] { return boxes(count); },
-          6.0,
-          true,
-          0.0,
-          count,
-          is_long};
+  PileRow row{"boxes-" + std::to_string(count), std::to_string(count) + " boxes of 0.5 m dropped into a bin",
+              [=] { return boxes(count); }};
+  row.size = count;
+  row.is_long = is_long;
+  return row;
+}
+PileRow longRow(const char* name, const char* what, Experiment (*describe)()) {
+  PileRow row{name, what, describe};
+  row.is_long = true;
+  return row;
 }
 PileRow standing(const char* name, const char* what, Experiment (*describe)()) {
   return {name, what, [=] { return awake(describe()); }, 3.0, false, 0.0};
@@ -175,13 +177,11 @@ std::vector<PileRow> dropRows() {
       boxRow(1000, false),
       boxRow(2000, true),
       boxRow(4000, true),
-      {"hulls-1000", "1000 hulls of 1 m, 12 to 20 points, dropped into a bin",
-       [] { return hulls(1000, 12, 20); }, 6.0, true, 0.0, 0, true},
+      longRow("hulls-1000", "1000 hulls of 1 m, 12 to 20 points, dropped into a bin",
+              [] { return hulls(1000, 12, 20); }),
       {"hulls-300", "300 hulls of 250 points dropped into a bin", [] { return hulls(300, 250, 250); }},
-      {"round-2000", "2000 balls and capsules dropped into a bin", [] { return roundOnes(2000); }, 6.0, true,
-       0.0, 0, true},
-      {"heaps-200", "200 heaps of 15 boxes (3000 bodies)", [] { return heaps(200); }, 4.0, true, 0.0, 0,
-       true},
+      longRow("round-2000", "2000 balls and capsules dropped into a bin", [] { return roundOnes(2000); }),
+      longRow("heaps-200", "200 heaps of 15 boxes (3000 bodies)", [] { return heaps(200); }),
       standing("stack-10", "stack of 10, awake", stack),
       standing("pyramid-210", "pyramid of 210, awake", pyramid),
       standing("wall-610", "wall of 610 touching bricks, awake", wall),

@@ -21,7 +21,7 @@ namespace {
 using physics::Experiment;
 using physics::Simulation;
 
-constexpr double kQuiet_mps = 0.05;  // what the slowest 99 of 100 bodies stay below
+constexpr double kQuiet_mps = 0.05;  // what the slowest 95 of 100 bodies stay below
 constexpr double kQuietFor_s = 0.25;
 constexpr double kMostStopped = 1e-3;
 
@@ -84,12 +84,12 @@ double wallSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The speed that 99 of 100 moving bodies stay below.
+/// The speed that 95 of 100 moving bodies stay below.
 double fastSpeed(const Experiment& pile, const Simulation& simulation) {
   std::vector<double> speeds;
   for (std::size_t i = 0; i < pile.bodies.size(); ++i)
     if (!pile.bodies[i].is_static) speeds.push_back(simulation.motion(static_cast<int>(i)).velocity.norm());
-  const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 99 / 100);
+  const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 95 / 100);
   std::nth_element(speeds.begin(), at, speeds.end());
   return *at;
 }
