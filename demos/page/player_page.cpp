@@ -93,6 +93,21 @@ void requireFits(const World& world, int frames) {
                    " poses, by a shorter --duration or fewer --fps");
 }
 
+/// GLSL without its comments and indentation, which are a third of it.
+std::string bareText(std::string_view text) {
+  std::string bare;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    line = line.substr(0, line.find("//"));
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first != std::string_view::npos)
+      bare.append(line.substr(first, line.find_last_not_of(' ') + 1 - first)).push_back('\n');
+    at = end + 1;
+  }
+  return bare;
+}
+
 std::string shaderElements() {
   constexpr std::string_view kEnding = ".glsl";
   std::string elements;
@@ -100,7 +115,7 @@ std::string shaderElements() {
     if (!source.name.ends_with(kEnding)) continue;
     const std::string_view name = source.name.substr(0, source.name.size() - kEnding.size());
     elements.append("<script type=\"text/plain\" id=\"glsl-").append(name).append("\">\n");
-    elements.append(source.text).append("</script>\n");
+    elements.append(bareText(source.text)).append("</script>\n");
   }
   return elements;
 }
