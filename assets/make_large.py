@@ -42,7 +42,7 @@ def chain_reaction(rows=36):
           caption=f"1 + 2 + … + {rows} = {total} dominoes by one push   t = {{=time:1}} s")
 
 
-def rockslide(count=300):
+def rockslide(count=220):
     """Stones behind a dam of planks on a mountain's flank; the dam is drawn aside, and a hamlet of crates stands below."""
     slope, long, wide = 35.0, 17.0, 9.0
     a = math.radians(slope)
@@ -96,7 +96,7 @@ def rockslide(count=300):
           bodies, {"main": {"keyframes": [
               {"time": 0, "eye": [9.5, -10.5, 8.2], "target": [-6.0, 0, 6.6], "fovDegrees": 40},
               {"time": 1.4, "eye": [10.5, -10.5, 6.6], "target": [-3.4, 0, 3.6], "fovDegrees": 40},
-              {"time": 3.4, "eye": [11.6, -8.6, 4.9], "target": [2.4, 0, 0.7], "fovDegrees": 40}]}}, 5.5, FOLDER, 60, group="large",
+              {"time": 3.4, "eye": [11.6, -8.6, 4.9], "target": [2.4, 0, 0.7], "fovDegrees": 40}]}}, 5, FOLDER, 60, group="large",
           light={"direction": [0.9, -0.6, 0.8]},
           lookFor="Boulders part the stream; the huts ride on the front until it stops, while the tail still comes down.",
           caption=f"{count} stones   tan 35° = {{=tan(35):2}} against μ = {{=sqrt(0.3*0.35):2}}   the near hut's roof has moved {{body:hut 1, roof.moved:2}} m")
