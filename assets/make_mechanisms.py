@@ -11,7 +11,8 @@ tests/demos/scene/mechanism_scenes_test.cpp.
 import math
 
 from make_scenes import BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, STEEL, YELLOW, FLOOR
-from make_scenes import body, floor, main_camera, turn, write
+from make_scenes import CONCRETE, PLANKS
+from make_scenes import body, floor, main_camera, moving_camera, turn, write
 from mesh_shapes import bolt, circle, extruded, involute_gear, nut, plate, revolved, stadium_link, torus
 
 MESHES = FOLDER.parent / "meshes"
@@ -49,8 +50,8 @@ def turntable():
           "not held by friction (0.25) and slides off: the three red blocks at 1.03, 1.2 and 1.4 of that, not the "
           "green ones at 0.6, 0.8 and 0.97.",
           "on a turntable friction holds what is within mu g / w^2: green blocks ride, red ones slide off",
-          {"floor": FLOOR, "rubber": {"staticFriction": friction, "density": 800, "surface": "rubber"}},
-          bodies, main_camera([0.15, -2.4, 1.85], [0.05, -0.03, 0.16], 38), 3.5, FOLDER,
+          {"floor": PLANKS, "rubber": {"staticFriction": friction, "density": 800, "surface": "wood"}},
+          bodies, moving_camera(34, (0, [0.5, -2.0, 1.5], [0.02, -0.02, 0.27]), (3.5, [0.9, -2.3, 1.35], [0.16, 0.05, 0.2])), 3.5, FOLDER,
           group="sliding and resting",
           lookFor="Green blocks ride along for ever, red ones slide off: the limit lies between 0.97 and 1.03.",
           caption="μg/ω² = {=0.25*9.81/2^2:3} m holds   from the axis: {=sqrt([at 0.97 of the "
@@ -134,8 +135,9 @@ def marble_in_a_funnel():
           "Marbles roll round a funnel, lower and lower as they lose energy to friction and to small bounces, fall through its spout, "
           "and end in the cup that stands below it on the floor.",
           "marbles spiral down a funnel, and fall through its spout into a cup",
-          {"floor": FLOOR, "wood": {"staticFriction": 0.3, "restitution": 0.3, "rollingResistance": 0.004, "density": 700}},
-          bodies, main_camera([0.8, -1.9, 3.35], [0, 0.0, 0.98], 37), 6.8, FOLDER,
+          {"floor": PLANKS, "wood": {"staticFriction": 0.3, "restitution": 0.3, "rollingResistance": 0.004, "density": 700, "surface": "marble"}},
+          bodies, moving_camera(37, (0, [0.7, -1.75, 3.0], [0, 0, 1.35]), (3.4, [0.7, -1.6, 2.9], [0, 0, 1.2]),
+                                (5.2, [0.75, -1.75, 1.5], [0, 0, 0.45]), (6.8, [0.6, -1.35, 1.3], [0, 0, 0.25])), 6.8, FOLDER,
           group="meshes",
           lookFor="Each round is lower than the one before, until the spout.",
           caption="marbles at {body:marble 1.speed:2}, {body:marble 2.speed:2}, {body:marble 3.speed:2} m/s")
@@ -144,21 +146,36 @@ def marble_in_a_funnel():
 def linked_rings():
     ring, tube = 0.4, 0.07
     write_mesh("ring.obj", *torus(ring, tube, 16, 8))
-    inner = ring - tube
-    bodies = [floor(),
-              body("upper ring", mesh("ring.obj"), [0, 0, 1.8], rotation=turn([1, 0, 0], 90), static=True,
-                   material="brass", color=STEEL),
-              body("lower ring", mesh("ring.obj"), [0.0, 0, 1.8 - 2 * inner + 0.06],
-                   rotation=[0.5, 0.5, 0.5, 0.5], angularVelocity=[0, 5, 0], material="brass", color=ORANGE)]
+    write_mesh("fine-ring.obj", *torus(ring, tube, 40, 12))
+    inner, top = ring - tube, 1.62
+    # The lower ring's inside goes round the upper one's tube: its middle is so far from that of the tube.
+    length = inner - tube
+    sliding = 2 * math.pi * math.sqrt(length / GRAVITY)
+    rolling = sliding * math.sqrt(1 + (ring**2 + 0.75 * tube**2) / inner**2)
+    lean, hung = math.radians(40), length - 0.006
+    bodies = [floor()]
+    for name, x, metal in (("", -0.62, "brass"), ("greased ", 0.62, "grease")):
+        bodies += [body(f"{name}upper ring", mesh("fine-ring.obj"), [x, 0, top], rotation=turn([0, 1, 0], 90), static=True,
+                        material="steel"),
+                   body(f"{name}lower ring", mesh("fine-ring.obj"),
+                        [x + hung * math.sin(lean), 0, top - ring - hung * math.cos(lean)],
+                        rotation=turn([1, 0, 0], 90), material=metal)]
     write("linked-rings",
-          "One ring hangs in another, which is fixed; it swings, rolls in it and comes to rest below, and never leaves "
-          "it: two rings that are linked stay so.",
-          "a ring hangs and swings in another one",
-          {"floor": FLOOR, "brass": {"staticFriction": 0.05, "restitution": 0.1, "density": 8500}},
-          bodies, main_camera([1.1, -2.5, 1.75], [0, 0, 1.33], 38), 4, FOLDER,
-          group="meshes",
-          lookFor="The ring rolls in the other and never leaves it.",
-          caption="what is linked stays linked   swing {body:lower ring.vx:2} m/s")
+          "Rings hang in others, which are fixed, and are let go at 40 degrees. The inside of each, of radius r, goes round the tube "
+          "of the other, of radius a, so that its middle swings about the tube's on a circle of L = r - a. Greased it slides and "
+          f"never turns: 2 pi sqrt(L / g) = {sliding:.3f} s for small swings. Held by friction it rolls: sqrt(1 + k^2 / r^2) times as "
+          f"long, {rolling:.3f} s, where k is its radius of gyration. None ever leaves the other: rings that are linked stay so.",
+          "rings hang and swing in others: one rolls, the greased one slides and is faster",
+          {"floor": {"staticFriction": 0.6, "ground": "planks"},
+           "steel": {"staticFriction": 1, "density": 7800, "surface": "steel", "color": "#aeb4bb"},
+           "brass": {"staticFriction": 0.7, "density": 8500, "surface": "steel", "color": "#e0a93e"},
+           "grease": {"staticFriction": 0, "density": 7800, "surface": "steel", "color": "#4f93c4"}},
+          bodies, main_camera([1.5, -3.2, 1.95], [0.02, 0, 1.26], 34), 4, FOLDER,
+          group="meshes", light={"like": "studio-dark", "exposure": 1.7},
+          lookFor="The brass ring rolls and takes 1.6 times as long as the blue one, which never turns.",
+          caption="rolls: T ≥ {=Tr:2} s, out by {=1000*([lower ring.x]+0.62):0} mm   slides: T ≥ {=Ts:2} s, "
+                  "out by {=1000*([greased lower ring.x]-0.62):0} mm   t = {=time:2} s",
+          set={"Tr": rolling, "Ts": sliding})
 
 
 def chain():
@@ -193,15 +210,19 @@ def nut_on_a_bolt():
     start = base + bare + 0.6 * pitch + 3 * pitch  # its tooth in the middle of the bolt's groove
     bodies = [floor(),
               body("bolt", mesh("bolt.obj"), [0, 0, base], static=True, material="oiled", color=STEEL),
-              body("nut", mesh("nut.obj"), [0, 0, start], material="oiled", color=ORANGE)]
+              body("nut", mesh("nut.obj"), [0, 0, start], material="painted", color=ORANGE)]
     write("nut-on-a-bolt",
           "A nut turns down a bolt by its weight, held by nothing but the threads: 0.5 m a turn, without friction. It "
           "turns by its fall over p, the pitch over 2 pi, within the play of the threads, and gains speed by less than "
           "g / (1 + (k / p)^2), where k is its radius of gyration: the threads are of flat facets, and bumping over their "
           "edges takes some of it. Then it lies down on the head.",
           "a nut turns down a bolt by its weight, held by the threads alone",
-          {"floor": FLOOR, "oiled": {"staticFriction": 0, "density": 7800}},
-          bodies, main_camera([3.2, -5.4, 3.9], [0, 0, 1.5], 38), 7, FOLDER)
+          {"floor": CONCRETE, "oiled": {"staticFriction": 0, "density": 7800, "surface": "steel"},
+           "painted": {"staticFriction": 0, "density": 7800}},
+          bodies, main_camera([2.7, -4.6, 3.3], [0, 0, 1.42], 38), 7, FOLDER,
+          group="machines",
+          lookFor="Nothing but the thread holds the nut: it turns as it sinks, faster and faster.",
+          caption="sinking at ω·0.5 m/2π = {=[nut.spin]*0.5/(2*pi):3} m/s   measured {=-[nut.vz]:3} m/s   fallen {=2.35-[nut.z]:2} m")
 
 
 def key_in_a_lock():
@@ -243,8 +264,13 @@ def key_in_a_lock():
           f"and throws it by sqrt(R^2 + b^2 / 4 - h^2) - x = {throw:.4f} m, where R is the reach and b the thickness of the "
           "bit, h the height of the bolt over the axle and x where the notch's wall was; a stop keeps it within 4 mm of that.",
           "a key turns in a lock and throws its bolt",
-          {"floor": FLOOR, "brass": {"staticFriction": 0.3, "density": 8500}},
-          bodies, main_camera([-1.3, -2.1, 1.75], [0.08, 0.15, 0.55], 36), 8, FOLDER)
+          {"floor": CONCRETE, "brass": {"staticFriction": 0.3, "density": 8500, "surface": "steel"}},
+          bodies, moving_camera(38, (0, [-1.5, 2.6, 1.5], [0.05, 0.5, 0.6]), (1.3, [-1.5, 2.3, 1.45], [0.05, 0.4, 0.6]),
+                                (2.6, [-1.15, -1.9, 1.5], [0.1, 0.1, 0.6]), (6.2, [-0.6, -2.0, 1.4], [0.14, 0.1, 0.6]),
+                                (8, [-1.6, 2.3, 1.5], [0.1, 0.4, 0.6])), 8, FOLDER,
+          group="machines",
+          lookFor="The bit takes the bolt along by its notch while the key turns past it.",
+          caption="√(R² + b²/4 − h²) − x = {=throw:3} m   the bolt has gone {body:bolt.moved:3} m", set={"throw": throw})
 
 
 def main():

@@ -84,6 +84,11 @@ def main_camera(eye, target, fov):
     return {"main": {"eye": eye, "target": target, "fovDegrees": fov}}
 
 
+def moving_camera(fov, *keys):
+    """`keys` are time, eye and target."""
+    return {"main": {"keyframes": [{"time": time, "eye": eye, "target": target, "fovDegrees": fov} for time, eye, target in keys]}}
+
+
 def prism_points(sides, radius, height):
     """A regular prism about y, a flat side down."""
     points = []
@@ -344,9 +349,11 @@ def rolling_race(folder):
           "that, a capsule and prisms with a little more than 2/3, less what each edge of a prism "
           "costs.",
           "a sliding block, a ball, a capsule and prisms race down an incline",
-          {"floor": FLOOR, "ramp": {"staticFriction": 0.6, "color": "#b9c1c8"},
-           "ice": {"staticFriction": 0, "density": 900}, "rubber": {"staticFriction": 0.6, "density": 1100, "surface": "rubber"}},
-          bodies, main_camera([7.4, -8.4, 4.4], [0.35, -0.3, 0.45], 33), 3.1, folder,
+          {"floor": CONCRETE, "ramp": {"staticFriction": 0.6, "surface": "wood", "color": "#a98a66", "surfaceScale": 2},
+           "ice": {"staticFriction": 0, "density": 900, "surface": "marble"},
+           "rubber": {"staticFriction": 0.6, "density": 1100, "surface": "marble", "surfaceScale": 0.5}},
+          bodies, moving_camera(34, (0, [0.6, -6.2, 3.7], [-2.9, -0.2, 1.3]), (1.2, [1.8, -6.6, 3.5], [-1.9, -0.2, 1.0]),
+                                (3, [6.6, -6.6, 3.3], [1.6, -0.4, 0.4])), 3.1, folder,
           group="accuracy beside theory",
           lookFor="The block without friction wins; edges cost the prism of 12 sides most.",
           caption="½at²: ice {=0.5*9.81*sin(12)*time^2:2}, ball ⁵⁄₇ of it {=5/14*9.81*sin(12)*time^2:2} m   "
@@ -449,7 +456,7 @@ def stick_slip_ramp(folder):
     bodies = [floor(), body("incline", {"hull": {"points": [
         [toe, -3.6, 0], [toe, 3.6, 0], [top[0], -3.6, 0], [top[0], 3.6, 0],
         [top[0], -3.6, top[1]], [top[0], 3.6, top[1]]]}}, [0, 0, 0], static=True, material="ramp")]
-    materials = {"floor": FLOOR, "ramp": {"staticFriction": 1, "color": "#b9c1c8"}}
+    materials = {"floor": PLANKS, "ramp": {"staticFriction": 1, "surface": "concrete", "color": "#9a9c9e"}}
 
     def place(name, y, material, color, **extra):
         h = 0.15 + 0.0003
@@ -461,11 +468,11 @@ def stick_slip_ramp(folder):
     for k, (factor, color) in enumerate(((0.9, RED), (0.97, ORANGE), (0.99, YELLOW), (1.001, GREEN),
                                          (1.01, SKY))):
         # The pair's coefficient is the geometric mean of both.
-        materials[f"{factor} of tan a"] = {"staticFriction": (factor * slope) ** 2, "density": 800}
+        materials[f"{factor} of tan a"] = {"staticFriction": (factor * slope) ** 2, "density": 800, "surface": "wood"}
         place(f"block of {factor}", -3.0 + k, f"{factor} of tan a", color)
     materials["holds, but slides on"] = {"staticFriction": (1.05 * slope) ** 2,
                                          "dynamicFriction": (0.9 * slope) ** 2,
-                                         "density": 800}
+                                         "density": 800, "surface": "wood"}
     bodies.append("Both have 1.05 of the slope while they stick, 0.9 while they slide; one is pushed.")
     place("left alone", 2.0, "holds, but slides on", BLUE)
     place("pushed", 3.0, "holds, but slides on", PINK, linearVelocity=[0.3 * c, 0, -0.3 * s])
@@ -473,7 +480,8 @@ def stick_slip_ramp(folder):
           "Stick and slip on 25 degrees: friction coefficients of 0.9, 0.97, 0.99, 1.001 and 1.01 times"
           " tan 25; the first three slide with g (sin a - mu cos a), the other two never move.",
           "blocks just above and just below the friction that holds them on a ramp",
-          materials, bodies, main_camera([6.6, -8.4, 5.2], [-0.2, -0.3, 1.0], 35), 3.4, folder,
+          materials, bodies, moving_camera(36, (0, [2.4, -6.0, 4.9], [-1.9, 0.1, 1.9]), (1.2, [2.6, -6.0, 4.7], [-1.7, 0, 1.7]),
+                                           (3.3, [4.6, -6.3, 4.0], [-0.4, -0.5, 1.0])), 3.4, folder,
           group="sliding and resting",
           lookFor="The three below tan 25° slide, the three above stay; one that would stay slides on "
                   "because it was pushed.",

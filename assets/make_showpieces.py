@@ -9,7 +9,7 @@ import math
 import random
 
 from make_scenes import CONCRETE, PLANKS, SAND, BLUE, FOLDER, GRAVITY, GREEN, ORANGE, PINK, RED, SKY, SLATE, YELLOW, FLOOR
-from make_scenes import body, floor, main_camera, turn, write
+from make_scenes import body, floor, main_camera, moving_camera, turn, write
 from make_mechanisms import mesh
 from make_theory import DARK_OAK, OAK, SLATE_FLOOR, part
 
@@ -251,7 +251,8 @@ def ring_toss():
           "ring is a mesh with a hole, and the post goes through it.",
           "five rings come down over a post, one after the other",
           {"floor": SAND, "wood": {"staticFriction": 0.4, "surface": "wood"}, "rubber": {"staticFriction": 0.5, "restitution": 0.1, "density": 1100, "surface": "rubber"}},
-          bodies, main_camera([1.5, -5.4, 2.6], [-0.8, 0, 1.5], 45), 3.4, FOLDER, 240, group="meshes",
+          bodies, moving_camera(44, (0, [0.6, -4.6, 1.7], [-1.2, 0, 0.95]), (1.0, [1.0, -4.4, 2.0], [-0.7, 0, 1.5]),
+                                (2.2, [0.9, -3.6, 2.0], [-0.1, 0, 1.0]), (3.3, [0.8, -2.6, 1.5], [0, 0, 0.45])), 3.4, FOLDER, 240, group="meshes",
           lookFor="The rings stay on the post: what goes through a hole is never lost to it.",
           caption="rings over the post: the last one flies {=0.6+4*0.38:2} s   t = {=time:2} s")
 

@@ -1,6 +1,13 @@
-# cmake -Dfolder=FOLDER -Dfunction=NAME -Doutput=FILE -P embed_web.cmake: a C++ file that holds the files of a folder.
+# cmake -Dfolder=FOLDER -Dfunction=NAME -Doutput=FILE [-Dshaders=FOLDER] -P embed_web.cmake: a C++ file that holds the
+# files of a folder, and those of the renderer's shaders that a page draws with.
 file(GLOB files ${folder}/*.html ${folder}/*.css ${folder}/*.js ${folder}/*.glsl)
 list(SORT files)
+if(shaders)
+  foreach(name head light noise surface ground_pattern body_fragment glass_fragment ground_vertex ground_common
+          ground_shadowed_fragment occlusion_fragment shadow_fragment sky_vertex sky_fragment)
+    list(APPEND files ${shaders}/${name}.glsl)
+  endforeach()
+endif()
 set(rows "")
 foreach(file IN LISTS files)
   file(READ ${file} text)

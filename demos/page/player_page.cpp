@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 
 #include "demos/asset/asset_path.h"
@@ -15,12 +16,15 @@
 #include "demos/system/exit_code.h"
 #include "engine/motion/rigid_body.h"
 #include "renderer/look/light.h"
+#include "renderer/look/surface.h"
+#include "renderer/view/solid_extent.h"
 
 namespace carom::demos {
 namespace {
 
 constexpr double kCameraAspect = 16.0 / 9.0;
 constexpr double kFovSteps = 4096.0;             // Of a degree.
+constexpr double kDarkHorizon = 0.2;             // Linear; what is written over a darker sky is white.
 constexpr std::size_t kLongestSource = 1 << 17;  // Bytes of a scene's text; a program's are longer.
 
 Json numbers(const Vec3& v) {
@@ -89,6 +93,21 @@ void requireFits(const World& world, int frames) {
                    " poses, by a shorter --duration or fewer --fps");
 }
 
+/// GLSL without its comments and indentation, which are a third of it.
+std::string bareText(std::string_view text) {
+  std::string bare;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    line = line.substr(0, line.find("//"));
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first != std::string_view::npos)
+      bare.append(line.substr(first, line.find_last_not_of(' ') + 1 - first)).push_back('\n');
+    at = end + 1;
+  }
+  return bare;
+}
+
 std::string shaderElements() {
   constexpr std::string_view kEnding = ".glsl";
   std::string elements;
@@ -96,22 +115,52 @@ std::string shaderElements() {
     if (!source.name.ends_with(kEnding)) continue;
     const std::string_view name = source.name.substr(0, source.name.size() - kEnding.size());
     elements.append("<script type=\"text/plain\" id=\"glsl-").append(name).append("\">\n");
-    elements.append(source.text).append("</script>\n");
+    elements.append(bareText(source.text)).append("</script>\n");
   }
   return elements;
 }
 
-/// As the renderer's shaders have it: what lights bodies before exposure, what the sky shows after it.
+/// The look of what a body is made of, or of the ground that it is; plain: empty.
+std::string lookName(const SurfaceLook& look) {
+  if (look.checker) return "ground " + renderer::nameOf(look.pattern);
+  return look.surface == renderer::SurfaceKind::kPlain ? "" : renderer::nameOf(look.surface);
+}
+
+/// What the shaders of bodies with such a look have besides.
+std::string lookLines(const SurfaceLook& look) {
+  return look.checker ? "#define CHECKER\n" + renderer::shaderLines(look.pattern)
+                      : renderer::shaderLines(look.surface);
+}
+
+Json looksJson(std::span<const SurfaceLook> looks) {
+  Json lines = Json::object({});
+  for (const SurfaceLook& look : looks)
+    if (const std::string name = lookName(look); !name.empty()) lines.set(name, lookLines(look));
+  return lines;
+}
+
+/// Of the coordinates in which the surface is drawn (renderer/glsl/surface.glsl).
+Json finishJson(const renderer::Surface& surface, const Solid& solid) {
+  const renderer::SurfaceFrame frame = renderer::surfaceFrame(surface, renderer::solidExtent(solid).half);
+  const bool is_ball = solid.parts().size() == 1 && solid.parts().front().core.vertexCount() == 1;
+  return Json::array({1.0 / surface.scale_m, frame.axis, frame.number, is_ball ? 1 : 0});
+}
+
+/// A line a frame; one line where all are the same.
+Json captionsJson(const std::vector<std::string>& captions) {
+  Json lines = Json::array({});
+  const bool same =
+      std::adjacent_find(captions.begin(), captions.end(), std::not_equal_to<>()) == captions.end();
+  for (std::size_t i = 0; i < (same ? std::min<std::size_t>(captions.size(), 1) : captions.size()); ++i)
+    lines.push(captions[i]);
+  return lines;
+}
+
 Json lightJson(const renderer::Light& light) {
-  const auto lit = [&](const Vec3& color) { return numbers(light.exposure * color); };
-  const auto shown = [&](const Vec3& color) { return numbers(renderer::exposed(color, light.exposure)); };
   return Json::object({{"toSun", numbers(light.to_light)},
-                       {"sun", lit(light.sun)},
-                       {"skyLight", lit(light.sky_light)},
-                       {"groundLight", lit(light.ground_light)},
-                       {"horizon", shown(light.horizon)},
-                       {"zenith", shown(light.zenith)},
-                       {"below", shown(light.below)}});
+                       {"pool", light.pool},
+                       {"dark", light.horizon.maxCoeff() < kDarkHorizon},
+                       {"lines", renderer::shaderLines(light)}});
 }
 
 }  // namespace
@@ -132,7 +181,8 @@ PlayerPage::PlayerPage(const Scene& scene, SceneWorld& made, PageChoice choice)
       shapes_(made),
       ground_(pageGround(made)),
       motion_(made.world, quanta_),
-      contacts_(made, {quanta_.contact_m, choice_.recorded, choice_.frames}) {
+      contacts_(made, {quanta_.contact_m, choice_.recorded, choice_.frames}),
+      caption_(scene, made) {
   requireFits(made.world, choice_.frames);
   for (const auto& [name, camera] : pageCameras(scene))
     cameras_.push_back({name, CameraPath(camera, made, kCameraAspect), false, {}});
@@ -142,6 +192,7 @@ void PlayerPage::add(int frame, std::span<const BodyState> states) {
   const double time_s = frame / choice_.fps;
   motion_.add(states);
   contacts_.add(states, frame, time_s);
+  if (!caption_.empty()) captions_.push_back(caption_.at(time_s, states));
   for (CameraTrack& track : cameras_) {
     track.frames.push_back(track.path.at(time_s, states));
     const renderer::Camera &first = track.frames.front(), &now = track.frames.back();
@@ -189,6 +240,8 @@ Json PlayerPage::bodiesJson() const {
                               {"radius", solid.radius()},
                               {"color", hexColor(look.color)}});
     if (look.checker) body.set("checker", true);
+    body.set("look", lookName(look));
+    body.set("finish", finishJson(made_.surfaces[i], solid));
     if (solid.parts().size() == 1) body.set("boxy", true);
     if (!look.material.empty()) body.set("material", look.material);
     if (description.is_static) body.set("static", true);
@@ -236,6 +289,8 @@ Json PlayerPage::factsJson() const {
                                                       {"spin", quanta_.spin_radps},
                                                       {"fov", 1.0 / kFovSteps}})},
                              {"light", lightJson(scene_.light.light)},
+                             {"looks", looksJson(made_.looks)},
+                             {"captions", captionsJson(captions_)},
                              {"modes", modesJson()},
                              {"water", waterJson(scene_)},
                              {"cameras", camerasJson()},
@@ -261,8 +316,8 @@ std::string PlayerPage::html() const {
   page = withPart(std::move(page), "<!--SHADERS-->", shaderElements());
   page = withPart(std::move(page), "/*SCRIPT*/",
                   bundledScript(web, {"geometry.js", "stream.js", "contacts.js", "recording.js", "program.js",
-                                      "sunlight.js", "water.js", "graphics.js", "view.js", "link.js",
-                                      "overlays.js", "facts.js", "player.js"}));
+                                      "offscreen.js", "sunlight.js", "water.js", "graphics.js", "view.js",
+                                      "link.js", "overlays.js", "facts.js", "player.js"}));
   return withPart(std::move(page), "<!--DATA-->", packedBase64(data.bytes()));
 }
 

@@ -16,6 +16,7 @@
 #include "demos/page/page_shapes.h"
 #include "demos/scene/camera_path.h"
 #include "demos/scene/scene.h"
+#include "demos/scene/scene_caption.h"
 
 namespace carom::demos {
 
@@ -62,6 +63,8 @@ class PlayerPage {
   std::optional<PageGround> ground_;
   PageMotion motion_;
   PageContacts contacts_;
+  SceneCaption caption_;
+  std::vector<std::string> captions_;  // Of the frames; none without a caption.
   std::vector<CameraTrack> cameras_;
 };
 

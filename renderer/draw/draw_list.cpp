@@ -132,19 +132,12 @@ bool isGlass(const Instance& instance) {
   return !instance.checker && instance.surface.kind == SurfaceKind::kGlass;
 }
 
-int longestAxis(const Vec3& half) {
-  int axis = 0;
-  for (int i = 1; i < 3; ++i)
-    if (half[i] > 1.001 * half[axis]) axis = i;
-  return axis;
-}
-
-// Courses of bricks stay level in the body's frame; every other pattern lies along the longest side.
 void setFinish(const Surface& surface, const Extent& extent, bool is_ball, InstanceRecord& record) {
   if (surface.kind == SurfaceKind::kPlain) return;
+  const SurfaceFrame frame = surfaceFrame(surface, extent.half);
   record.finish[0] = static_cast<float>(1.0 / surface.scale_m);
-  record.finish[1] = static_cast<float>(surface.kind == SurfaceKind::kBrick ? 2 : longestAxis(extent.half));
-  record.finish[2] = static_cast<float>(surface.seed % 4096) / 4096.0f;
+  record.finish[1] = static_cast<float>(frame.axis);
+  record.finish[2] = static_cast<float>(frame.number);
   for (int i = 0; i < 3; ++i) record.half[i] = static_cast<float>(extent.half[i]);
   record.half[3] = is_ball ? 1.0f : 0.0f;
 }

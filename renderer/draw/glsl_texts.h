@@ -4,6 +4,7 @@
 
 namespace carom::renderer::glsl {
 
+extern const char* const kDesktop;
 extern const char* const kHead;
 extern const char* const kLight;
 extern const char* const kNoise;

@@ -9,8 +9,8 @@ namespace carom::renderer {
 
 struct ShaderSources {
   const char* name;                   ///< For the message when the driver rejects it.
-  std::array<const char*, 4> vertex;  ///< The stage's text, in pieces, null after the last.
-  std::array<const char*, 7> fragment;
+  std::array<const char*, 5> vertex;  ///< The stage's text, in pieces, null after the last.
+  std::array<const char*, 8> fragment;
 };
 
 /// A program that lives as long as the current context. Throws NoRenderer with the first line of the driver's

@@ -10,7 +10,7 @@ in vec3 shadow;
 flat in vec4 albedo;
 #ifdef PICTURES
 in vec3 on_picture;
-layout(binding = 4) uniform sampler2DArray pictures;
+TEXTURE(4) uniform sampler2DArray pictures;
 #endif
 #ifdef SURFACE
 in vec3 p_S;
@@ -95,5 +95,5 @@ void main() {
   light += kSun * (glint * sun) + fresnel * mirrored;
 #endif
   light *= lightAt(p_E.xy);
-  pixel = vec4(film(light, distance_m, -v), kOpaque);
+  pixel = encoded(vec4(film(light, distance_m, -v), kOpaque));
 }

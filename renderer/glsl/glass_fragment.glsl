@@ -1,7 +1,7 @@
 // Glass: what is behind is seen along a ray that is bent where it enters and where it leaves the body, a ball or the box
 // around it, and absorbed on the way; the surroundings are mirrored in front, most at grazing angles. Whoever is behind is
 // looked up on a copy of the image without this body, where the bent ray meets the ground or ends.
-layout(binding = 3) uniform sampler2D scene_copy;
+TEXTURE(3) uniform sampler2D scene_copy;
 in vec3 p_E;
 in vec3 n_E;
 flat in vec3 bend;

@@ -4,7 +4,7 @@ vec3 groundPoint() {
   return ray * (ground.x / ray.z);
 }
 #ifdef POLISHED
-layout(binding = 1) uniform sampler2D mirrored;
+TEXTURE(1) uniform sampler2D mirrored;
 // Sky and bodies, as a coat of varnish mirrors them: more at grazing angles.
 vec3 polished(vec3 image, vec3 p) {
   float nv = -p.z * inversesqrt(dot(p, p));

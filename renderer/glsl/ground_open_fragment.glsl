@@ -1,3 +1,3 @@
 void main() {
-  pixel = groundPixel(groundPoint(), 1.0);
+  pixel = encoded(groundPixel(groundPoint(), 1.0));
 }

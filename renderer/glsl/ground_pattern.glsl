@@ -19,15 +19,16 @@ const vec3 kDarkSquare = vec3(0.305, 0.315, 0.34);
 #ifdef GROUND_NOISE
 // The squares are counted from the eye's own 64th, so that they have their full precision however far the eye is.
 float groundOctaves(vec2 squares, float px, int first, int count) {
-  float sum = 0.0, strength = 0.5;
+  float sum = 0.0, strength = 0.5, last = exp2(-float(count));
   int size = 1 << first;
   px *= float(size);
-  for (int i = 0; i < count && px < 0.65; ++i) {
-    sum += strength * kept(px) * noise(float(size) * squares, ivec2(origin.zw) * (64 * size) + 911 * size);
+  do {  // As in `octaves`.
+    float octave = noise(float(size) * squares, ivec2(origin.zw) * (64 * size) + 911 * size);
+    sum += px < 0.65 ? strength * kept(px) * octave : 0.0;
     size *= 2;
     px *= 2.0;
     strength *= 0.5;
-  }
+  } while (px < 0.65 && strength >= last);
   return sum;
 }
 float groundCell(ivec2 cell, int kind) { return cellValue(ivec3(cell, kind)); }

@@ -1,4 +1,4 @@
 void main() {
   vec3 p = groundPoint();
-  pixel = groundPixel(p, lit(shadowCoordinates(p, vec3(0.0, 0.0, 1.0))));
+  pixel = encoded(groundPixel(p, lit(shadowCoordinates(p, vec3(0.0, 0.0, 1.0)))));
 }

@@ -1,5 +1,6 @@
-#version 420 core
-layout(std140, binding = 0) uniform Frame {
+// What all shaders share, here and on pages (demos/page/web): whoever draws puts a prologue before it, with the version
+// and what differs (desktop.glsl says what). Frame E has the world's axes and its origin at the eye.
+BLOCK(0) uniform Frame {
   mat4 clip_from_E;
   vec4 shadow_rows[3];
   vec4 to_light;

@@ -1,6 +1,6 @@
 // What lights a scene: sun, sky and bounced light, the air in between, and the film. Of linear light are kSun, kSkyLight
 // and kGroundLight; kHorizon, kZenith and kBelow are the sky as it appears on the image (renderer/view/light.h).
-layout(binding = 0) uniform sampler2DShadow shadow_map;
+TEXTURE(0) uniform sampler2DShadow shadow_map;
 
 vec3 skyAt(float elevation) {
   float up = clamp(elevation, 0.0, 1.0);
@@ -61,6 +61,14 @@ float lit(vec3 s) {
   vec2 lower = b / size;
   vec2 upper = (b + 2.0) / size;
   float z = min(s.z, 1.0);  // beyond the last caster the empty map (depth 1) must not shade; float depths don't clamp
+#ifdef GATHERLESS
+  // The same weights: of each pair of neighbours the filter takes the mean that its place asks for.
+  vec2 low = 3.0 - 2.0 * f, high = 1.0 + 2.0 * f;
+  vec2 p = (b - 0.5 + (2.0 - f) / low) / size, q = (b + 1.5 + f / high) / size;
+  return dot(vec4(low.x, high.x, low.x, high.x) * vec4(low.yy, high.yy),
+             vec4(texture(shadow_map, vec3(p, z)), texture(shadow_map, vec3(q.x, p.y, z)),
+                  texture(shadow_map, vec3(p.x, q.y, z)), texture(shadow_map, vec3(q, z)))) / 16.0;
+#else
   vec4 q00 = textureGather(shadow_map, lower, z);
   vec4 q10 = textureGather(shadow_map, vec2(upper.x, lower.y), z);
   vec4 q01 = textureGather(shadow_map, vec2(lower.x, upper.y), z);
@@ -68,6 +76,7 @@ float lit(vec3 s) {
   vec4 rows = vec4(dot(wx, vec4(q00.wz, q10.wz)), dot(wx, vec4(q00.xy, q10.xy)),
                    dot(wx, vec4(q01.wz, q11.wz)), dot(wx, vec4(q01.xy, q11.xy)));
   return dot(wy, rows) / 16.0;
+#endif
 }
 #endif
 

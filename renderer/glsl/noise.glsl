@@ -45,15 +45,17 @@ float noise(vec2 p, ivec2 first) {
 // How much of what varies within one unit is left where a pixel covers `px` units.
 float kept(float px) { return clamp(1.7 - 2.6 * px, 0.0, 1.0); }
 
-// Octaves from features of one unit on, each half as wide and strong; the loop ends when none is left in any pixel.
+// Octaves from features of one unit on, each half as wide and strong. The loop ends when none is left in any pixel of those
+// that are drawn together. It is counted by the strength, since a compiler that knew the count would lay the octaves out
+// one behind the other, and those that no pixel shows would cost as much as the others.
 float octaves(vec3 p, float px, int count) {
-  float sum = 0.0, strength = 0.5;
-  for (int i = 0; i < count && px < 0.65; ++i) {
-    sum += strength * kept(px) * noise(p);
+  float sum = 0.0, strength = 0.5, last = exp2(-float(count));
+  do {
+    sum += px < 0.65 ? strength * kept(px) * noise(p) : 0.0;
     p = 2.0 * p + vec3(17.3, 5.1, 9.7);
     px *= 2.0;
     strength *= 0.5;
-  }
+  } while (px < 0.65 && strength >= last);
   return sum;
 }
 

@@ -11,7 +11,11 @@ void main() {
   float nearness = clamp(fall.x - fall.y * square * inverse, 0.0, 1.0);
   float above = clamp(-dot(out_of_box, n_R) * inverse, 0.0, 1.0);
   float lost = strength * (0.5 + 0.5 * above) * nearness * nearness;
+#ifdef LINEAR  // The blend is of light; else of bytes.
+  float left = 1.0 - lost;
+#else
   float left = 1.0 - lost * (0.4545 + lost * (0.102 + lost * 0.145));
+#endif
 #ifdef CUTOUT
   pixel = vec4(left);
 #else

@@ -10,5 +10,6 @@ void main() {
 #ifdef GLOW
   pixel.rgb += glowTowards(normalize(ray));
 #endif
+  pixel = encoded(pixel);
 #endif
 }

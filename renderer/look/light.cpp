@@ -2,10 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "engine/foundation/contract.h"
 
 namespace carom::renderer {
+namespace {
+
+std::string constant(const char* name, const Vec3& value) {
+  char line[160];
+  std::snprintf(line, sizeof line, "const vec3 %s = vec3(%.9g, %.9g, %.9g);\n", name, value.x(), value.y(),
+                value.z());
+  return line;
+}
+
+std::string constant(const char* name, double value) {
+  char line[80];
+  std::snprintf(line, sizeof line, "const float %s = float(%.9g);\n", name, value);
+  return line;
+}
+
+}  // namespace
 
 const std::vector<std::string>& lightNames() {
   static const std::vector<std::string> names{"day", "studio-dark", "sunset", "overcast"};
@@ -46,6 +63,17 @@ Light lightOf(const std::string& name) {
     light.softness = 5.0;
   }
   return light;
+}
+
+std::string shaderLines(const Light& light) {
+  const auto image = [&](const Vec3& color) { return exposed(color, light.exposure); };
+  std::string lines;
+  if (!light.glow.isZero(0.0)) lines += "#define GLOW\n" + constant("kGlow", image(light.glow));
+  if (light.pool > 0.0) lines += "#define POOL\n";
+  return lines + constant("kSun", light.sun) + constant("kSkyLight", light.sky_light) +
+         constant("kGroundLight", light.ground_light) + constant("kHorizon", image(light.horizon)) +
+         constant("kZenith", image(light.zenith)) + constant("kBelow", image(light.below)) +
+         constant("kExposure", light.exposure);
 }
 
 Vec3 exposed(const Vec3& image, double exposure) {

@@ -1,6 +1,6 @@
 #pragma once
 // The light of a scene: where the sun stands, what it and the sky give, how the sky looks. Plain values; the
-// shaders have them as constants (renderer/draw/shader_lines.h). Tested in
+// shaders, here and on pages, have them as constants. Tested in
 // tests/renderer/look/light_test.cpp.
 
 #include <string>
@@ -31,6 +31,9 @@ struct Light {
 const std::vector<std::string>& lightNames();
 /// The one of that name, which must be one of them.
 Light lightOf(const std::string& name);
+
+/// The lines by which the shaders know it (renderer/glsl/light.glsl): its values, as constants.
+std::string shaderLines(const Light& light);
 
 /// What `image`, a colour on the film, becomes with that exposure.
 Vec3 exposed(const Vec3& image, double exposure);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/foundation/frames.h"
 #include "renderer/image/color.h"
 
 namespace carom::renderer {
@@ -38,6 +39,10 @@ const std::string& nameOf(GroundPattern pattern);
 std::optional<SurfaceKind> surfaceOf(const std::string& name);
 std::optional<GroundPattern> groundOf(const std::string& name);
 
+/// The lines that choose it in the shaders of bodies and grounds; none for one without a surface.
+std::string shaderLines(SurfaceKind kind);
+std::string shaderLines(GroundPattern pattern);
+
 /// The mean colour of what it is made of, where nobody chooses another.
 Color naturalColor(SurfaceKind kind);
 Color naturalColor(GroundPattern pattern);
@@ -48,6 +53,15 @@ struct Surface {
   std::uint32_t seed = 0;  ///< Which part of the endless pattern the body is cut from.
   bool operator==(const Surface&) const = default;
 };
+
+/// How a surface's pattern lies in a body: which of the body's axes is the pattern's z, and the body's number
+/// within [0, 1), by which no two are cut from the same place.
+struct SurfaceFrame {
+  int axis = 2;
+  double number = 0.0;
+};
+/// Courses of bricks stay level in the body's frame; every other pattern lies along the longest side.
+SurfaceFrame surfaceFrame(const Surface& surface, const Vec3& half_size);
 
 /// The scale that suits a body whose middle side has this length: metres from a metre on, below that in
 /// proportion, by powers of two so that bodies of about one size look alike.

@@ -37,7 +37,7 @@ Backdrop::Backdrop(const GlFunctions& gl, const Request& request) : gl_(gl), req
 const Backdrop::GroundPrograms& Backdrop::groundPrograms(GroundPattern pattern) {
   GroundPrograms& programs = ground_programs_[static_cast<std::size_t>(pattern)];
   if (programs.open == 0) {
-    const std::string lines = request_.variant + groundLines(pattern);
+    const std::string lines = request_.variant + shaderLines(pattern);
     programs.open = linkProgram(gl_, sourcesOf(Shader::kOpenGround, lines));
     programs.shadowed = linkProgram(gl_, sourcesOf(Shader::kShadowedGround, lines));
   }

@@ -1,39 +1,46 @@
-// Draws a moment by WebGL 2: sun with soft shadows, light from sky and ground, ground checker, air, water. The look is
-// the renderer's (renderer/draw): the same light, film and geometry. Frame E has its origin at the eye.
+// Draws a moment by WebGL 2: sun with soft shadows, light from sky and ground, surfaces, grounds, air, water, glass. The
+// shaders are the renderer's own (renderer/glsl), and so is the geometry. Frame E has its origin at the eye.
 
-import { channels, linearLight, sub } from "./geometry.js";
+import { channels, dot, linearLight, sub } from "./geometry.js";
+import { Offscreen } from "./offscreen.js";
 import { linked } from "./program.js";
-import { DAYLIGHT, checkerSquare, fitShadow, nearDepth } from "./sunlight.js";
+import { checkerSquare, fitShadow, nearDepth } from "./sunlight.js";
 import { Water } from "./water.js";
 
-const SHADOW_TEXELS = 2048, SHADOW_LIFT = 2.6, GROUND_RINGS = 3, FRAME_FLOATS = 84;
-const STILL_FLOATS = 7, MOVING_FLOATS = 11;
-const OUTLINE_PX = 2.5;
+const SHADOW_TEXELS = 2048, SHADOW_LIFT = 2.2, GROUND_RINGS = 3, FRAME_FLOATS = 68;
+const STILL_FLOATS = 11, MOVING_FLOATS = 11;
+const OUTLINE_PX = 2.5, PATTERN_PERIOD = 64, GLASS = "glass", MOST_COPIES = 12;
 
 export class Graphics {
   constructor(canvas, recording) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL 2");
-    Object.assign(this, { canvas, gl, recording, light: { ...DAYLIGHT, ...recording.facts.light } });
+    Object.assign(this, { canvas, gl, recording, light: recording.facts.light });
     this.ground = recording.facts.ground ?? null;
     this.bodies = recording.bodies.map((body, i) => ({ ...body, index: i, endless: this.ground?.body === i }));
+    const { water } = recording.facts;
+    this.isFinished = water.length === 0 && !this.bodies.some(({ look }) => look === GLASS);
+    this.lines = this.light.lines + (this.isFinished ? "" : "#define LINEAR\n");
     this.makePrograms();
     this.makeBuffers();
     this.makeShadowMap();
-    this.water = recording.facts.water.length > 0 ? new Water(gl, recording.facts.water) : null;
+    if (this.isFinished) return;
+    this.offscreen = new Offscreen(gl);
+    this.water = new Water(gl, water, this.light.lines);
   }
 
   makePrograms() {
-    const { gl } = this, inner = this.recording.facts.water.length > 0 ? ["LINEAR"] : [];
+    const { gl, lines } = this, plain = { lines, shades: false };
+    const ground = this.ground ? lines + this.recording.facts.looks[this.bodies[this.ground.body].look] : lines;
     this.programs = {
-      body: linked(gl, "body.vert", "body.frag", inner),
-      shadow: linked(gl, "body.vert", "body.frag", ["SHADOW"]),
-      id: linked(gl, "body.vert", "body.frag", ["ID"]),
-      outline: linked(gl, "body.vert", "body.frag", ["OUTLINE", ...inner]),
-      ground: linked(gl, "ground.vert", "ground.frag", inner),
-      nearby: linked(gl, "nearby.vert", "nearby.frag", inner),
-      sky: linked(gl, "sky.vert", "sky.frag", inner),
+      shadow: linked(gl, "body.vert", "shadow_fragment", { lines: "#define SHADOW\n", shades: false }),
+      id: linked(gl, "body.vert", "mark.frag", { lines: "#define ID\n", shades: false }),
+      outline: linked(gl, "body.vert", "mark.frag", { lines: lines + "#define OUTLINE\n", shades: false }),
+      ground: linked(gl, "ground_vertex", ["ground_common", "ground_shadowed_fragment"], { lines: ground }),
+      nearby: linked(gl, "nearby.vert", "occlusion_fragment", plain),
+      sky: linked(gl, "sky_vertex", "sky_fragment", { lines }),
     };
+    this.looks = new Map();
     this.frame = new Float32Array(FRAME_FLOATS);
     this.frameBuffer = gl.createBuffer();
     gl.bindBufferBase(gl.UNIFORM_BUFFER, 0, this.frameBuffer);
@@ -41,15 +48,28 @@ export class Graphics {
     this.nothing = gl.createVertexArray();
   }
 
-  /** Bodies in the order of their meshes: one draw call a mesh. */
+  /** The program of bodies of that look, and that of their shadows. */
+  programsOf(look) {
+    if (!this.looks.has(look)) {
+      const lines = this.lines + (this.recording.facts.looks[look] ?? ""), { gl, programs } = this;
+      this.looks.set(look, look === GLASS
+        ? { body: linked(gl, "body.vert", "glass_fragment", { lines: "#define GLASS\n" + lines }),
+            shadow: linked(gl, "body.vert", "shadow_fragment", { lines: "#define SHADOW\n#define GLASS\n", shades: false }) }
+        : { body: linked(gl, "body.vert", "body_fragment", { lines }), shadow: programs.shadow });
+    }
+    return this.looks.get(look);
+  }
+
+  /** Bodies in the order of their meshes and looks: one draw call for all that have the same. */
   makeBuffers() {
     const { gl } = this;
-    this.drawn = this.bodies.filter(body => !body.endless).sort((a, b) => a.mesh - b.mesh || a.index - b.index);
+    this.drawn = this.bodies.filter(body => !body.endless).sort((a, b) =>
+      a.mesh - b.mesh || (a.look < b.look ? -1 : a.look > b.look ? 1 : a.index - b.index));
     const still = new Float32Array(STILL_FLOATS * this.drawn.length);
     this.drawn.forEach((body, i) => {
       const size = sub(body.high, body.low);
       const stands = body.boxy && !body.checker ? 0.25 : 0;
-      still.set([...body.low, ...size, body.index + stands], STILL_FLOATS * i);
+      still.set([...body.low, ...size, body.index + stands, ...body.finish], STILL_FLOATS * i);
       body.darkened = (body.checker ? -0.35 : 0.35) * Math.min(...size);
       body.own = channels(body.color).map(linearLight);
     });
@@ -61,10 +81,12 @@ export class Graphics {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.moving);
     gl.bufferData(gl.ARRAY_BUFFER, this.rows.byteLength, gl.DYNAMIC_DRAW);
     this.groups = [];
+    this.glass = [];
     for (let first = 0, end = 0; first < this.drawn.length; first = end) {
-      const number = this.drawn[first].mesh;
-      while (end < this.drawn.length && this.drawn[end].mesh === number) ++end;
-      this.groups.push(this.meshGroup(this.recording.meshes[number], first, end - first));
+      const { mesh, look } = this.drawn[first];
+      while (end < this.drawn.length && this.drawn[end].mesh === mesh && this.drawn[end].look === look) ++end;
+      if (look !== GLASS) this.groups.push(this.meshGroup(mesh, first, end - first));
+      else for (let i = first; i < end; ++i) this.glass.push(this.meshGroup(mesh, i, 1));
     }
     this.all = this.vertexArray(0);
   }
@@ -83,27 +105,45 @@ export class Graphics {
         at += 4 * count;
       }
     };
-    instances(this.still, STILL_FLOATS, [[3, 3], [4, 3], [8, 1]]);
+    instances(this.still, STILL_FLOATS, [[3, 3], [4, 3], [8, 1], [9, 4]]);
     instances(this.moving, MOVING_FLOATS, [[5, 3], [6, 4], [7, 4]]);
     return array;
   }
 
-  meshGroup(mesh, first, count) {
-    const { gl } = this, array = this.vertexArray(first);
-    const attribute = (location, data, size, kind) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+  meshGroup(number, first, count) {
+    const { gl } = this, { mesh, buffers } = this.meshBuffers(number), array = this.vertexArray(first);
+    buffers.vertices.forEach(([buffer, size, kind], location) => {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(location);
       gl.vertexAttribPointer(location, size, kind, true, 0, 0);
-    };
-    attribute(0, mesh.positions, 4, gl.UNSIGNED_SHORT);
-    attribute(1, mesh.normals, 2, gl.SHORT);
-    attribute(2, mesh.tints, 4, gl.UNSIGNED_BYTE);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    const indices = mesh.vertices < 65536 ? new Uint16Array(mesh.indices) : mesh.indices;
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
-    const kind = mesh.vertices < 65536 ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT;
-    return { array, first, count, indices: mesh.indices.length, kind };
+    });
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.corners);
+    const programs = this.programsOf(this.drawn[first].look);
+    return { array, first, count, programs, indices: mesh.indices.length, kind: buffers.kind };
+  }
+
+  /** Of a mesh, made when it is first asked for. */
+  meshBuffers(number) {
+    const { gl } = this, mesh = this.recording.meshes[number];
+    this.buffers ??= new Map();
+    if (!this.buffers.has(number)) {
+      const filled = (target, data) => {
+        const buffer = gl.createBuffer();
+        gl.bindBuffer(target, buffer);
+        gl.bufferData(target, data, gl.STATIC_DRAW);
+        return buffer;
+      };
+      gl.bindVertexArray(null);
+      const small = mesh.vertices < 65536;
+      this.buffers.set(number, {
+        vertices: [[filled(gl.ARRAY_BUFFER, mesh.positions), 4, gl.UNSIGNED_SHORT],
+                   [filled(gl.ARRAY_BUFFER, mesh.normals), 2, gl.SHORT],
+                   [filled(gl.ARRAY_BUFFER, mesh.tints), 4, gl.UNSIGNED_BYTE]],
+        corners: filled(gl.ELEMENT_ARRAY_BUFFER, small ? new Uint16Array(mesh.indices) : mesh.indices),
+        kind: small ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT,
+      });
+    }
+    return { mesh, buffers: this.buffers.get(number) };
   }
 
   makeShadowMap() {
@@ -162,23 +202,33 @@ export class Graphics {
     }
     frame[35] = 1 / (6 * distance);
     frame[39] = SHADOW_TEXELS;
-    frame[43] = this.ground ? 1 : 0;
     const square = checkerSquare(distance);
     frame.set([this.ground ? this.ground.z - eye[2] : -1e30, 1 / square, (eye[0] / square) % 2, (eye[1] / square) % 2], 44);
-    frame.set([2000 * distance / (1 << (4 * GROUND_RINGS)), OUTLINE_PX * (globalThis.devicePixelRatio ?? 1), near, far], 48);
-    ["sun", "skyLight", "groundLight", "horizon", "zenith", "below", "lightSquare", "darkSquare"].forEach(
-      (name, i) => frame.set(light[name], 52 + 4 * i));
+    frame.set([2000 * distance / (1 << (4 * GROUND_RINGS)), OUTLINE_PX * (globalThis.devicePixelRatio ?? 1)], 48);
+    for (let i = 0; i < 2; ++i) {
+      const squares = eye[i] / square, before = Math.floor(squares / PATTERN_PERIOD);
+      frame[56 + i] = squares - PATTERN_PERIOD * before;
+      frame[58 + i] = before;
+    }
+    if (this.ground) frame.set(channels(this.bodies[this.ground.body].color).map(linearLight), 60);
+    const middle = sub(view.target, eye);
+    frame.set([middle[0], middle[1], light.pool > 0 ? 1 / (light.pool * distance) : 0], 64);
+    this.range = { near, far };
     gl.bindBuffer(gl.UNIFORM_BUFFER, this.frameBuffer);
     gl.bufferSubData(gl.UNIFORM_BUFFER, 0, frame);
     return shadow !== null;
   }
 
-  drawGroups(program) {
-    const { gl } = this;
-    gl.useProgram(program);
-    for (const { array, count, indices, kind } of this.groups) {
-      gl.bindVertexArray(array);
-      gl.drawElementsInstanced(gl.TRIANGLES, indices, kind, 0, count);
+  drawGroup({ array, count, indices, kind }) {
+    this.gl.bindVertexArray(array);
+    this.gl.drawElementsInstanced(this.gl.TRIANGLES, indices, kind, 0, count);
+  }
+
+  /** By the one of its programs that `chosen` says. */
+  drawGroups(groups, chosen) {
+    for (const group of groups) {
+      this.gl.useProgram(chosen(group.programs));
+      this.drawGroup(group);
     }
   }
 
@@ -187,14 +237,16 @@ export class Graphics {
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowTarget);
     gl.viewport(0, 0, SHADOW_TEXELS, SHADOW_TEXELS);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.drawGroups(this.programs.shadow);
+    this.drawGroups([...this.groups, ...this.glass], ({ shadow }) => shadow);
   }
 
   drawScene(view, selected) {
     const { gl, programs } = this;
     gl.viewport(0, 0, view.width, view.height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    this.drawGroups(programs.body);
+    gl.enable(gl.CULL_FACE);
+    this.drawGroups(this.groups, ({ body }) => body);
+    gl.disable(gl.CULL_FACE);
     if (selected !== null) this.drawOutline(selected);
     gl.bindVertexArray(this.nothing);
     if (this.ground && view.eye[2] > this.ground.z) {
@@ -207,6 +259,20 @@ export class Graphics {
     gl.depthMask(false);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.depthMask(true);
+    if (this.glass.length > 0) this.drawGlass(view);
+  }
+
+  /** Over what is behind it, the farthest first; glass beyond the copies sees none of the glass drawn since the last. */
+  drawGlass(view) {
+    const { gl } = this;
+    const depth = ({ first }) => dot(Array.from(this.rows.subarray(MOVING_FLOATS * first, MOVING_FLOATS * first + 3)), view.forward);
+    gl.enable(gl.CULL_FACE);
+    [...this.glass].sort((a, b) => depth(b) - depth(a)).forEach((group, i) => {
+      if (i < MOST_COPIES) this.offscreen.copy([gl.COLOR_BUFFER_BIT]);
+      gl.useProgram(group.programs.body);
+      this.drawGroup(group);
+    });
+    gl.disable(gl.CULL_FACE);
   }
 
   /** Less light of the sky on the ground near bodies. */
@@ -231,13 +297,12 @@ export class Graphics {
     if (place < 0) return;
     this.outlines ??= new Map();
     if (!this.outlines.has(place))
-      this.outlines.set(place, this.meshGroup(this.recording.meshes[this.drawn[place].mesh], place, 1));
-    const { array, indices, kind } = this.outlines.get(place);
+      this.outlines.set(place, this.meshGroup(this.drawn[place].mesh, place, 1));
     gl.useProgram(this.programs.outline);
     gl.enable(gl.CULL_FACE);
     gl.cullFace(gl.FRONT);
-    gl.bindVertexArray(array);
-    gl.drawElementsInstanced(gl.TRIANGLES, indices, kind, 0, 1);
+    this.drawGroup(this.outlines.get(place));
+    gl.cullFace(gl.BACK);
     gl.disable(gl.CULL_FACE);
   }
 
@@ -248,14 +313,15 @@ export class Graphics {
     gl.depthFunc(gl.LEQUAL);
     this.placeBodies(view, moment.colors);
     if (this.placeFrame(view)) this.drawShadows();
-    if (this.water) {
-      this.water.begin(view);
-      this.drawScene(view, moment.selected);
-      this.water.finish(view, moment.time, { near: this.frame[50], far: this.frame[51] });
-    } else {
+    if (this.isFinished) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, null);
       this.drawScene(view, moment.selected);
+      return;
     }
+    this.offscreen.begin(view);
+    this.drawScene(view, moment.selected);
+    this.offscreen.copy([gl.COLOR_BUFFER_BIT, gl.DEPTH_BUFFER_BIT]);
+    this.water.finish(view, moment.time, this.range);
   }
 
   /** The body at a pixel of the picture last drawn, from its upper left corner; null where there is none. */
@@ -274,7 +340,7 @@ export class Graphics {
     gl.scissor(column, row, 1, 1);
     gl.viewport(0, 0, view.width, view.height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    this.drawGroups(this.programs.id);
+    this.drawGroups([...this.groups, ...this.glass], () => this.programs.id);
     gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     gl.disable(gl.SCISSOR_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);

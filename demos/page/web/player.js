@@ -67,6 +67,9 @@ class Player {
     byId("overlay-note").hidden = notes.length === 0;
     for (const [key, text] of KEYS) byId("keys").append(element("kbd", {}, key), element("span", {}, text));
     byId("time").max = recording.frames - 1;
+    byId("caption").hidden = recording.facts.captions.length === 0;
+    this.stage.classList.toggle("dark", recording.facts.light.dark);
+    this.stage.classList.toggle("captioned", recording.facts.captions.length > 0);
     writeAbout(recording, byId("about"));
   }
 
@@ -261,6 +264,8 @@ class Player {
     byId("time").value = Math.round(this.time * recording.fps);
     byId("time").setAttribute("aria-valuetext", `${this.time.toFixed(2)} seconds`);
     byId("clock").replaceChildren(`${this.time.toFixed(3)} s`, element("small", {}, `frame ${frame} of ${recording.frames - 1}`));
+    const { captions } = recording.facts, caption = captions[Math.min(frame, captions.length - 1)] ?? "";
+    if (byId("caption").textContent !== caption) byId("caption").textContent = caption;
     drawEnergy(byId("energy"), recording, this.time / (recording.duration || 1));
     byId("legend").hidden = !shows_modes;
     if (shows_modes) this.writeLegend(frame);

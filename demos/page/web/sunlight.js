@@ -60,14 +60,6 @@ function placed(axes, ranges, side, eye, texels) {
   return { rows, texel };
 }
 
-/** What lights a scene where it says nothing else: the renderer's daylight, linear. */
-export const DAYLIGHT = {
-  toSun: [0.5, -0.5, 0.85],
-  sun: [1.76, 1.67, 1.53], skyLight: [0.32, 0.365, 0.44], groundLight: [0.1, 0.097, 0.095],
-  horizon: [0.615, 0.665, 0.735], zenith: [0.24, 0.37, 0.59], below: [0.45, 0.47, 0.5],
-  lightSquare: [0.52, 0.515, 0.5], darkSquare: [0.305, 0.315, 0.34],
-};
-
 /** The side of the checker's squares: 1 m where that is of use, else a power of ten. */
 export function checkerSquare(distance) {
   let square = 1;

@@ -1,5 +1,5 @@
 // Water: each pixel's ray is followed through the volumes in closed form, or to the root of its height above the
-// waves, as far as the depth buffer says it is open (renderer/draw/water_shader.h). The farthest volume comes first.
+// waves, as far as the depth buffer says it is open (renderer/glsl/water_fragment.glsl). The farthest volume comes first.
 const int kVolumes = 4;
 const int kWaves = 12;
 uniform int volumes;
@@ -138,12 +138,12 @@ vec3 through(int v, vec3 behind, vec3 ray, float solid, bool open) {
     float sunward = passage.normal.z > 0.0 ? 1.0 + kSunward * leaning : 1.0;
     vec3 water = scattered[v].rgb * (1.0 - passed) * sunward;
     water = mix(water, skyAt(view.z + 2.0 * facing * passage.normal.z), mirror);
-    vec3 glint = sun.rgb * (1.4 * exp2(-500.0 * (1.0 - nh)));
+    vec3 glint = kExposure * kSun * (1.4 * exp2(-500.0 * (1.0 - nh)));
     water += glint * inversesqrt(1.0 + glint * glint) * (1.0 - water);
     if (outside) water = mix(water, kEdge, 0.4 * boxEdge(v, view * from_m, passage.normal.z > 0.0, pixel_rad * from_m));
     float clear = clearAir(from_m);
     vec3 kept = passed * ((1.0 - mirror) * clear);
-    image = mix(horizon.rgb, water, clear) + kept * behind;
+    image = mix(kHorizon, water, clear) + kept * behind;
     seen = dot(kept, vec3(0.2, 0.6, 0.2));
   }
   if (!open) foam *= 0.85 * seen * clearAir(solid * stretch);
@@ -159,5 +159,5 @@ void main() {
   float solid = open ? kEndless : 2.0 * near * far / (far + near - (2.0 * stored - 1.0) * (far - near));
   vec3 image = texelFetch(scene_color, at, 0).rgb;
   for (int v = 0; v < volumes; ++v) image = through(v, image, ray, solid, open);
-  pixel = shown(image);
+  pixel = encoded(vec4(image, 1.0));
 }

@@ -1,14 +1,14 @@
-// Bodies of water over the finished scene, which is drawn into textures first: colour and depth.
+// Bodies of water over the finished scene, which lies in textures (offscreen.js); without any the picture as it is.
 
 import { channels, linearLight } from "./geometry.js";
 import { linked } from "./program.js";
 
-const VOLUMES = 4, WAVES = 12, SAMPLES = 4;
+const VOLUMES = 4, WAVES = 12;
 const COLOR_DEPTH_M = 2, DARKEST = 0.004, SCATTERED = 0.6, ENDLESS = 1e7;
 const FOAM_PX = 0.9, FOAM_SHARE = 1 / 480;
 
 export class Water {
-  constructor(gl, water) {
+  constructor(gl, water, lines) {
     this.gl = gl;
     this.volumes = water.slice(0, VOLUMES).map(volume => ({
       ...volume,
@@ -17,58 +17,18 @@ export class Water {
       light: channels(volume.color).map(linearLight),
       waves: [...volume.waves].sort((a, b) => Math.abs(b.height) - Math.abs(a.height)).slice(0, WAVES),
     }));
-    this.program = linked(gl, "sky.vert", "water.frag");
+    this.program = linked(gl, "sky_vertex", "water.frag", { lines });
     const at = name => gl.getUniformLocation(this.program, name);
     this.places = Object.fromEntries(["volumes", "low", "high", "absorption", "scattered", "waves", "depth_range"]
       .map(name => [name, at(name)]));
-    gl.uniform1i(at("scene_color"), 1);
-    gl.uniform1i(at("scene_depth"), 2);
     this.nothing = gl.createVertexArray();
-    this.width = this.height = 0;
   }
 
-  /** Targets of this size: one of several samples a pixel, and the textures that it becomes. */
-  resize(width, height) {
-    const { gl } = this;
-    for (const old of [this.color, this.depth]) if (old) gl.deleteTexture(old);
-    Object.assign(this, { width, height, color: gl.createTexture(), depth: gl.createTexture() });
-    this.many ??= { target: gl.createFramebuffer(), color: gl.createRenderbuffer(), depth: gl.createRenderbuffer() };
-    this.single ??= gl.createFramebuffer();
-    for (const [unit, texture, format] of [[gl.TEXTURE1, this.color, gl.SRGB8_ALPHA8],
-                                           [gl.TEXTURE2, this.depth, gl.DEPTH_COMPONENT24]]) {
-      gl.activeTexture(unit);
-      gl.bindTexture(gl.TEXTURE_2D, texture);
-      gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    }
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.single);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.color, 0);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.depth, 0);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.many.target);
-    for (const [buffer, format, place] of [[this.many.color, gl.SRGB8_ALPHA8, gl.COLOR_ATTACHMENT0],
-                                           [this.many.depth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
-      gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
-      gl.renderbufferStorageMultisample(gl.RENDERBUFFER, SAMPLES, format, width, height);
-      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
-    }
-  }
-
-  /** From here on the scene is drawn into the textures. */
-  begin(view) {
-    if (view.width !== this.width || view.height !== this.height) this.resize(view.width, view.height);
-    this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, this.many.target);
-  }
-
+  /** Onto the canvas. */
   finish(view, time, range) {
-    const { gl, width, height } = this;
-    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.many.target);
-    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.single);
-    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.DEPTH_BUFFER_BIT, gl.NEAREST);
+    const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.viewport(0, 0, width, height);
+    gl.viewport(0, 0, view.width, view.height);
     gl.useProgram(this.program);
     this.placeVolumes(view, time);
     gl.uniform2f(this.places.depth_range, range.near, range.far);
@@ -96,6 +56,7 @@ export class Water {
                   4 * (v * WAVES + i)));
     });
     gl.uniform1i(places.volumes, sorted.length);
+    if (sorted.length === 0) return;
     for (const [name, values] of Object.entries(rows)) gl.uniform4fv(places[name], values);
     gl.uniform4fv(places.waves, waves);
   }

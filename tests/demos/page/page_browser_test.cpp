@@ -1,18 +1,23 @@
 // Pages that play a run, opened from disk in headless Chromium: a known body's pixels lie where the renderer
-// puts them, a link gives its moment, keys and controls do what they say, and nothing is asked of anybody.
-// What a frame costs is measured by tests/bench/page_frames.py. Needs Debian's chromium; without it the tests
-// are skipped.
+// puts them and have the colours that it gives them, a link gives its moment, keys and controls do what they
+// say, and nothing is asked of anybody. What a frame costs is measured by tests/bench/page_frames.py. Needs
+// Debian's chromium; without it the tests are skipped.
 #include "tests/demos/support/program_run.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include "demos/language/scene_choice.h"
 #include "demos/language/scene_file.h"
 #include "demos/motion/frame_source.h"
 #include "demos/scene/camera_path.h"
 #include "renderer/frame/frame_renderer.h"
+#include "renderer/look/surface.h"
 #include "tests/demos/support/chromium.h"
 
 namespace carom::demos {
@@ -87,6 +92,76 @@ Vec2 middleOf(const fs::path& file, const std::string& name, const std::string& 
   return sum / std::max(count, 1);
 }
 
+// A body of each surface in a row, a slab of each ground before it; level and at rest, at sunset.
+std::string sceneOfEveryLook() {
+  std::ostringstream materials, bodies;
+  const auto add = [&](const char* kind, const std::string& name, const char* box, double x,
+                       const char* rest) {
+    materials << ", \"" << kind << ' ' << name << "\": { \"" << kind << "\": \"" << name
+              << (kind == std::string("surface") && name != "plain" ? "\", \"surfaceScale\": 3 }" : "\" }");
+    bodies << ", { \"name\": \"" << kind << ' ' << name << R"(", "static": true, "shape": { "box": )" << box
+           << R"( }, "rotation": { "axis": [0, 0, 1], "degrees": 25 }, "position": [)" << x << rest
+           << R"(, "material": ")" << kind << ' ' << name << "\" }";
+  };
+  double x = -6.0;
+  for (const std::string& surface : renderer::surfaceNames()) {
+    add("surface", surface, "[0.9, 0.8, 1.2]", x, ", 1.5, 0.7]");
+    x += 1.5;
+  }
+  x = -5.2;
+  for (const std::string& ground : renderer::groundNames()) {
+    if (ground == "concrete") continue;
+    add("ground", ground, "[2, 1.6, 0.3]", x, ", -1.2, 0.2]");
+    x += 2.6;
+  }
+  std::ostringstream scene;
+  scene
+      << R"({ "format": 1, "duration": 0.1, "light": "sunset", "caption": "t = {=time:3} s",
+    "materials": { "floor": { "ground": "concrete" })"
+      << materials.str() << R"( }, "bodies": [
+    { "name": "floor", "shape": { "box": [60, 60, 1] }, "position": [0, 0, -0.5], "static": true, "material": "floor" })"
+      << bodies.str()
+      << R"( ], "cameras": { "main": { "eye": [0.5, -9, 3.5], "target": [0, 0, 0.6], "fovDegrees": 46 } } })";
+  return scene.str();
+}
+
+/// The picture of the start that `carom render` draws, and who is seen where.
+struct Drawn {
+  renderer::Image image;
+  std::vector<int> instance;
+  std::vector<std::string> names;
+
+  Drawn(const fs::path& file, int width, int height) {
+    const Scene scene = readSceneFile(file);
+    SceneWorld made = makeSceneWorld(scene, std::nullopt);
+    const CameraPath path(chosenCamera(scene, "main").camera, made, static_cast<double>(width) / height);
+    renderer::Settings settings{.width = width, .height = height};
+    settings.light = scene.light.light;
+    renderer::FrameRenderer pictures(settings, made.drawnSolids());
+    image = pictures.draw(drawnInstances(made, made.world.states()), path.at(0.0, made.world.states()));
+    for (const auto number : pictures.surfaces().instance) instance.push_back(static_cast<int>(number));
+    names = made.names;
+  }
+
+  /// Whether only that body is seen there and beside it, in colours so alike that no edge is filtered.
+  bool isInside(int x, int y) const {
+    constexpr int kReach = 2, kAlike = 8;  // Pixels; of 255.
+    if (x < kReach || y < kReach || x >= image.width - kReach || y >= image.height - kReach) return false;
+    const auto at = [&](int u, int v) { return instance[static_cast<std::size_t>(v * image.width + u)]; };
+    for (int v = y - kReach; v <= y + kReach; ++v)
+      for (int u = x - kReach; u <= x + kReach; ++u)
+        if (at(u, v) != at(x, y) || difference(image.pixel(u, v), image.pixel(x, y)) > kAlike) return false;
+    return true;
+  }
+  /// The most that a channel differs.
+  template <typename A, typename B>
+  static int difference(const A& a, const B& b) {
+    int most = 0;
+    for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(int{a[c]} - int{b[c]}));
+    return most;
+  }
+};
+
 // Where the die's magenta is, after the picture's size.
 constexpr char kLookForMagenta[] = R"js(
   const lookForMagenta = () => {
@@ -128,6 +203,56 @@ TEST_F(PageInChromium, ABodyIsWhereTheRendererPutsIt) {
     EXPECT_LE((seen - wanted).norm(), 1.5) << seen.transpose() << " and " << wanted.transpose();
     EXPECT_EQ(notes[6 * i + 4], "1") << "a click there is on the die";
     EXPECT_EQ(notes[6 * i + 5], "0") << "an error of WebGL";
+  }
+}
+
+// The shaders are the same texts. What differs on a page: normals are rounded to a tenth of a degree, corners
+// to a 65535th of a side, light is a polynomial of the framebuffer there and a power here, four samples a
+// pixel stand for the filter of edges, and the shadow map has twice the texels. Away from edges the first
+// three are left.
+TEST_F(PageInChromium, SurfacesGroundsAndLightAreThoseOfAFrame) {
+  scene = folder.file("die.json", sceneOfEveryLook());
+  const std::vector<std::string> notes = noted(page(), R"js(
+    carom.setPlaying(false);
+    carom.seek(0);
+    carom.draw();
+    const { gl } = carom.graphics, { width, height } = carom.view, pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    notes.push(String(width), String(height), String(gl.getError()), document.getElementById("caption").textContent,
+               Array.from(pixels, byte => byte.toString(16).padStart(2, "0")).join(""));
+  )js",
+                                               std::string(kWebGl));
+  ASSERT_EQ(notes.size(), 5u) << notes[0];
+  EXPECT_EQ(notes[2], "0") << "an error of WebGL";
+  EXPECT_EQ(notes[3], "t = 0.000 s");
+  const int width = std::stoi(notes[0]), height = std::stoi(notes[1]);
+  const Drawn drawn(scene, width, height);
+  const auto shown = [&](int x, int y) {
+    const std::size_t at = 8 * static_cast<std::size_t>((height - 1 - y) * width + x);
+    std::array<int, 3> color{};
+    for (std::size_t c = 0; c < 3; ++c) color[c] = std::stoi(notes[4].substr(at + 2 * c, 2), nullptr, 16);
+    return color;
+  };
+  struct Count {
+    int pixels = 0, equal = 0;
+    double sum = 0.0;
+  };
+  std::map<std::string, Count> counts;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (!drawn.isInside(x, y)) continue;
+      const int who = drawn.instance[static_cast<std::size_t>(y * width + x)];
+      Count& count = counts[who < 0 ? "sky" : drawn.names[static_cast<std::size_t>(who)]];
+      const int difference = Drawn::difference(shown(x, y), drawn.image.pixel(x, y));
+      ++count.pixels;
+      count.equal += difference <= 3 ? 1 : 0;
+      count.sum += difference;
+    }
+  EXPECT_EQ(counts.size(), 1u + renderer::surfaceNames().size() + renderer::groundNames().size());
+  for (const auto& [name, count] : counts) {
+    EXPECT_GT(count.pixels, 100) << name;
+    EXPECT_GE(count.equal, 0.97 * count.pixels) << name << ": " << count.pixels << " pixels";
+    EXPECT_LE(count.sum, 1.0 * count.pixels) << name << ": the mean difference";
   }
 }
 

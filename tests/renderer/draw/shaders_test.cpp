@@ -97,7 +97,7 @@ TEST(Shaders, AreValidGlslInEveryVariant) {
     for (int shader = 0; shader < kShaders; ++shader)
       validator.add(sourcesOf(static_cast<Shader>(shader), lines));
     for (int pattern = 0; pattern < kGroundPatterns; ++pattern) {
-      const std::string ground = lines + groundLines(static_cast<GroundPattern>(pattern));
+      const std::string ground = lines + shaderLines(static_cast<GroundPattern>(pattern));
       validator.add(sourcesOf(Shader::kOpenGround, ground));
       validator.add(sourcesOf(Shader::kShadowedGround, ground));
     }
@@ -116,8 +116,8 @@ TEST(Shaders, AMistakeIsFound) {
   if (!hasValidator()) GTEST_SKIP() << "there is no glslangValidator here: apt-get install glslang-tools";
   Validator validator;
   validator.add({"wrong",
-                 {glsl::kHead, "void main() { gl_Position = vec3(0.0); }\n"},
-                 {glsl::kHead, glsl::kShadowFragment}});
+                 {glsl::kDesktop, glsl::kHead, "void main() { gl_Position = vec3(0.0); }\n"},
+                 {glsl::kDesktop, glsl::kHead, glsl::kShadowFragment}});
   EXPECT_NE(validator.verdict().find("ERROR"), std::string::npos);
 }
 
