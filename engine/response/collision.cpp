@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/response/standing_solver.h"
+#include "engine/response/sweeps/energy_bound.h"
+
 namespace carom {
 namespace {
 
 constexpr int kSweeps = 400;
 constexpr double kConverged = 1e-12;  // of the approach speed
-constexpr double kStopped = 1e-10;    // of the approach speed: slower points are left alone
+// What sweeps change by more at the end is solved at once, if it is no more rows than these, after so many
+// sweeps more.
+constexpr double kSlow = 1e-9;  // of the approach speed
+constexpr std::size_t kFewRows = 32;
+constexpr int kSweepsBefore = 20;
+constexpr double kStopped = 1e-10;  // of the approach speed: slower points are left alone
 constexpr int kMostStops = 4000;
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
@@ -42,6 +50,16 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
     (twiceEnergyGain(rows, before, bodies) <= 0.0 ? low : high) = middle;
   }
   setShare(low);
+}
+
+// Few rows that sweeps have not brought to rest, between bodies of very different mass, are solved at once.
+void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
+  SolverSettings settings{kSweeps, kConverged * approach_mps, true};
+  if (solveContacts(rows, bodies, settings).residual_mps <= kSlow * approach_mps) return;
+  if (rows.size() > kFewRows) return;
+  settings.sweeps = kSweepsBefore;
+  solveStandingContacts(rows, bodies, settings);
+  takeBackGain(rows, bodies);
 }
 
 // What the solves have left approaching, where they have not converged (rough ground, very unequal masses):
@@ -86,8 +104,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     report.impulse_Ns = row.impulse.x();
     return report;
   }
-  const SolverSettings settings{kSweeps, kConverged * -report.approach_mps, true};
-  solveContacts(rows, bodies, settings);
+  solveRows(rows, bodies, -report.approach_mps);
 
   if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
     std::vector<Vec3> compressed(rows.size());
@@ -98,7 +115,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       rows[i].impulse.x() += rebound;
       rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution[i] * std::min(before[i].x(), 0.0) : 0.0;
     }
-    solveContacts(rows, bodies, settings);
+    solveRows(rows, bodies, -report.approach_mps);
     if (twiceEnergyGain(rows, before, bodies) > 0.0) {
       report.restitution_cut = true;
       cutRestitution(rows, before, compressed, bodies);

@@ -332,6 +332,20 @@ void ContactCluster::pivotPaths() {
   paths_ = paths;
 }
 
+// Whether that leads them no farther than standing still would. Else they are left as they were: the search
+// finds where they meet, and they are led apart there.
+bool ContactCluster::solvePaths() {
+  std::vector<Velocity> led;
+  for (const ImpulseBody& path : paths_) led.push_back(path.velocity);
+  solveSpreading(kPathShare * safeResidual());
+  PathChange change;
+  for (std::size_t i = 0; i < paths_.size(); ++i) change.add(paths_[i], solve_before_[i], paths_[i].velocity);
+  if (change.staysNear()) return true;
+  led.insert(led.end(), solve_before_.begin() + static_cast<std::ptrdiff_t>(led.size()), solve_before_.end());
+  for (std::size_t i = 0; i < paths_.size(); ++i) paths_[i].velocity = led[i];
+  return false;
+}
+
 std::vector<double> ContactCluster::findRestitution() {
   std::vector<double> restitution(rows_.size(), 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -482,6 +496,10 @@ void ContactCluster::support() {
                          momentum_[i].velocity.angular + gain.angular};
     solve_before_[i] = planned_ends_[i];
   }
+  if (isExhausted()) {
+    keepPlannedForces();
+    return;
+  }
   recallPoints();
   rows_.clear();
   for (const SourcedRow& sourced : sources_) {
@@ -505,6 +523,20 @@ void ContactCluster::support() {
   takeBackGain(rows_, ends_);
   stops_short_ = isCrowd();
   keepForces();
+  findBends();
+}
+
+// Forces act on as they did before the event: where no more bodies may join, what ended on one side of a body
+// would leave what balanced it on the other to act alone.
+void ContactCluster::keepPlannedForces() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!bodies_[at(members_[i].body)].yields()) continue;
+    const std::span<const int> pairs = table_.pairsOf(members_[i].body);
+    pressed_[i] = std::any_of(pairs.begin(), pairs.end(), [&](int pair) {
+      return std::ranges::any_of(table_.pairs()[at(pair)].remembered,
+                                 [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
+    });
+  }
   findBends();
 }
 
@@ -559,11 +591,8 @@ void ContactCluster::boundPaths(bool all) {
     rows_.back().lowest_speed = lowestSpeed(sourced);
     prepareRow(rows_.back(), paths_);
   }
-  solveSpreading(kPathShare * safeResidual());
-  for (int round = 0; round < kTurningRounds; ++round) {
-    if (!raiseForTurning(all)) break;
-    solveSpreading(kPathShare * safeResidual());
-  }
+  bool near = solvePaths();
+  for (int round = 0; near && round < kTurningRounds && raiseForTurning(all); ++round) near = solvePaths();
 }
 
 bool ContactCluster::raiseForTurning(bool all) {

@@ -134,11 +134,13 @@ class ContactCluster {
   void releaseDistant(int body);
   void takeOverForces(std::size_t first, std::size_t count);
   void keepForces();
+  void keepPlannedForces();
   void findBends();
   bool raiseForTurning(bool all);
   void solveSpreading(double careful_mps);
   void solveAtOnce(double enough_mps);
   void pivotPaths();
+  bool solvePaths();
   double lowestSpeed(const SourcedRow& sourced) const;
   std::vector<double> findRestitution();
 

@@ -446,6 +446,15 @@ class EventLoop {
     body.lifting += settings_.gravity.dot(mean_before - mean);
   }
 
+  // The same where it is led in contact: only as far as it falls less or more than its momentum does, and by
+  // what of its weight no contact bears. What opens a gap under it lifts it once, and what stops a fall has
+  // taken its energy.
+  void countFall(Body& body, const Vec3& mean_before, const Vec3& mean) const {
+    const Vec3 down = settings_.gravity.normalized();
+    const double unborne = std::max(0.0, down.dot(body.acceleration));
+    body.lifting += unborne * (std::max(0.0, down.dot(mean_before)) - std::max(0.0, down.dot(mean)));
+  }
+
   void halve(int index, double rest_of_step_s) {
     const Trajectory& path = bodies_[at(index)].path;
     lead(index, {0.5 * meanOf(path, rest_of_step_s), 0.5 * path.angularVelocityAt(path.start_s)},
@@ -603,6 +612,7 @@ class EventLoop {
         changed_.push_back(index);
       }
       body.travel = Travel::kCarried;
+      countFall(body, meanOf(body.path, settings_.step_s - time_s), cluster_.path(i).linear);
       carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
       for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
         lifts_.join(first, index, bodies_);

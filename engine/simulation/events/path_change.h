@@ -2,7 +2,7 @@
 // How far solvers may lead paths from where momenta would take them. What is wedged between others parts from
 // both when it is shot out sideways, at any speed; but standing still would have been nearer. Internal to the
 // simulation floor. Tested in tests/engine/simulation/events/path_change_test.cpp and by
-// tests/explore/cases/wedged-stack.json.
+// tests/explore/cases (wedged-stack, raised-for-turning).
 
 #include <span>
 
@@ -24,18 +24,25 @@ inline double twiceEnergy(const ImpulseBody& body, const Velocity& v) {
                                 : v.angular.squaredNorm() / trace);
 }
 
-/// Whether the velocities of the paths are as near, in the measure of energy, to what they were `before` as
-/// standing still would be, but for gaps that open.
-inline bool staysNear(std::span<const ImpulseBody> before, std::span<const ImpulseBody> after) {
-  double led_J = 0.0, stopped_J = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const ImpulseBody& body = before[i];
-    const Velocity& led = after[i].velocity;
-    led_J += twiceEnergy(body, {led.linear - body.velocity.linear, led.angular - body.velocity.angular});
-    stopped_J += twiceEnergy(body, body.velocity);
+/// How far paths are led, body by body, in the measure of energy.
+struct PathChange {
+  double led_J = 0.0;
+  double stopped_J = 0.0;  ///< As far as standing still would be, but for gaps that open.
+
+  void add(const ImpulseBody& body, const Velocity& before, const Velocity& after) {
+    led_J += twiceEnergy(body, {after.linear - before.linear, after.angular - before.angular});
+    stopped_J += twiceEnergy(body, before);
     if (body.inverse_mass > 0.0) stopped_J += tolerance::kGapSpeed * tolerance::kGapSpeed / body.inverse_mass;
   }
-  return led_J <= stopped_J;
+  bool staysNear() const { return led_J <= stopped_J; }
+};
+
+/// Whether the velocities of the paths are as near to what they were `before` as standing still would be.
+inline bool staysNear(std::span<const ImpulseBody> before, std::span<const ImpulseBody> after) {
+  PathChange change;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    change.add(before[i], before[i].velocity, after[i].velocity);
+  return change.staysNear();
 }
 
 }  // namespace carom

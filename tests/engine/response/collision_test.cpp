@@ -134,6 +134,22 @@ TEST(Collide, LeavesNoPointApproaching) {
   }
 }
 
+// A ball under one a million times as heavy, on the floor: what sweeps change of the heavy one is so little
+// that it looks converged. What is solved at once is so to 1e-12 of the approach, times the ratio of masses.
+TEST(Collide, OfAHeavyBodyOnALightOneOnTheFloor_StopsBothWithoutRestitution) {
+  const auto ballAt = [](double density, double z_m) {
+    const Solid ball = Solid::ball(0.5);
+    const Inertia inertia = inertiaOf(density, ball.volume(), ball.unitInertia());
+    return impulseBody(inertia, Quat::Identity(), Vec3(0, 0, z_m), {Vec3(0, 0, -1), Vec3::Zero()});
+  };
+  std::vector<ImpulseBody> bodies{immovable(), ballAt(1.0, 0.5), ballAt(1e6, 1.5)};
+  std::vector<ContactRow> rows{rowAt({.a = 0, .b = 1, .p_W = Vec3::Zero()}, bodies),
+                               rowAt({.a = 1, .b = 2, .p_W = Vec3::UnitZ()}, bodies)};
+  collide(rows, bodies, {{0.0, 0.0}});
+  EXPECT_NEAR(bodies[1].velocity.linear.z(), 0.0, 1e-6);
+  EXPECT_NEAR(bodies[2].velocity.linear.z(), 0.0, 1e-6);
+}
+
 TEST(Collide, OfBodiesThatSeparate_ChangesNothing) {
   Random random(116);
   for (int i = 0; i < 100; ++i) {
