@@ -24,7 +24,7 @@ build_release all
 code=0
 ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@" || code=$?
 if $all; then
-  export CAROM_CHECKS_BEGAN CAROM_CHECKS_END_S=${CAROM_CHECKS_END_S:-3300}
+  export CAROM_CHECKS_BEGAN CAROM_CHECKS_END_S=${CAROM_CHECKS_END_S:-3450}
   bash tests/checks.sh || code=$?
 fi
 exit $code
