@@ -24,7 +24,7 @@ source demos/packages.sh
 # What is cheap and tells most comes first; the hashes leave the sanitizers half of their build.
 stages=(format lint threads hashes sanitizers clang)
 # Seconds on two cores without a compiler cache.
-declare -A takes=([format]=20 [lint]=150 [threads]=200 [hashes]=250 [sanitizers]=700 [clang]=600 [certified]=1800 [coverage]=1500)
+declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=700 [clang]=600 [certified]=1800 [coverage]=1500)
 scene_s=0.5  # simulated, of each scene
 
 left_out=77  # what a stage returns that cannot be run here
