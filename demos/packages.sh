@@ -72,6 +72,14 @@ install_missing_packages() {
   rm -f "$log"
 }
 
+# install_what_is_had PACKAGE...: one that cannot be had does not keep the others away, and is no failure.
+install_what_is_had() {
+  local told package
+  if told=$(install_missing_packages "$@" 2>&1); then return 0; fi
+  case $told in missing\ packages*) echo "$told" >&2; return 0 ;; esac
+  for package in "$@"; do install_missing_packages "$package" >/dev/null 2>&1 || echo "could not install: $package" >&2; done
+}
+
 # build_folder PRESET: where that preset is built.
 build_folder() { echo "${CAROM_BUILD:-build}/$1"; }
 

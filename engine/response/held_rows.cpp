@@ -41,6 +41,7 @@ struct Equation {
 // The order of elimination that keeps the factor sparse, found among bodies rather than their coordinates.
 std::vector<int> eliminationOrder(int bodies, const std::vector<std::pair<int, int>>& neighbours) {
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(at(bodies) + 2 * neighbours.size());
   for (int i = 0; i < bodies; ++i) entries.emplace_back(i, i, 1.0);
   for (const auto& [i, j] : neighbours) {
     entries.emplace_back(i, j, 1.0);

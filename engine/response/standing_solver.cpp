@@ -13,7 +13,7 @@ constexpr int kCrowdSteps = 2;  // what these leave of a crowd, the next solve b
 // Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
 // step that leaves more than this share is the last.
 constexpr double kNearlyEnough = 5.0;
-constexpr double kWorthwhile = 0.2;
+constexpr double kWorthwhileGain = 0.2;
 constexpr double kFiner = 0.1;      // of the residual that is enough: next steps start from here
 constexpr double kHopeless = 10.0;  // times the best residual: the held rows contradict each other
 constexpr int kSweepsAfter = 16;    // fewer do not bring the impulses back into their cones
@@ -69,7 +69,7 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
     if (report.residual_mps > kHopeless * best.residual()) break;
     if (report.residual_mps <= settings.residual_mps) return total;
     if (report.residual_mps >= best.residual()) continue;
-    const bool gains = report.residual_mps <= kWorthwhile * best.residual();
+    const bool gains = report.residual_mps <= kWorthwhileGain * best.residual();
     best = Saved(rows, bodies, report.residual_mps);
     if (!gains && best.residual() <= kNearlyEnough * settings.residual_mps) break;
   }

@@ -152,11 +152,11 @@ class QhullRun {
     ridgeT *ridge, **ridgep;
     FOREACHridge_(facet->ridges) sides.push_back(
         {idOf(SETfirstt_(ridge->vertices, vertexT)), idOf(SETsecondt_(ridge->vertices, vertexT))});
-    return chained(std::move(sides));
+    return chained(sides);
   }
 
   /// The sides strung together; throws when they are not one closed ring.
-  static std::vector<int> chained(std::vector<std::array<int, 2>> sides) {
+  static std::vector<int> chained(const std::vector<std::array<int, 2>>& sides) {
     std::vector<std::array<int, 2>> ways = sides;  // both ways along each side, by where they begin
     for (const auto& [a, b] : sides) ways.push_back({b, a});
     std::sort(ways.begin(), ways.end());

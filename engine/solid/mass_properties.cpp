@@ -193,7 +193,7 @@ MassProperties MassProperties::combined(const MassProperties& a, const MassPrope
 }
 
 MassProperties roundedMass(const ConvexPolyhedron& core, double radius_m) {
-  const Vec3 origin = core.vertex(0);  // near the body: no cancellation far from the origin
+  const Vec3& origin = core.vertex(0);  // near the body: no cancellation far from the origin
   Moments sum = coreMoments(core, origin);
   if (radius_m > 0.0) addRounding(sum, core, radius_m, origin);
   MassProperties result;

@@ -108,6 +108,7 @@ ConvexPolyhedron boxPolyhedron(const Vec3& size_m) {
   if (!size_m.allFinite() || !(size_m.minCoeff() > 0.0))
     throw InputError("a box needs three positive finite sizes");
   std::vector<Vec3> vertices;
+  vertices.reserve(8);
   for (int i = 0; i < 8; ++i)
     vertices.push_back(0.5 * Vec3((i & 1 ? 1 : -1) * size_m.x(), (i & 2 ? 1 : -1) * size_m.y(),
                                   (i & 4 ? 1 : -1) * size_m.z()));

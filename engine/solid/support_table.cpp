@@ -14,7 +14,8 @@ constexpr int kFewVertices = 12;
 SupportTable::SupportTable(int vertex_count, const std::function<int(const Vec3&, int)>& support) {
   if (vertex_count <= kFewVertices) return;
   cells_per_side_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(vertex_count) / 3.0)));
-  vertices_.reserve(static_cast<std::size_t>(6 * cells_per_side_ * cells_per_side_));
+  const auto side = static_cast<std::size_t>(cells_per_side_);
+  vertices_.reserve(6 * side * side);
   int near = 0;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool negative : {false, true})
@@ -23,7 +24,7 @@ SupportTable::SupportTable(int vertex_count, const std::function<int(const Vec3&
           near = support(middleOf(axis, negative, i, j), near);
           vertices_.push_back(near);
         }
-        near = vertices_[vertices_.size() - static_cast<std::size_t>(cells_per_side_)];
+        near = vertices_[vertices_.size() - side];
       }
 }
 
@@ -45,12 +46,13 @@ std::size_t SupportTable::cellOf(const Vec3& direction) const {
   // overflow.
   const auto cell = [&](double component) {
     const double k = 0.5 * cells_per_side_ * (component / major + 1.0);
-    return k > 0.0 ? static_cast<int>(std::min(k, cells_per_side_ - 1.0)) : 0;
+    return static_cast<std::size_t>(k > 0.0 ? static_cast<int>(std::min(k, cells_per_side_ - 1.0)) : 0);
   };
-  const int side = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
-  const int row = cell(direction[(axis + 1) % 3]);
-  const int column = cell(direction[(axis + 2) % 3]);
-  return static_cast<std::size_t>((side * cells_per_side_ + row) * cells_per_side_ + column);
+  const auto cells_per_side = static_cast<std::size_t>(cells_per_side_);
+  const std::size_t side = 2 * static_cast<std::size_t>(axis) + (direction[axis] < 0.0 ? 1 : 0);
+  const std::size_t row = cell(direction[(axis + 1) % 3]);
+  const std::size_t column = cell(direction[(axis + 2) % 3]);
+  return (side * cells_per_side + row) * cells_per_side + column;
 }
 
 }  // namespace carom

@@ -61,7 +61,8 @@ class Course {
 
  private:
   double compressionLeft(double rate) const {
-    return rate > 0.0 ? std::max(0.0, -velocity_.x() / rate) : kForever;
+    if (!(rate > 0.0)) return kForever;
+    return std::max(0.0, -velocity_.x() / rate);
   }
 
   // To where the work is given back, or the point stops separating before that.

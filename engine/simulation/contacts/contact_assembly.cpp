@@ -192,8 +192,9 @@ class Assembly {
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
-        lasts[i] = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
-        if (!lasts[i]) pair.remembered.clear();
+        const bool last = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
+        lasts[i] = last ? 1 : 0;
+        if (!last) pair.remembered.clear();
       }
     });
     Islands& islands = contacts_.room.joined;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kOverRelaxed = 1.3;  // of what is missing, so that what is wedged converges
 constexpr double kOpened = 0.5;       // of what a gap misses to the rest gap
-constexpr double kSlowShare = 0.5;    // of the collision speed: the fastest closing left to a wider one
+constexpr double kWideShare = 0.5;    // of the collision speed: the fastest closing left to a wider one
 constexpr double kSlack = 0.05;       // of the rest gap: a place that misses less has been led apart
 constexpr double kMuch = 0.25;  // rad: of what turns by less, the rows have seen the end of the arc to 1 %
 constexpr int kVisits = 2000;   // of rows in one solve, 0.1 ms
@@ -46,7 +46,7 @@ void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool
   place.p_A_W = found.closest.p_A_W;
   place.p_B_W = found.closest.p_B_W;
   place.wanted_mps =
-      std::clamp(kOpened * missing_m / rest_s, -kSlowShare * pair.collision_speed_mps, tolerance::kGapSpeed);
+      std::clamp(kOpened * missing_m / rest_s, -kWideShare * pair.collision_speed_mps, tolerance::kGapSpeed);
   place.slack_mps = kSlack * pair.window.rest / rest_s;
   const double fastest =
       std::max(bodies[at(pair.body_a)].path.fastestSpin(), bodies[at(pair.body_b)].path.fastestSpin());

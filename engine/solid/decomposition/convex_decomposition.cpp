@@ -84,8 +84,15 @@ class PlanesAbout {
     return std::abs(direction.x() * q.y() - direction.y() * q.x()) / direction.norm();
   }
 
-  /// The directions from the notch in which most other notches lie whole, the most first, then the nearest.
-  std::vector<Vec3> sharedDirections(const std::vector<int>& notches) const {
+  /// What lies in one direction from the notch.
+  struct Shared {
+    int count = 0;
+    Vec2 direction = Vec2::Zero();  // to the farthest
+    double nearest = std::numeric_limits<double>::infinity();
+  };
+
+  /// The notches that lie whole in one direction from this one, around its line.
+  std::vector<Sight> sightsOf(const std::vector<int>& notches) const {
     std::vector<Sight> sights;
     for (const int other : notches) {
       Vec2 far = fromLine(surface_.point(surface_.tail(other)));
@@ -97,11 +104,12 @@ class PlanesAbout {
     }
     std::stable_sort(sights.begin(), sights.end(),
                      [](const Sight& a, const Sight& b) { return a.turn < b.turn; });
-    struct Shared {
-      int count = 0;
-      Vec2 direction = Vec2::Zero();  // to the farthest
-      double nearest = std::numeric_limits<double>::infinity();
-    };
+    return sights;
+  }
+
+  /// The directions from the notch in which most other notches lie whole, the most first, then the nearest.
+  std::vector<Vec3> sharedDirections(const std::vector<int>& notches) const {
+    const std::vector<Sight> sights = sightsOf(notches);
     std::vector<Shared> shared;
     for (std::size_t i = 0, end = 0; i < sights.size(); i = end) {
       Shared group{.direction = sights[i].from_line};
@@ -244,6 +252,7 @@ class Cutting {
       return std::tuple(-a.gain(), a.effect.area_m2) < std::tuple(-b.gain(), b.effect.area_m2);
     });
     std::vector<NotchPlane> best;
+    best.reserve(candidates.size());
     for (const Judged& one : judged) best.push_back(one.by);
     for (std::size_t i = judged.size(); i < candidates.size(); ++i) best.push_back(candidates[i].by);
     return best;

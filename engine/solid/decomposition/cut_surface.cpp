@@ -46,21 +46,149 @@ struct Frame2 {
   Vec2 operator()(const Vec3& p) const { return {basis.t1.dot(p), basis.t2.dot(p)}; }
 };
 
-constexpr signed char kUnlabelled = 2;
+constexpr int kUnlabelled = 2;
 
 double cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Whether the ring winds around the point.
+bool winds(const std::vector<int>& ring, const Vec2& q, const std::vector<Vec2>& corners) {
+  const auto corner = [&](std::size_t i) { return corners[static_cast<std::size_t>(ring[i % ring.size()])]; };
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a = corner(i), b = corner(i + 1);
+    if ((a.y() > q.y()) != (b.y() > q.y()) &&
+        q.x() < a.x() + (q.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// Whether one ring is in another, by the middles of its sides: rounding may put a few of them on the wrong
+/// side.
+bool isWithin(const std::vector<int>& inner, const std::vector<int>& outer,
+              const std::vector<Vec2>& corners) {
+  const auto corner = [&](std::size_t i) {
+    return corners[static_cast<std::size_t>(inner[i % inner.size()])];
+  };
+  int votes = 0;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    votes += winds(outer, 0.5 * (corner(i) + corner(i + 1)), corners) ? 1 : -1;
+  return votes > 0;
+}
+
 }  // namespace
+
+/// The curves in which a plane meets a piece, from edge to edge through its triangles. A curve's number is
+/// below count(), and some numbers are no curve's.
+class CutSurface::Curves {
+ public:
+  Curves(CutSurface& surface, std::span<const int> piece) : surface_(surface) {
+    surface.node_of_point_.assign(surface.points_.size(), -1);
+    surface.node_of_half_.assign(surface.mates_.size(), -1);
+    for (const int t : piece) {
+      const Triangle& c = surface.triangles_[at(t)];
+      const int side = label(c[0]);
+      if (side == 0 || label(c[1]) != side || label(c[2]) != side) follow(t);
+    }
+  }
+
+  /// The triangles that touch the plane, in order: few of many.
+  const std::vector<int>& met() const { return met_; }
+  /// The edges that cross the plane, in order.
+  const std::vector<int>& crossed() const { return crossed_; }
+  int ofPoint(int v) { return nodes_.rootOf(surface_.node_of_point_[at(v)]); }
+  int ofEdge(int half) { return nodes_.rootOf(edgeNode(half)); }
+
+  /// By curve: whether it is the one on which the point is, or its box meets that of a chosen one. No other
+  /// can be around the point's curve or in it.
+  std::vector<char> near(int own_point, const Plane& plane) {
+    const std::vector<Eigen::AlignedBox2d> boxes = boxesIn(plane);
+    const int own = ofPoint(own_point);
+    std::vector<char> chosen(boxes.size(), 0);
+    Eigen::AlignedBox2d reach = boxes[at(own)];
+    chosen[at(own)] = 1;
+    for (bool more = true; more;) {
+      more = false;
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (!chosen[i] && !boxes[i].isEmpty() && boxes[i].intersects(reach)) {
+          chosen[i] = 1;
+          reach.extend(boxes[i]);
+          more = true;
+        }
+    }
+    return chosen;
+  }
+
+ private:
+  int label(int v) const { return surface_.label_[at(v)]; }
+  int& edgeNode(int half) { return surface_.node_of_half_[at(edgeOf(half, surface_.mate(half)))]; }
+
+  /// The points and edges of one triangle that are on the plane or cross it are on one curve.
+  void follow(int t) {
+    met_.push_back(t);
+    int first = -1;
+    const auto meet = [&](int& node) {
+      if (node < 0) node = nodes_.add();
+      if (first < 0) first = node;
+      nodes_.join(first, node);
+    };
+    for (int half = 3 * t; half < 3 * t + 3; ++half) {
+      const int from = label(surface_.tail(half)), to = label(surface_.head(half));
+      if (from == 0) meet(surface_.node_of_point_[at(surface_.tail(half))]);
+      if (from * to < 0) {
+        meet(edgeNode(half));
+        if (half < surface_.mate(half)) crossed_.push_back(half);
+      }
+    }
+  }
+
+  std::vector<Eigen::AlignedBox2d> boxesIn(const Plane& plane) {
+    const Frame2 flat{tangentBasis(plane.normal)};
+    std::vector<Eigen::AlignedBox2d> boxes(at(nodes_.count()));
+    for (const int t : met_)
+      for (int half = 3 * t; half < 3 * t + 3; ++half) {
+        const int v = surface_.tail(half);
+        if (label(v) == 0) boxes[at(ofPoint(v))].extend(flat(surface_.point(v)));
+        if (edgeNode(half) >= 0) boxes[at(ofEdge(half))].extend(flat(surface_.crossing(plane, half)));
+      }
+    return boxes;
+  }
+
+  CutSurface& surface_;
+  Groups nodes_;
+  std::vector<int> met_, crossed_;
+};
 
 /// The curves of a section that are near the notch.
 struct CutSurface::Section {
   Plane plane;
+  Frame2 flat;
   std::vector<int> crossed;       // edges, in order
   std::vector<char> near_notch;   // by point: on the plane, and on a curve that is cut
   std::vector<char> edge_chosen;  // by half (of crossed edges)
   double twice_area = 0.0;
+};
+
+/// The rims of a section as rings of corners. Corner numbers are those of the rims' sides, one behind the
+/// other; each stands for the side's tail.
+struct CutSurface::Rims {
+  std::vector<std::vector<int>> ways;
+  Rings rings;
+  std::vector<Vec2> corners;
+  std::vector<double> twice_areas;
+  std::size_t own = 0;  // the notch's
+
+  /// The smallest ring with area on its left that the hole is in.
+  std::optional<std::size_t> around(std::size_t hole) const {
+    std::optional<std::size_t> smallest;
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      if (twice_areas[i] > 0.0 && i != hole && (!smallest || twice_areas[i] < twice_areas[*smallest]) &&
+          isWithin(rings[hole], rings[i], corners))
+        smallest = i;
+    return smallest;
+  }
 };
 
 CutSurface::CutSurface(const ClosedSurface& surface, double tolerance_m)
@@ -172,110 +300,57 @@ Vec3 CutSurface::crossing(const Plane& plane, int half) const {
   return point(low) + (l / (l - h)) * (point(high) - point(low));
 }
 
-CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const NotchPlane& by) {
-  const Plane& plane = by.plane;
+void CutSurface::labelPoints(std::span<const int> piece, const NotchPlane& by) {
   label_.assign(points_.size(), kUnlabelled);
-  node_of_point_.assign(points_.size(), -1);
-  node_of_half_.assign(mates_.size(), -1);
   for (const int t : piece)
     for (const int v : triangles_[at(t)]) {
       if (label_[at(v)] != kUnlabelled) continue;
-      const double d = plane.signedDistance(point(v));
-      label_[at(v)] = static_cast<signed char>(std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1);
+      const double d = by.plane.signedDistance(point(v));
+      label_[at(v)] = std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1;
     }
   for (const int v : {tail(by.half), head(by.half)}) label_[at(v)] = 0;
-  if (by.along >= 0)
-    for (const int t : piece)
-      if (facets_of_[at(t)] == by.along)
-        for (const int v : triangles_[at(t)]) label_[at(v)] = 0;
+  if (by.along < 0) return;
+  for (const int t : piece)
+    if (facets_of_[at(t)] == by.along)
+      for (const int v : triangles_[at(t)]) label_[at(v)] = 0;
+}
 
-  // The section's curves run from edge to edge through the triangles.
-  Groups curves;
-  const auto pointNode = [&](int v) {
-    int& node = node_of_point_[at(v)];
-    return node >= 0 ? node : node = curves.add();
-  };
-  const auto edgeNode = [&](int half) {
-    int& node = node_of_half_[at(edgeOf(half, mate(half)))];
-    return node >= 0 ? node : node = curves.add();
-  };
-  std::vector<int> crossed;
-  std::vector<int> met;  // The triangles that touch the plane, in order: few of many.
-  for (const int t : piece) {
-    const Triangle& c = triangles_[at(t)];
-    if (label_[at(c[0])] != 0 && label_[at(c[0])] == label_[at(c[1])] && label_[at(c[0])] == label_[at(c[2])])
-      continue;
-    met.push_back(t);
-    int first = -1;
-    const auto meet = [&](int node) {
-      if (first < 0) first = node;
-      curves.join(first, node);
-    };
-    for (int half = 3 * t; half < 3 * t + 3; ++half) {
-      const int from = label_[at(tail(half))], to = label_[at(head(half))];
-      if (from == 0) meet(pointNode(tail(half)));
-      if (from * to < 0) {
-        meet(edgeNode(half));
-        if (half < mate(half)) crossed.push_back(half);
-      }
-    }
-  }
-
-  // Chosen are the notch's curve and all whose boxes meet that of a chosen one: no other can be around it or
-  // in it.
-  const Frame2 flat{tangentBasis(plane.normal)};
-  std::vector<Eigen::AlignedBox2d> boxes(at(curves.count()));
-  for (const int t : met)
-    for (int half = 3 * t; half < 3 * t + 3; ++half) {
-      if (label_[at(tail(half))] == 0)
-        boxes[at(curves.rootOf(pointNode(tail(half))))].extend(flat(point(tail(half))));
-      if (const int node = node_of_half_[at(edgeOf(half, mate(half)))]; node >= 0)
-        boxes[at(curves.rootOf(node))].extend(flat(crossing(plane, half)));
-    }
-  std::vector<char> chosen(boxes.size(), 0);
-  const int own = curves.rootOf(pointNode(tail(by.half)));
-  Eigen::AlignedBox2d reach = boxes[at(own)];
-  chosen[at(own)] = 1;
-  for (bool more = true; more;) {
-    more = false;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (!chosen[i] && !boxes[i].isEmpty() && boxes[i].intersects(reach)) {
-        chosen[i] = 1;
-        reach.extend(boxes[i]);
-        more = true;
-      }
-  }
-
+CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const NotchPlane& by) {
+  labelPoints(piece, by);
+  Curves curves(*this, piece);
+  const std::vector<char> chosen = curves.near(tail(by.half), by.plane);
   Section section;
-  section.plane = plane;
+  section.plane = by.plane;
+  section.flat = {tangentBasis(by.plane.normal)};
   section.near_notch.assign(points_.size(), 0);
   section.edge_chosen.assign(mates_.size(), 0);
-  for (const int t : met)
+  for (const int t : curves.met())
     for (const int v : triangles_[at(t)])
-      if (label_[at(v)] == 0) section.near_notch[at(v)] = chosen[at(curves.rootOf(pointNode(v)))];
-  for (const int half : crossed)
-    if (chosen[at(curves.rootOf(edgeNode(half)))]) {
+      if (label_[at(v)] == 0) section.near_notch[at(v)] = chosen[at(curves.ofPoint(v))];
+  for (const int half : curves.crossed())
+    if (chosen[at(curves.ofEdge(half))]) {
       section.crossed.push_back(half);
       section.edge_chosen[at(half)] = 1;
     }
-
-  // The area by the curves' segments, on whose left the section is: against the triangles' own direction.
-  for (const int t : met) {
-    std::optional<Vec2> up, down;
-    for (int half = 3 * t; half < 3 * t + 3; ++half) {
-      const int from = label_[at(tail(half))], to = label_[at(head(half))];
-      if (from * to < 0 && section.edge_chosen[at(edgeOf(half, mate(half)))])
-        (to > 0 ? up : down) = flat(crossing(plane, half));
-      if (to == 0 && section.near_notch[at(head(half))]) {
-        const int beyond = label_[at(head(next(half)))];
-        if (from * beyond < 0) (beyond > 0 ? up : down) = flat(point(head(half)));
-      }
-      if (isRim(half, section))
-        section.twice_area += cross2(flat(point(head(half))), flat(point(tail(half))));
-    }
-    if (up && down) section.twice_area += cross2(*down, *up);
-  }
+  for (const int t : curves.met()) addArea(t, section);
   return section;
+}
+
+// The area by the curves' segments, on whose left the section is: against the triangles' own direction.
+void CutSurface::addArea(int t, Section& section) const {
+  std::optional<Vec2> up, down;
+  for (int half = 3 * t; half < 3 * t + 3; ++half) {
+    const int from = label_[at(tail(half))], to = label_[at(head(half))];
+    if (from * to < 0 && section.edge_chosen[at(edgeOf(half, mate(half)))])
+      (to > 0 ? up : down) = section.flat(crossing(section.plane, half));
+    if (to == 0 && section.near_notch[at(head(half))]) {
+      const int beyond = label_[at(head(next(half)))];
+      if (from * beyond < 0) (beyond > 0 ? up : down) = section.flat(point(head(half)));
+    }
+    if (isRim(half, section))
+      section.twice_area += cross2(section.flat(point(head(half))), section.flat(point(tail(half))));
+  }
+  if (up && down) section.twice_area += cross2(*down, *up);
 }
 
 // Which side of the plane a triangle is on that it does not cross: one in the plane belongs to what is behind
@@ -367,68 +442,51 @@ std::vector<std::vector<int>> CutSurface::rims(std::span<const int> piece, const
   return found;
 }
 
-bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
-  Section section = sectionOf(piece, by);
+void CutSurface::splitCrossed(Section& section, std::vector<int>& piece) {
   moved_.clear();
   for (int half : section.crossed) {
     for (auto moved = moved_.find(half); moved != moved_.end(); moved = moved_.find(half))
       half = moved->second;
     const int p = static_cast<int>(points_.size());
-    points_.push_back(crossing(by.plane, half));
+    points_.push_back(crossing(section.plane, half));
     label_.push_back(0);
     section.near_notch.push_back(1);
     splitEdge(half, p, piece);
   }
+}
+
+CutSurface::Rims CutSurface::rimsAround(int notch, std::span<const int> piece, const Section& section) const {
+  Rims found;
+  found.ways = rims(piece, section);
+  for (std::size_t i = 0; i < found.ways.size(); ++i) {
+    found.rings.emplace_back();
+    for (const int half : found.ways[i]) {
+      if (half == notch) found.own = i;
+      found.rings.back().push_back(static_cast<int>(found.corners.size()));
+      found.corners.push_back(section.flat(point(tail(half))));
+    }
+    std::reverse(found.rings.back().begin(), found.rings.back().end());
+  }
+  for (const std::vector<int>& ring : found.rings)
+    found.twice_areas.push_back(twiceArea(ring, found.corners));
+  return found;
+}
+
+bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
+  Section section = sectionOf(piece, by);
+  splitCrossed(section, piece);
   // One of the sides of the notch is the rim's, or the plane does not divide it.
   const int notch = isRim(by.half, section) ? by.half : mate(by.half);
   if (!isRim(notch, section)) return false;
-  std::vector<std::vector<int>> all = rims(piece, section);
-  // Corner numbers are those of the rims' sides, one behind the other; each stands for the side's tail.
-  const Frame2 flat{tangentBasis(by.plane.normal)};
-  std::vector<Vec2> corners;
-  Rings rings;
-  std::size_t own = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    rings.emplace_back();
-    for (const int half : all[i]) {
-      if (half == notch) own = i;
-      rings.back().push_back(static_cast<int>(corners.size()));
-      corners.push_back(flat(point(tail(half))));
-    }
-    std::reverse(rings.back().begin(), rings.back().end());
-  }
+  const Rims found = rimsAround(notch, piece, section);
+  const std::vector<int>& own = found.ways[found.own];
   // The region: a ring with area on its left, and the holes of which it is the smallest ring around.
-  const auto within = [&](std::size_t inner, std::size_t outer) {
-    int votes = 0;
-    for (std::size_t i = 0; i < rings[inner].size(); ++i) {
-      const Vec2 q =
-          0.5 * (corners[at(rings[inner][i])] + corners[at(rings[inner][(i + 1) % rings[inner].size()])]);
-      bool inside = false;
-      for (std::size_t k = 0; k < rings[outer].size(); ++k) {
-        const Vec2 &a = corners[at(rings[outer][k])],
-                   &b = corners[at(rings[outer][(k + 1) % rings[outer].size()])];
-        if ((a.y() > q.y()) != (b.y() > q.y()) &&
-            q.x() < a.x() + (q.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-          inside = !inside;
-      }
-      votes += inside ? 1 : -1;
-    }
-    return votes > 0;
-  };
-  std::vector<double> areas;
-  for (const std::vector<int>& ring : rings) areas.push_back(twiceArea(ring, corners));
-  const auto around = [&](std::size_t hole) {
-    std::optional<std::size_t> smallest;
-    for (std::size_t i = 0; i < rings.size(); ++i)
-      if (areas[i] > 0.0 && i != hole && (!smallest || areas[i] < areas[*smallest]) && within(hole, i))
-        smallest = i;
-    return smallest;
-  };
-  const std::optional<std::size_t> outer = areas[own] > 0.0 ? std::optional(own) : around(own);
-  if (!outer && all[own].size() == 2) {
+  const std::optional<std::size_t> outer =
+      found.twice_areas[found.own] > 0.0 ? std::optional(found.own) : found.around(found.own);
+  if (!outer && own.size() == 2) {
     // Two edges between the same corners: the piece hangs together by a line there, and comes apart without
     // a cap.
-    const int a = all[own][0], b = all[own][1], mate_a = mate(a), mate_b = mate(b);
+    const int a = own[0], b = own[1], mate_a = mate(a), mate_b = mate(b);
     pair(a, b);
     pair(mate_a, mate_b);
     return true;
@@ -436,19 +494,19 @@ bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
   if (!outer) {
     // The same with corners on the line: its caps are triangles without area.
     double length_m = 0.0;
-    for (const int half : all[own]) length_m += (point(head(half)) - point(tail(half))).norm();
-    if (std::abs(areas[own]) > tolerance_m_ * length_m) return false;
-    return addCaps({all[own]}, section, by, piece);
+    for (const int half : own) length_m += (point(head(half)) - point(tail(half))).norm();
+    if (std::abs(found.twice_areas[found.own]) > tolerance_m_ * length_m) return false;
+    return addCaps({own}, section, by, piece);
   }
-  std::vector<std::vector<int>> chosen{all[*outer]};
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    if (!(areas[i] > 0.0) && i != *outer && around(i) == outer) chosen.push_back(all[i]);
+  std::vector<std::vector<int>> chosen{found.ways[*outer]};
+  for (std::size_t i = 0; i < found.rings.size(); ++i)
+    if (!(found.twice_areas[i] > 0.0) && i != *outer && found.around(i) == outer)
+      chosen.push_back(found.ways[i]);
   return addCaps(chosen, section, by, piece);
 }
 
 bool CutSurface::addCaps(const std::vector<std::vector<int>>& rims, const Section& section,
                          const NotchPlane& by, std::vector<int>& piece) {
-  const Frame2 flat{tangentBasis(by.plane.normal)};
   std::vector<Vec2> corners;
   std::vector<int> corner_points;
   std::vector<std::pair<int, int>> rim_of;  // by corner: below and above the ring's side that begins there
@@ -457,7 +515,7 @@ bool CutSurface::addCaps(const std::vector<std::vector<int>>& rims, const Sectio
     const int first = static_cast<int>(corners.size()), n = static_cast<int>(rim.size());
     rings.emplace_back();
     for (int i = 0; i < n; ++i) {
-      corners.push_back(flat(point(tail(rim[at(i)]))));
+      corners.push_back(section.flat(point(tail(rim[at(i)]))));
       corner_points.push_back(tail(rim[at(i)]));
       rings.back().push_back(first + n - 1 - i);  // against the rim
       const int half = rim[at((i + n - 1) % n)];

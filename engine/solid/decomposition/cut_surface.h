@@ -61,20 +61,26 @@ class CutSurface {
     Plane plane;
     double normal_error = 0.0;  // radians
   };
+  class Curves;
   struct Section;
+  struct Rims;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static int next(int half) { return half % 3 == 2 ? half - 2 : half + 1; }
   Vec3 triangleArea(int t) const;
   void growFacet(int seed);
+  void labelPoints(std::span<const int> piece, const NotchPlane& by);
   Section sectionOf(std::span<const int> piece, const NotchPlane& by);
+  void addArea(int t, Section& section) const;
   Vec3 crossing(const Plane& plane, int half) const;
   void splitEdge(int half, int point, std::vector<int>& piece);
   int addTriangle(const Triangle& corners, int facet);
   void pair(int half, int other);
   int sideOf(int t, const Section& section) const;
   bool isRim(int half, const Section& section) const;
+  void splitCrossed(Section& section, std::vector<int>& piece);
   std::vector<std::vector<int>> rims(std::span<const int> piece, const Section& section) const;
+  Rims rimsAround(int notch, std::span<const int> piece, const Section& section) const;
   bool addCaps(const std::vector<std::vector<int>>& rims, const Section& section, const NotchPlane& by,
                std::vector<int>& piece);
 
@@ -85,7 +91,7 @@ class CutSurface {
   std::vector<int> facets_of_;  // by triangle
   std::vector<Facet> facets_;
   // Scratch of one section.
-  std::vector<signed char> label_;  // by point: the side of the plane
+  std::vector<int> label_;  // by point: the side of the plane, -1, 0 (on it) or 1
   std::vector<int> node_of_point_, node_of_half_;
   std::map<int, int> moved_;  // sides of triangles that were divided, and which they are now
 };

@@ -55,6 +55,7 @@ class JoinedRing {
 
   static std::vector<Node> nodesOf(const std::vector<int>& ring) {
     std::vector<Node> nodes;
+    nodes.reserve(ring.size());
     for (const int corner : ring) nodes.push_back({corner, ringSide(corner)});
     return nodes;
   }
@@ -173,6 +174,7 @@ class EarClipping {
   bool clip(int start, std::vector<int>& rings) {
     std::vector<int> ring = ringFrom(start);
     std::vector<double> quality;
+    quality.reserve(ring.size());
     for (const int i : ring) quality.push_back(qualityOf(i));
     bool fresh = true;  // no quality is out of date: an ear clipped may free others
     while (ring.size() > 2) {

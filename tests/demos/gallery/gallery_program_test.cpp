@@ -157,10 +157,10 @@ TEST_F(Gallery, IndexCanBeUsedWithinASecondOfOpening) {
     entries.back().group = i < 30 ? "machines" : "more";
   }
   std::ofstream(out / "index.html") << galleryIndex(entries);
-  const std::vector<std::string> notes = notesOf(out / "index.html", R"js(
+  const std::vector<std::string> notes = quickestNotesOf(out / "index.html", R"js(
     notes.push(String(document.querySelectorAll(".card").length), String(Math.round(performance.now())));
   )js",
-                                                 "");
+                                                         1000);
   ASSERT_EQ(notes.size(), 2u) << notes[0];
   EXPECT_EQ(notes[0], "60");
   EXPECT_LT(std::stoi(notes[1]), 1000) << "ms";

@@ -15,11 +15,6 @@
 
 namespace carom::demos {
 
-inline bool hasChromium() {
-  return std::system("chromium --version >/dev/null 2>&1") == 0;
-}
-inline constexpr char kNoChromium[] = "chromium is not installed (Debian: chromium)";
-
 inline std::string outputOf(const std::string& command) {
   std::FILE* pipe = popen(command.c_str(), "r");
   std::string text;
@@ -28,6 +23,22 @@ inline std::string outputOf(const std::string& command) {
   pclose(pipe);
   return text;
 }
+
+/// The page as it is when it has been opened; nothing where it cannot be. `options` are Chromium's. A
+/// container's root has no sandbox, and its shared memory may be small.
+inline std::string openedPage(const std::string& address, const std::string& options) {
+  const TemporaryFolder user;
+  return outputOf(
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir=" +
+      (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null");
+}
+
+/// Whether it opens an empty page: it may be installed where nothing lets it start.
+inline bool hasChromium() {
+  static const bool has = openedPage("about:blank", "").find("<html") != std::string::npos;
+  return has;
+}
+inline constexpr char kNoChromium[] = "there is no chromium that opens a page (Debian: chromium)";
 
 /// What `script` pushes to `notes`, an array of texts, in a copy of the page that lies beside it; `script`
 /// may await. `options` are Chromium's.
@@ -40,11 +51,7 @@ inline std::vector<std::string> notesOf(const std::filesystem::path& page, const
           "\ndocument.body.setAttribute(\"data-notes\", JSON.stringify(notes)); })();</script></body>");
   const std::filesystem::path visited = page.parent_path() / ("visited-" + page.filename().string());
   std::ofstream(visited) << html;
-  const TemporaryFolder user;
-  const std::string shown =
-      outputOf("timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" +
-               (user.path() / "user").string() + " " + options + " --dump-dom 'file://" + visited.string() +
-               "' 2>/dev/null");
+  const std::string shown = openedPage("file://" + visited.string(), options);
   const std::string opening = "data-notes=\"";
   const std::size_t from = shown.find(opening);
   if (from == std::string::npos) return {"the visitor's script did not finish"};
@@ -57,6 +64,19 @@ inline std::vector<std::string> notesOf(const std::filesystem::path& page, const
   const Json json = Json::parse(text, "notes");
   for (const Json& note : json.items()) notes.push_back(note.asString());
   return notes;
+}
+
+/// By Chromium's own and real clock: the notes of an opening whose last note is less than `enough_ms`, or
+/// else of the quickest of a few. What else the machine does only adds to them.
+inline std::vector<std::string> quickestNotesOf(const std::filesystem::path& page, const std::string& script,
+                                                int enough_ms) {
+  constexpr int kOpenings = 5;
+  std::vector<std::string> quickest = notesOf(page, script, "");
+  for (int i = 1; i < kOpenings && quickest.size() > 1 && std::stoi(quickest.back()) >= enough_ms; ++i) {
+    const std::vector<std::string> notes = notesOf(page, script, "");
+    if (notes.size() > 1 && std::stoi(notes.back()) < std::stoi(quickest.back())) quickest = notes;
+  }
+  return quickest;
 }
 
 }  // namespace carom::demos
