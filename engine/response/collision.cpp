@@ -6,10 +6,10 @@
 namespace carom {
 namespace {
 
-constexpr int kSweeps = 400;
-constexpr double kConverged = 1e-12;  // of the approach speed
-constexpr double kStopped = 1e-10;    // of the approach speed: slower points are left alone
-constexpr int kMostStops = 4000;
+constexpr int kCollisionSweeps = 400;     // of each of the two phases, at most
+constexpr double kConverged = 1e-12;      // of the approach speed: a sweep that changes less is the last
+constexpr double kLeastApproach = 1e-10;  // of the approach speed: points that approach more slowly are left
+constexpr int kMostStops = 4000;          // of approaches that the phases have left, at most
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
 double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before,
@@ -86,7 +86,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     report.impulse_Ns = row.impulse.x();
     return report;
   }
-  const SolverSettings settings{kSweeps, kConverged * -report.approach_mps, true};
+  const SolverSettings settings{kCollisionSweeps, kConverged * -report.approach_mps, true};
   solveContacts(rows, bodies, settings);
 
   if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
@@ -104,7 +104,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       cutRestitution(rows, before, compressed, bodies);
     }
   }
-  stopApproaches(rows, bodies, -kStopped * report.approach_mps);
+  stopApproaches(rows, bodies, -kLeastApproach * report.approach_mps);
   for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
   return report;
 }
