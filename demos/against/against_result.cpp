@@ -41,14 +41,15 @@ SpeedChange changeOf(const std::string& name, const std::vector<AgainstRound>& r
     change.rounds_slower += median > 0.0 ? 1 : 0;
     medians.push_back(median);
   }
-  const SignTest test = signTest(all, kFalseAlarm), by_round = signTest(medians, kFalseAlarm);
+  const SignTest test = signTest(all, kFalseAlarm);
+  const SignedRankTest by_round = signedRankTest(medians, kFalseAlarm);
   change.now_ms = medianOf(now);
   change.other_ms = medianOf(other);
   change.change = std::expm1(test.median);
   change.smallest =
       std::max({kLeastEffect, std::expm1(test.smallest_effect), std::expm1(by_round.smallest_effect)});
   change.log_chance = std::max(test.log_chance, by_round.log_chance);
-  const bool agree = (test.median > 0.0) == (by_round.median > 0.0);
+  const bool agree = (test.median > 0.0) == (by_round.shift > 0.0);
   if (!test.finds(kFalseAlarm) || !by_round.finds(kFalseAlarm) || !agree ||
       std::abs(change.change) < kLeastEffect)
     return change;

@@ -572,7 +572,7 @@ void CommandLine::addBudget() {
   budget_command->add_option(
       "--against", options.against,
       "Another carom (\"old/carom --preset fast\"), taking turns frame by frame: exit 1\n"
-      "when this one is slower, by an exact sign test, and in which phase");
+      "when this one is slower, by exact tests of signs and ranks, and in which phase");
   budget_command->add_flag("--paced", options.paced,
                            "Draws a frame for each line on standard input, and answers with its times: what\n"
                            "--against starts");

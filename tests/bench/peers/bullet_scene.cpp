@@ -26,6 +26,8 @@ Vec3 widened(const btVector3& v) {
 std::unique_ptr<btCollisionShape> shapeOf(const physics::Shape& shape) {
   if (shape.kind == ShapeKind::kBall) return std::make_unique<btSphereShape>(narrowed(shape.radius_m));
   if (shape.kind == ShapeKind::kBox) return std::make_unique<btBoxShape>(narrowed(Vec3(0.5 * shape.size_m)));
+  if (shape.kind == ShapeKind::kCapsule)
+    return std::make_unique<btCapsuleShapeZ>(narrowed(shape.radius_m), narrowed(shape.size_m.z()));
   auto hull = std::make_unique<btConvexHullShape>();
   for (const Vec3& v : shape.solid.parts()[0].core.vertices()) hull->addPoint(narrowed(v), false);
   hull->recalcLocalAabb();

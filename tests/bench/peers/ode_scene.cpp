@@ -94,6 +94,8 @@ class OdeSimulation final : public physics::Simulation {
     if (shape.kind == ShapeKind::kBox)
       return dCreateBox(space_, narrowed(shape.size_m.x()), narrowed(shape.size_m.y()),
                         narrowed(shape.size_m.z()));
+    if (shape.kind == ShapeKind::kCapsule)
+      return dCreateCapsule(space_, narrowed(shape.radius_m), narrowed(shape.size_m.z()));
     const ConvexArrays& a = arrays_.emplace_back(shape.solid.parts()[0].core);
     return dCreateConvex(space_, a.planes.data(), static_cast<unsigned>(a.planes.size() / 4), a.points.data(),
                          static_cast<unsigned>(a.points.size() / 3), a.polygons.data());

@@ -35,17 +35,20 @@ inline double restGap(double width_m) {
   return tolerance::kRestGap * std::min(width_m, tolerance::kWindowLargestScale);
 }
 
-enum class ShapeKind { kBall, kBox, kHull };
+enum class ShapeKind { kBall, kBox, kCapsule, kHull };
 
 /// About the centre of mass, axes along the principal ones.
 struct Shape {
   ShapeKind kind = ShapeKind::kBall;
-  double radius_m = 0.0;       ///< Of a ball.
-  Vec3 size_m = Vec3::Zero();  ///< Of a box.
+  double radius_m = 0.0;       ///< Of a ball, or of a capsule.
+  Vec3 size_m = Vec3::Zero();  ///< Of a box; of a capsule, which lies along z, how far its caps' centres are.
   Solid solid;                 ///< For all of them; of a hull its vertices and faces.
 
   static Shape ball(double radius) { return {ShapeKind::kBall, radius, Vec3::Zero(), Solid::ball(radius)}; }
   static Shape box(const Vec3& size) { return {ShapeKind::kBox, 0.0, size, Solid::box(size)}; }
+  static Shape capsule(double radius, double length) {
+    return {ShapeKind::kCapsule, radius, Vec3(0, 0, length), Solid::capsule(radius, length)};
+  }
   static Shape hull(const std::vector<Vec3>& points) {
     return {ShapeKind::kHull, 0.0, Vec3::Zero(), Solid::polyhedron(convexHull(points).polyhedron)};
   }
