@@ -2,32 +2,21 @@
 // Pages opened from disk in headless Chromium, and what a visitor's script notes there. Needs Debian's
 // chromium.
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "demos/asset/asset_path.h"
 #include "demos/format/json.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 
 inline bool hasChromium() {
-  return std::system("chromium --version >/dev/null 2>&1") == 0;
+  return succeeds("chromium --version");
 }
 inline constexpr char kNoChromium[] = "chromium is not installed (Debian: chromium)";
-
-inline std::string outputOf(const std::string& command) {
-  std::FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> chunk{};
-  while (std::fgets(chunk.data(), static_cast<int>(chunk.size()), pipe) != nullptr) text += chunk.data();
-  pclose(pipe);
-  return text;
-}
 
 /// What `script` pushes to `notes`, an array of texts, in a copy of the page that lies beside it; `script`
 /// may await. `options` are Chromium's.
@@ -42,9 +31,10 @@ inline std::vector<std::string> notesOf(const std::filesystem::path& page, const
   std::ofstream(visited) << html;
   const TemporaryFolder user;
   const std::string shown =
-      outputOf("timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" +
-               (user.path() / "user").string() + " " + options + " --dump-dom 'file://" + visited.string() +
-               "' 2>/dev/null");
+      endOfShell("timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" +
+                 (user.path() / "user").string() + " " + options + " --dump-dom 'file://" + visited.string() +
+                 "' 2>/dev/null")
+          .out;
   const std::string opening = "data-notes=\"";
   const std::size_t from = shown.find(opening);
   if (from == std::string::npos) return {"the visitor's script did not finish"};
