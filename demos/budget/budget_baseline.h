@@ -41,8 +41,8 @@ std::string otherMachine(const Baseline& baseline, const BudgetSubject& subject)
 struct WorkChange {
   std::size_t kind = 0;                          ///< Index into kWork.
   std::int64_t before = 0, now = 0;              ///< Of all frames.
-  int first_frame = 0;                           ///< The first that differs, ...
-  std::int64_t frame_before = 0, frame_now = 0;  ///< ... and by what.
+  int first_frame = 0;                           ///< The first that differs.
+  std::int64_t frame_before = 0, frame_now = 0;  ///< Of that frame.
   bool is_over = false;                          ///< Grew by more than the tolerance.
 };
 

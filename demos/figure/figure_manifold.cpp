@@ -69,7 +69,7 @@ ManifoldFigure manifoldFigure(const PageSize& size) {
   figure.closest = closestFeatures(a, figure.X_WBelow, b, figure.X_WAbove, cold);
   figure.window = collisionWindow(a, b);
   figure.polygon = contactPolygon(figure.closest, a, figure.X_WBelow, b, figure.X_WAbove, figure.window);
-  figure.manifold = contactManifold(figure.closest, a, figure.X_WBelow, b, figure.X_WAbove, figure.window);
+  figure.manifold = contactManifold(figure.closest, {a, figure.X_WBelow, b, figure.X_WAbove}, figure.window);
   figure.camera = aboveCaption({{-1.1, -3.3, 3.4}, {0.5, 0.05, 0.2}, 33.0}, size);
   return figure;
 }

@@ -18,8 +18,8 @@ struct WindowFigure {
     Pose X_WCube;
   };
   std::vector<Instant> run;    ///< One a step.
-  double impulse_s = 0.0;      ///< When the first collision was solved ...
-  double impulse_gap_m = 0.0;  ///< ... and the gap then.
+  double impulse_s = 0.0;      ///< When the first collision was solved.
+  double impulse_gap_m = 0.0;  ///< The gap when the first collision was solved.
   double impulse_Ns = 0.0;
 
   Plot plot(const PageSize& size) const;

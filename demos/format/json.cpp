@@ -44,8 +44,8 @@ struct TextPlace {
   }
 
   int line;
-  int scalar = 0;   ///< Column of the last text, number or word that has begun, ...
-  int bracket = 0;  ///< ... and of the last bracket that has opened.
+  int scalar = 0;   ///< Column of the last text, number or word that has begun.
+  int bracket = 0;  ///< Column of the last bracket that has opened.
 
  private:
   int column_ = 0;

@@ -34,7 +34,7 @@ void addIfSeen(const OverlayFrame& frame, ShownImpulse impulse, double length_m,
 }  // namespace
 
 ContactManifold manifoldOf(const NearPair& pair) {
-  return contactManifold(pair.closest, *pair.part_a, pair.X_WA, *pair.part_b, pair.X_WB, pair.window);
+  return contactManifold(pair.closest, {*pair.part_a, pair.X_WA, *pair.part_b, pair.X_WB}, pair.window);
 }
 
 bool touches(const NearPair& pair) {

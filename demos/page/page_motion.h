@@ -15,8 +15,8 @@ namespace carom::demos {
 
 /// The steps of the numbers. Powers of two: rounding is to the nearest, and nothing else is lost.
 struct PageQuanta {
-  double length_m = 0.0;        ///< Of positions: at most 1e-4 of the smallest moving body's radius off ...
-  double contact_m = 0.0;       ///< ... and of what is drawn at contacts, 4e-3.
+  double length_m = 0.0;        ///< Of positions: at most 1e-4 of the smallest moving body's radius off.
+  double contact_m = 0.0;       ///< Of what is drawn at contacts: at most 4e-3 of that radius off.
   double quaternion = 0x1p-15;  ///< Of each of the four numbers: rotations are at most 6.2e-5 rad off.
   double speed_mps = 0.0;       ///< Of each component.
   double spin_radps = 0x1p-10;

@@ -87,8 +87,8 @@ struct Visual {
 
 struct SurfaceLook {
   renderer::Color color;
-  bool checker = false;                                                 ///< A ground, ...
-  renderer::GroundPattern pattern = renderer::GroundPattern::kChecker;  ///< ... and what it shows.
+  bool checker = false;                                                 ///< It is a ground with a pattern.
+  renderer::GroundPattern pattern = renderer::GroundPattern::kChecker;  ///< That of a ground.
   renderer::SurfaceKind surface = renderer::SurfaceKind::kPlain;
   std::optional<double> surface_scale_m;  ///< None: what suits the body's size.
   bool has_color = false;  ///< Given by the scene; else a body that moves takes one of the palette.

@@ -17,15 +17,15 @@ using renderer::TextStyle;
 constexpr renderer::Color kPaper = {0.08f, 0.09f, 0.11f};
 constexpr double kPaperOpacity = 0.72;
 constexpr renderer::Color kLetters = {1.0f, 1.0f, 1.0f};
-constexpr double kUsualSize = 1.0 / 27.0;  // Of the image's height ...
-constexpr double kSmallestUsual_px = 9.5;  // ... which is legible in the smallest frames, too.
+constexpr double kUsualSize = 1.0 / 27.0;  // Of the image's height: that of letters.
+constexpr double kSmallestUsual_px = 9.5;  // Letters of this size are legible in the smallest frames, too.
 constexpr double kSmallestShare = 0.8;     // Of the usual size, before the line is broken in two.
 constexpr double kSide = 0.03;             // Of the image's width, left free on both sides of the band.
-constexpr double kPadding = 0.9;           // In ems, within the band on both sides ...
-constexpr double kBand = 1.75;             // ... and its height on one line,
-constexpr double kRow = 1.35;              // what each further line adds,
-constexpr double kBelow = 0.7;             // what is left free below it,
-constexpr double kCorner = 0.45;           // and the radius of its corners.
+constexpr double kPadding = 0.9;           // In ems: left free within the band on both sides.
+constexpr double kBand = 1.75;             // In ems: the height of a band of one line.
+constexpr double kRow = 1.35;              // In ems: what each further line adds to the band's height.
+constexpr double kBelow = 0.7;             // In ems: left free below the band.
+constexpr double kCorner = 0.45;           // In ems: the radius of the band's corners.
 
 /// The blank nearest to the middle, before wider gaps than one where there are some.
 std::array<std::string, 2> brokenInTwo(const std::string& line) {

@@ -97,8 +97,8 @@ std::vector<std::uint8_t> frameControl(std::uint32_t sequence, const Part& part,
     append(data, static_cast<std::uint32_t>(number), 4);
   append(data, delay.numerator, 2);
   append(data, delay.denominator, 2);
-  data.push_back(0);                 // It stays, and ...
-  data.push_back(is_first ? 0 : 1);  // ... is put over what is there.
+  data.push_back(0);                 // It stays.
+  data.push_back(is_first ? 0 : 1);  // It is put over what is there.
   return data;
 }
 

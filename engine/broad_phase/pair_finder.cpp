@@ -7,12 +7,12 @@
 namespace carom {
 namespace {
 
-constexpr double kMargin = 0.1;                    // of the smallest width, on every side of what moves
+constexpr double kFatShare = 0.1;                  // of the smallest width, on every side of what moves
 constexpr std::size_t kMostNear = 4 * kMostPairs;  // of fat bounds: eight bytes each
 
 Proxy fattened(Proxy proxy) {
   if (!proxy.moves) return proxy;
-  proxy.bounds = widened(proxy.bounds, kMargin * (proxy.bounds.high - proxy.bounds.low).minCoeff());
+  proxy.bounds = widened(proxy.bounds, kFatShare * (proxy.bounds.high - proxy.bounds.low).minCoeff());
   return proxy;
 }
 

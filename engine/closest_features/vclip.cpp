@@ -30,8 +30,6 @@ constexpr double kShortest = 0x1p-500;
 // A walk of this many states began far off: features that face each other are tried as a new start.
 constexpr int kStaleStates = 6;
 constexpr int kLongWalk = 12;
-// An answer that support planes leave a larger margin than this, relative to the size, is not proven.
-constexpr double kUnproven = 0x1p-41;
 // Distances below this relative to the size are touching.
 constexpr double kTouching = 1e-14;
 // Bytes for facets in exact ties, and for the polytope of a pair that has no memory of its own.

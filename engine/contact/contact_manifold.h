@@ -43,10 +43,5 @@ using FormerPoints = std::span<const std::uint64_t>;
 /// than four corners, the `former` four stay while they hold it nearly as well as any (`reducePolygon`).
 ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts& parts,
                                 const CollisionWindow& window, FormerPoints former = {});
-inline ContactManifold contactManifold(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
-                                       const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window,
-                                       FormerPoints former = {}) {
-  return contactManifold(closest, {a, X_WA, b, X_WB}, window, former);
-}
 
 }  // namespace carom

@@ -14,8 +14,8 @@ namespace carom {
 struct ClipCorner {
   Vec2 p = Vec2::Zero();  ///< In the plane of clipping.
   double height_m = 0.0;  ///< Of the subject above that plane.
-  Feature on_subject;     ///< What of the subject meets here ...
-  Feature on_clip;        ///< ... and what of the clipping face.
+  Feature on_subject;     ///< The subject's feature that the corner lies on.
+  Feature on_clip;        ///< The clipping face's feature that the corner lies on.
   int subject_edge = -1;  ///< The subject's edge along which the way to the next corner runs; -1: none.
   int clip_edge = -1;     ///< The same for the clipping face.
   double inside_m = 0.0;  ///< Scratch of one cut: how far inside it the corner is.

@@ -54,8 +54,8 @@ struct TimeOfImpact {
   Outcome outcome = Outcome::kPending;
   double time_s = 0.0;      ///< Up to here the gap is proven.
   ClosestFeatures closest;  ///< At `time_s`, but for kClear and kPending: at the last look.
-  int queries = 0;          ///< Closest-feature queries made, ...
-  long states = 0;          ///< ... and feature pairs visited by them.
+  int queries = 0;          ///< Closest-feature queries made.
+  long states = 0;          ///< Feature pairs visited by these queries.
   int newton_steps = 0;
   int looks = 0;  ///< At the pair, the first without a query.
   long work = 0;  ///< Poses evaluated, about 0.2 us each.

@@ -9,8 +9,8 @@ namespace carom {
 struct AppliedLoad {
   Vec3 force_W = Vec3::Zero();   ///< N, world frame.
   Vec3 torque_W = Vec3::Zero();  ///< N m, world frame.
-  Vec3 force_B = Vec3::Zero();   ///< N, in the axes of the body, ...
-  Vec3 torque_B = Vec3::Zero();  ///< ... N m.
+  Vec3 force_B = Vec3::Zero();   ///< N, in the axes of the body.
+  Vec3 torque_B = Vec3::Zero();  ///< N m, in the axes of the body.
 
   bool isZero() const { return force_W.isZero(0.0) && !bends(); }
   /// Whether more than a constant force in the world acts: then no parabola is the body's path.

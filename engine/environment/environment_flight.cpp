@@ -10,16 +10,21 @@
 namespace carom {
 namespace {
 
-// How far a stroke may go: a body that bobs, in radians of its fastest swing (a stroke of x radians shortens
-// the period by x^2/24); drag, as the share of the speed it may take; the way, of the radius; the turn, rad.
+// Radians of its fastest swing that a body which bobs goes in one stroke, at most: a stroke of x radians
+// shortens the period by x^2/24.
 constexpr double kSwing = 0.1;
+// Of the speed: what the drag of air takes of it in one stroke, at most.
 constexpr double kAirShare = 0.04;
+// Of the speed: what the drag of a fluid takes of it in one stroke, at most.
 constexpr double kFluidShare = 0.1;
+// Of the speed: what drag that grows with the speed alone takes of it in one stroke, at most.
 constexpr double kLinearShare = 0.2;
+// Of the radius: the way in one stroke, at most.
 constexpr double kWayShare = 0.25;
+// Radians that a body turns in one stroke, at most.
 constexpr double kTurn = 0.25;
+// Strokes of a step: one that wants more makes longer ones.
 constexpr int kMostStrokes = 16;
-constexpr double kLargestTurn = 2.0;  // rad a step: beyond, no axis of the whole turn is reliable
 
 struct State {
   Pose X_WB;
@@ -83,14 +88,7 @@ double implicitShare(const Mat6& linear, const Mat6& mass, double dt_s) {
   return stiffness > 2.0 ? 1.0 - 1.0 / stiffness : 0.5;
 }
 
-// Who pushes whom.
-struct Pushed {
-  const Environment& environment;
-  const EnvironmentBody& body;
-  const ContactLoad& contacts;
-};
-
-void kick(const Pushed& pushed, double t_s, double dt_s, ForceScratch& scratch, State& state) {
+void kick(const PushedBody& pushed, double t_s, double dt_s, ForceScratch& scratch, State& state) {
   const Inertia& inertia = *pushed.body.inertia;
   const Quat& R_WB = state.X_WB.rotation;
   Vec6 v;
@@ -128,17 +126,15 @@ Vec3 spinBetween(const Inertia& inertia, const Pose& from, const State& to, cons
 
 }  // namespace
 
-EnvironmentFlight flyThroughEnvironment(const Environment& environment, const EnvironmentBody& body,
-                                        const Pose& X_WB, const Velocity& velocity,
-                                        const ContactLoad& contacts, double t_s, double dt_s,
-                                        ForceScratch& scratch) {
-  const Inertia& inertia = *body.inertia;
+EnvironmentFlight flyThroughEnvironment(const PushedBody& pushed, const Pose& X_WB, const Velocity& velocity,
+                                        double t_s, double dt_s, ForceScratch& scratch) {
+  const Inertia& inertia = *pushed.body.inertia;
   State state{X_WB, velocity.linear, angularMomentum(inertia, X_WB.rotation, velocity.angular)};
-  const int strokes = strokesFor(environment, body, X_WB, velocity, dt_s);
+  const int strokes = strokesFor(pushed.environment, pushed.body, X_WB, velocity, dt_s);
   const double k = dt_s / strokes;
   drift(inertia, 0.5 * k, state);
   for (int i = 0; i < strokes; ++i) {
-    kick({environment, body, contacts}, t_s + (i + 0.5) * k, k, scratch, state);
+    kick(pushed, t_s + (i + 0.5) * k, k, scratch, state);
     drift(inertia, i + 1 < strokes ? k : 0.5 * k, state);
   }
   return {state.X_WB, state.velocity, state.angular_momentum,

@@ -26,10 +26,15 @@ struct ContactLoad {
   Vec3 torque_Nm = Vec3::Zero();
 };
 
+/// A body with all that acts on it.
+struct PushedBody {
+  const Environment& environment;
+  const EnvironmentBody& body;
+  const ContactLoad& contacts;
+};
+
 /// From `X_WB` with `velocity` (angular in the world frame) for `dt_s` seconds, beginning at `t_s`.
-EnvironmentFlight flyThroughEnvironment(const Environment& environment, const EnvironmentBody& body,
-                                        const Pose& X_WB, const Velocity& velocity,
-                                        const ContactLoad& contacts, double t_s, double dt_s,
-                                        ForceScratch& scratch);
+EnvironmentFlight flyThroughEnvironment(const PushedBody& pushed, const Pose& X_WB, const Velocity& velocity,
+                                        double t_s, double dt_s, ForceScratch& scratch);
 
 }  // namespace carom

@@ -9,72 +9,123 @@
 namespace carom::tolerance {
 
 // The collision window (paper §2.3, fig. 7), lengths per metre: floor < rest gap < landing < ceiling.
-inline constexpr double kWindowFloor = 2.0e-4;  // epsilon1: no pair is ever closer
-inline constexpr double kRestGap = 1.0e-3;  // lasting contact is held here: a margin of 0.8 mm for residuals
-inline constexpr double kRestBand =
-    0.1;  // of the rest gap, either way: gaps in this band are held as they are
-inline constexpr double kLandingGap = 1.1e-3;  // where a time of impact aims: held as it is when it lasts
-inline constexpr double kWindowCeiling =
-    2.0e-3;  // epsilon2: closer than this, a collision is solved directly
-inline constexpr double kWindowLargestScale = 1.0;  // metres; larger bodies keep the window of a metre
+
+/// The paper's epsilon1: no pair is ever closer.
+inline constexpr double kWindowFloor = 2.0e-4;
+/// The gap that lasting contact is held at: residuals have a margin of 0.8 mm to the floor.
+inline constexpr double kRestGap = 1.0e-3;
+/// Of the rest gap, either way: lasting contact holds a gap in this band as it is.
+inline constexpr double kRestBand = 0.1;
+/// The gap at which a time of impact is sought: a contact that lasts is held as it came to be there.
+inline constexpr double kLandingGap = 1.1e-3;
+/// The paper's epsilon2: a collision of a pair that is closer is solved without a search for its time.
+inline constexpr double kWindowCeiling = 2.0e-3;
+/// Metres: a body that is larger has the window of this width.
+inline constexpr double kWindowLargestScale = 1.0;
 
 // Multi-point contact (paper §2.4, fig. 8).
-inline constexpr double kManifoldHeight = 5.0e-3;  // the distance k, per metre: above the ceiling, so that a
-                                                   // tilted face keeps its far points while it settles
-inline constexpr double kLyingSine = 0.087;  // 5 degrees: an edge or face flatter than this lies on the face
+
+/// The paper's distance k, per metre: above the ceiling, so that a tilted face keeps its far points while it
+/// settles.
+inline constexpr double kManifoldHeight = 5.0e-3;
+/// The sine of 5 degrees: an edge or face that is flatter to a face lies on it.
+inline constexpr double kLyingSine = 0.087;
 
 // Substeps of bodies that move in contact.
-inline constexpr double kFineStep = 1.0 / 240.0;  // s: substeps are no longer, unless ...
-inline constexpr int kMostSubsteps = 8;           // ... they are so many, or ...
-inline constexpr int kFinePairs = 300;  // times substeps: where more pairs are awake, these are fewer
 
-// Contact solver: relative to the speed that gravity adds in a step.
-inline constexpr double kSolverResidual = 1.0e-8;  // a sweep that changes speeds less has converged
-inline constexpr int kSolverRowVisits = 8000;    // of a step by what moves, of an island that stands, and ...
-inline constexpr int kSolverSweeps = 60;         // ... at least so many sweeps, ...
-inline constexpr int kSolverFocusedSweeps = 24;  // ... of crowds that stand so many; above that, ...
-inline constexpr double kSolverCoarseResidual = 1.0e-3;    // ... this is enough for what moves, ...
-inline constexpr double kSolverStandingResidual = 1.0e-5;  // ... this for what stands ...
-inline constexpr double kSolverStirredResidual = 1.0e-4;   // ... and this while some body moves in it
-inline constexpr double kSolverCrowdResidual = 2.0e-4;     // ... and this of crowds swept alone
-inline constexpr int kSolverMostVisits = 50000;  // of a step, where what moves has not come to the coarse one
-inline constexpr int kSolverMovingSweeps = 20;   // of what moves, where the budget is less
-inline constexpr int kSolverStandingSweeps = 20;       // of what stands, before it is solved at once, and ...
-inline constexpr int kSolverCrowdStandingSweeps = 28;  // ... of a crowd that does
-// Crowds (focused_solver.h) are swept alone for a pause, to their own residual, when solving them at once
-// did not converge, or was too dear, in so many steps more often than not.
-inline constexpr long kSolverDearProducts = 16;  // of blocks, a row: more takes longer than the sweeps
+/// Seconds: a step is halved into substeps until they are no longer than this.
+inline constexpr double kFineStep = 1.0 / 240.0;
+/// Substeps of a step, at most.
+inline constexpr int kMostSubsteps = 8;
+/// Pairs that are awake, times substeps: where this is exceeded, the step has fewer substeps.
+inline constexpr int kFinePairs = 300;
+
+// Contact solver. Residuals are relative to the speed that gravity adds in a step. Small islands and large
+// ones are told apart by kFocusedRows (focused_solver.h).
+
+/// The residual of islands that the budget of row visits lets be solved with care.
+inline constexpr double kSolverResidual = 1.0e-8;
+/// Row visits: those of a step for all islands in which bodies move, and for each that stands. What needs
+/// more is solved to a coarser residual.
+inline constexpr int kSolverRowVisits = 8000;
+/// Sweeps that a small island may have whatever the budget.
+inline constexpr int kSolverSweeps = 60;
+/// Sweeps that a large island may have whatever the budget.
+inline constexpr int kSolverFocusedSweeps = 24;
+/// The residual of what moves, beyond the budget.
+inline constexpr double kSolverCoarseResidual = 1.0e-3;
+/// The residual of an island that stands, beyond the budget.
+inline constexpr double kSolverStandingResidual = 1.0e-5;
+/// The residual of an island that stands but for some body that moves in it, beyond the budget.
+inline constexpr double kSolverStirredResidual = 1.0e-4;
+/// The residual of a large island for which the direct solve pauses.
+inline constexpr double kSolverCrowdResidual = 2.0e-4;
+/// Row visits of a step where what moves has not come to the coarse residual within its budget.
+inline constexpr int kSolverMostVisits = 50000;
+/// Sweeps of what moves that those visits do not cut.
+inline constexpr int kSolverMovingSweeps = 20;
+/// Sweeps of a small island that stands, before it is solved directly.
+inline constexpr int kSolverStandingSweeps = 20;
+/// Sweeps of a large island that stands, before it is solved directly.
+inline constexpr int kSolverCrowdStandingSweeps = 28;
+/// Products of blocks for each row: a direct solve that takes more takes longer than the sweeps instead of
+/// it.
+inline constexpr long kSolverDearProducts = 16;
+/// How many more direct solves of a large island must have failed, or been too dear, than not, before they
+/// pause.
 inline constexpr int kSolverPatience = 8;
-inline constexpr int kSolverPause = 120;  // steps
-inline constexpr double kGapGain = 0.2;   // share of a surplus gap closed in a step, where it presses already
-inline constexpr double kGapSpeed = 0.1;  // m/s at most while reopening a gap, which is done within a step
+/// Steps of such a pause.
+inline constexpr int kSolverPause = 120;
+/// Of a surplus gap: what a contact that presses already closes of it in a step.
+inline constexpr double kGapGain = 0.2;
+/// m/s: a gap that is too small is reopened within a step, but no faster than this.
+inline constexpr double kGapSpeed = 0.1;
 
-// Events of one step and body.
-inline constexpr int kPairEvents = 8;      // up to here elastic events are solved between their two bodies
-inline constexpr int kEventsPerBody = 24;  // up to here with all that these press; then the body is held
-inline constexpr double kLively = 0.75;    // Restitution from which on events die out slowly: ...
-inline constexpr int kLivelyShare = 6;     // ... so many times as many.
-// Of one step: so many visits of contact rows for every body of the world; then impulses spread no further.
+// Events of one step.
+
+/// Elastic events of a body up to which they are solved between the two bodies of a pair alone.
+inline constexpr int kPairEvents = 8;
+/// Events of a body up to which they are solved with all that the pair presses; then the body is frozen.
+inline constexpr int kEventsPerBody = 24;
+/// The restitution from which on events die out slowly.
+inline constexpr double kLively = 0.75;
+/// How many times as many events a body has at that restitution.
+inline constexpr int kLivelyShare = 6;
+/// Visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
-// Of one step: so many poses are evaluated by the searches for times of impact for every body of the world, a
-// second's work for a thousand bodies, and so many at least (0.2 s); then what a look does not clear is
-// frozen.
+/// Poses that the searches for times of impact evaluate for every body of the world, a second's work for a
+/// thousand bodies; then what a look does not clear is frozen.
 inline constexpr long kSearchWorkPerBody = 5000;
+/// The poses that they may evaluate in any world: 0.2 s.
 inline constexpr long kLeastSearchWork = 1500000;
-inline constexpr int kLateEventsPerBody = 6;  // ... and a body is held after so many events
+/// Events of a body before it is frozen, once impulses spread no further.
+inline constexpr int kLateEventsPerBody = 6;
 
 // Sliding (paper §2.4).
-inline constexpr double kSlipSpeed = 1e-5;     // m/s: below it the static coefficient of friction counts
-inline constexpr double kSlidingSpeed = 1e-3;  // m/s along the contact; slower is holding or rolling
+
+/// m/s: a contact that is slower has the static coefficient of friction.
+inline constexpr double kSlipSpeed = 1e-5;
+/// m/s along the contact: a body that is slower holds or rolls.
+inline constexpr double kSlidingSpeed = 1e-3;
 
 // Resting mode (paper §2.5).
-inline constexpr double kRestSpeed = 0.02;         // m/s of any point: slower counts as lying still
-inline constexpr double kRestTime = 0.25;          // s of lying still before the test
-inline constexpr double kRestAcceleration = 2e-5;  // of gravity: forces balanced better than this hold a body
-inline constexpr int kRestSweeps = 400;            // of the solver in that test, at most, and ...
-inline constexpr int kRestRowVisits = 3000000;     // ... more while these last
+
+/// m/s of any point of a body: one that is slower lies still.
+inline constexpr double kRestSpeed = 0.02;
+/// Seconds for which a body lies still before it is tested.
+inline constexpr double kRestTime = 0.25;
+/// Of gravity: forces that are balanced better than this hold a body.
+inline constexpr double kRestAcceleration = 2e-5;
+/// Sweeps of the solver in that test that any island may have.
+inline constexpr int kRestSweeps = 400;
+/// Row visits of the solver in that test: a small island may have more sweeps while they last.
+inline constexpr int kRestRowVisits = 3000000;
+
 // Swings about a rest (engine/modes/swinging.h).
-inline constexpr double kSwingRise = 2e-3;    // of the radius: a small swing lifts a body by less
-inline constexpr double kSwingDamping = 4.0;  // 1/s, more of smaller ones; half of critical at most
+
+/// Of the radius: a small swing lifts a body by less.
+inline constexpr double kSwingRise = 2e-3;
+/// 1/s, of the largest of small swings; smaller ones are damped more, up to half of critical.
+inline constexpr double kSwingDamping = 4.0;
 
 }  // namespace carom::tolerance

@@ -16,15 +16,16 @@ namespace {
 constexpr double kSupportMargin = 0.05;
 // The polygon speaks for contacts that are level within this sine; on slopes and in wedges friction can hold
 // a body whose centre is not above its contacts, and (2) alone decides.
-constexpr double kLevelSine = 0.05;
-constexpr int kSweepsARound = 100;  // between two looks whether forces balance
-constexpr double kConvergedShare =
-    0.01;  // of the allowed speed: sweeps that change less will not balance them
+constexpr double kLevelContactSine = 0.05;
+// Sweeps between two looks at whether forces balance.
+constexpr int kBalanceSweeps = 100;
+// Of the allowed speed: sweeps that change less will not balance them.
+constexpr double kConvergedShare = 0.01;
 
 bool standsOnLevelContacts(std::span<const BodyContact> contacts, const Vec3& weight) {
   const Vec3 down = weight.normalized();
   for (const BodyContact& c : contacts)
-    if (!c.force_N.isZero(0.0) && c.n_W.cross(down).norm() > kLevelSine) return false;
+    if (!c.force_N.isZero(0.0) && c.n_W.cross(down).norm() > kLevelContactSine) return false;
   return true;
 }
 
@@ -94,7 +95,7 @@ bool comesToBalance(const RestQuestion& q, std::span<ContactRow> rows, std::span
       std::max(tolerance::kRestSweeps, tolerance::kRestRowVisits / static_cast<int>(rows.size() + 1));
   for (int sweeps = 0; sweeps < most;) {
     const SolverReport report =
-        solveStandingContacts(rows, bodies, {.sweeps = kSweepsARound, .residual_mps = converged});
+        solveStandingContacts(rows, bodies, {.sweeps = kBalanceSweeps, .residual_mps = converged});
     sweeps += report.sweeps;
     if (isBalanced(q, rows, bodies, allowed)) return true;
     if (report.residual_mps <= converged) return false;

@@ -25,8 +25,8 @@ class SwingWatch {
  private:
   Velocity fastest_;                 ///< Since it turned round last.
   double relative_amplitude_ = 0.0;  ///< Its rise, as a share of that of the largest swing that is small.
-  double since_s_ = 0.0;             ///< Time since it turned round last, and ...
-  double half_s_ = 0.0;  ///< ... between the last two times: half a swing, once it has turned twice.
+  double since_s_ = 0.0;             ///< Time since it turned round last.
+  double half_s_ = 0.0;  ///< Time between its last two turns: half a swing, once it has turned twice.
   int turns_ = 0;
 };
 

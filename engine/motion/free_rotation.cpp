@@ -11,12 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
-// A rotation by more than this has no reliable axis: near a whole turn it looks like none.
-constexpr double kLargestTurn = 2.0;
-
 // Of the arithmetic-geometric mean and of Carlson's duplication: a step halves, or quarters, the logarithm of
 // what is between, until the differences are squared. From 1e-140 thirteen and twenty are made.
-constexpr int kMostSteps = 40;
+constexpr int kMostMeans = 40;
 constexpr double kSameMean = 1e-15;
 // The parameter differs from one by this at least: what is nearer to the rotation about the middle axis is on
 // it, and products of theta functions, which grow as its inverse, stay in the range of doubles.
@@ -26,7 +23,7 @@ constexpr double kLeastComplement = 1e-140;
 // mean.
 double quarterPeriod(double complementary_modulus) {
   double a = 1.0, b = complementary_modulus;
-  for (int i = 0; i < kMostSteps && a - b > kSameMean * a; ++i) {
+  for (int i = 0; i < kMostMeans && a - b > kSameMean * a; ++i) {
     const double mean = 0.5 * (a + b);
     b = std::sqrt(a * b);
     a = mean;
@@ -39,7 +36,7 @@ double quarterPeriod(double complementary_modulus) {
 double carlsonIntegral(double x, double y) {
   constexpr double kSpread = 2e-3;
   double z = 1.0, mean = 0.0;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostMeans; ++i) {
     mean = (x + y + z) / 3.0;
     if (std::max({x, y, z}) - std::min({x, y, z}) < kSpread * mean) break;
     const double lambda = std::sqrt(x * y) + std::sqrt(y * z) + std::sqrt(z * x);

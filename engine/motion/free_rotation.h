@@ -13,6 +13,9 @@
 
 namespace carom {
 
+/// Radians: a rotation by more than this has no reliable axis, as near a whole turn it looks like none.
+inline constexpr double kLargestTurn = 2.0;
+
 class FreeRotation {
  public:
   FreeRotation() = default;
@@ -57,11 +60,11 @@ class FreeRotation {
   double half_period_ = 1.0;  // of the phase: then the momentum is at the other side of the axis
   double skew_ = 0.0;         // rad of the periodic part for each unit of the phase within a half period
   double lean_ = 0.0;         // the momentum's way along x to that along y, times theta functions
-  double side_ = 0.0;         // its way along y, and ...
-  double up_ = 0.0;           // ... its component along z, likewise
+  double side_ = 0.0;         // the momentum's way along y, likewise
+  double up_ = 0.0;           // the momentum's component along z, likewise
   double root_ = 0.0;         // the fourth root of the nome
   Terms square_ = {};         // the nome to the n^2
-  Terms between_ = {};        // ... and to the n (n + 1)
+  Terms between_ = {};        // the nome to the n (n + 1)
   Terms real_ = {};           // of the coefficients of the theta function at a complex argument
   Terms imaginary_ = {};
   Quat R_WL_ = Quat::Identity();  // L: a frame whose z axis is the momentum

@@ -44,6 +44,8 @@ struct Trajectory {
     return X;
   }
   Vec3 velocityAt(double t_s) const { return velocity + (t_s - start_s) * acceleration; }
+  /// Of the centre of mass from `t_s` on, over `dt_s` seconds.
+  Vec3 meanVelocity(double t_s, double dt_s) const { return velocityAt(t_s) + 0.5 * dt_s * acceleration; }
   Vec3 angularVelocityAt(double t_s) const {
     if (!tumbling.empty()) return tumbling.angularVelocityIn(at(t_s).rotation);
     return spin_change.rate.isZero(0.0) ? spin : Vec3(spin + (t_s - start_s) * spin_change.rate);

@@ -9,15 +9,16 @@
 namespace carom {
 namespace {
 
-constexpr int kSweeps = 400;
-constexpr double kConverged = 1e-12;  // of the approach speed
-// What sweeps change by more at the end is solved at once, if it is no more rows than these, after so many
-// sweeps more.
-constexpr double kSlow = 1e-9;  // of the approach speed
-constexpr std::size_t kFewRows = 32;
+constexpr int kCollisionSweeps = 400;     // of each of the two phases, at most
+constexpr double kConverged = 1e-12;      // of the approach speed: a sweep that changes less is the last
+constexpr double kLeastApproach = 1e-10;  // of the approach speed: points that approach more slowly are left
+constexpr int kMostStops = 4000;          // of approaches that the phases have left, at most
+// Of the approach speed: what sweeps change by more at the end is solved at once ...
+constexpr double kSlow = 1e-9;
+// ... where it is no more rows than these ...
+constexpr std::size_t kRowsAtOnce = 32;
+// ... after so many sweeps more.
 constexpr int kSweepsBefore = 20;
-constexpr double kStopped = 1e-10;  // of the approach speed: slower points are left alone
-constexpr int kMostStops = 4000;
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
 double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before,
@@ -54,9 +55,9 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
 
 // Few rows that sweeps have not brought to rest, between bodies of very different mass, are solved at once.
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  SolverSettings settings{kSweeps, kConverged * approach_mps, true};
+  SolverSettings settings{kCollisionSweeps, kConverged * approach_mps, true};
   if (solveContacts(rows, bodies, settings).residual_mps <= kSlow * approach_mps) return;
-  if (rows.size() > kFewRows) return;
+  if (rows.size() > kRowsAtOnce) return;
   settings.sweeps = kSweepsBefore;
   solveStandingContacts(rows, bodies, settings);
   takeBackGain(rows, bodies);
@@ -121,7 +122,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       cutRestitution(rows, before, compressed, bodies);
     }
   }
-  stopApproaches(rows, bodies, -kStopped * report.approach_mps);
+  stopApproaches(rows, bodies, -kLeastApproach * report.approach_mps);
   for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
   return report;
 }

@@ -11,10 +11,13 @@
 namespace carom {
 namespace {
 
-constexpr int kWideSweeps = 4;        // over all rows, and ...
-constexpr int kLocalSweeps = 12;      // ... over some
-constexpr double kLocalShare = 0.15;  // of the bodies: so many of the most stirred are gone on with, ...
-constexpr double kWorthwhile = 0.7;   // ... if they have so much of the squared stir
+constexpr int kWideSweeps = 4;    // over all rows, before some are chosen
+constexpr int kLocalSweeps = 12;  // over the rows that were chosen
+// Of the ends of all rows: this share, at the bodies whose velocities have changed most, is swept alone.
+constexpr double kLocalShare = 0.15;
+// Of the sum over all rows of the squared change: rows that have less of it are not swept alone.
+constexpr double kLocalChangeShare = 0.7;
+// Fewer rows than these are not swept alone.
 constexpr std::size_t kFewestRows = 10;
 
 void clearStirs(const InvolvedBodies& involved, std::span<ImpulseBody> bodies) {
@@ -43,7 +46,7 @@ class Stirs {
     double all = 0.0, theirs = 0.0;
     for (std::size_t i = 0; i < ends_.size(); ++i) all += squared(i);
     for (const std::size_t i : chosen) theirs += squared(i);
-    return theirs >= kWorthwhile * all;
+    return theirs >= kLocalChangeShare * all;
   }
 
  private:

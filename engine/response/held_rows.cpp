@@ -67,9 +67,9 @@ Mat6 lockedInertia(const ImpulseBody& body) {
     inertia.bottomRightCorner<3, 3>() = kHeavy * mass * Mat3::Identity();  // as if its radius were a metre
     return inertia;
   }
-  constexpr double kRounding = 1e-12;
+  constexpr double kOneAxisRounding = 1e-12;
   const Mat3 about_axis = body.inverse_tensor / answer;
-  const bool one_axis = (about_axis * about_axis - about_axis).norm() <= kRounding;
+  const bool one_axis = (about_axis * about_axis - about_axis).norm() <= kOneAxisRounding;
   inertia.bottomRightCorner<3, 3>() =
       one_axis ? Mat3((about_axis + kHeavy * (Mat3::Identity() - about_axis)) / answer)
                : Mat3(body.inverse_tensor.inverse());

@@ -8,15 +8,21 @@
 namespace carom {
 namespace {
 
-constexpr int kSteps = 4;       // each leaves a fifth to a fiftieth of the residual
-constexpr int kCrowdSteps = 2;  // what these leave of a crowd, the next solve begins with
-// Heaps in which some contact comes and goes stay so many times above the residual that is enough: there a
-// step that leaves more than this share is the last.
+// Direct steps on a small island, at most: each leaves a fifth to a fiftieth of the residual.
+constexpr int kDirectSteps = 4;
+// The same on a large island: the next solve begins with what these leave.
+constexpr int kDirectStepsOfMany = 2;
+// Times the residual that is enough. A heap in which some contact comes and goes stays below this and above
+// enough, so there a step that gains little is the last.
 constexpr double kNearlyEnough = 5.0;
-constexpr double kWorthwhileGain = 0.2;
-constexpr double kFiner = 0.1;      // of the residual that is enough: next steps start from here
-constexpr double kHopeless = 10.0;  // times the best residual: the held rows contradict each other
-constexpr int kSweepsAfter = 16;    // fewer do not bring the impulses back into their cones
+// Of the best residual: a step that leaves more gains little.
+constexpr double kGainingShare = 0.2;
+// Of the residual that is enough: the sweeps after a step go on to this, for the next step to start from.
+constexpr double kFiner = 0.1;
+// Times the best residual: a step that leaves more has found held rows that contradict each other.
+constexpr double kHopeless = 10.0;
+// Sweeps after a step, at most: fewer do not bring the impulses back into their cones.
+constexpr int kSweepsAfter = 16;
 
 // A solution, to return to.
 class Saved {
@@ -59,7 +65,7 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   total.products = held.products();
   if (total.products > settings.most_products) return total;
   Saved best(rows, bodies, total.residual_mps);
-  const int most_steps = rows.size() < kFocusedRows ? kSteps : kCrowdSteps;
+  const int most_steps = rows.size() < kFocusedRows ? kDirectSteps : kDirectStepsOfMany;
   for (int step = 0; step < most_steps; ++step) {
     if (!held.step(rows, bodies)) break;
     const SolverReport report = solveContactsFocused(rows, bodies, after);
@@ -69,7 +75,7 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
     if (report.residual_mps > kHopeless * best.residual()) break;
     if (report.residual_mps <= settings.residual_mps) return total;
     if (report.residual_mps >= best.residual()) continue;
-    const bool gains = report.residual_mps <= kWorthwhileGain * best.residual();
+    const bool gains = report.residual_mps <= kGainingShare * best.residual();
     best = Saved(rows, bodies, report.residual_mps);
     if (!gains && best.residual() <= kNearlyEnough * settings.residual_mps) break;
   }

@@ -15,17 +15,22 @@
 namespace carom {
 namespace {
 
-// The compliance c: how much of a unit of force a row gives way itself. A line of N touching bodies opens
-// with forces of N^2 / 8 openings, and misses so much of it times c: 0.1 % of it at N = 300.
+// The compliance c of a row, metres by which it gives way for a unit of force. A line of N touching bodies
+// opens with forces of N^2 / 8 openings, and misses that times c: 0.1 % of an opening at N = 300.
 constexpr double kStiff = 1e-7;
-// Where there is no room, forces are what is missing over c. Conjugate gradients find them to some digits
-// only if they are not too large.
+// The compliance where there is no room: forces are then what is missing over c, and conjugate gradients find
+// them to some digits only if they are not too large.
 constexpr double kSoft = 1e-5;
-constexpr double kResidual = 1e-12;  // of the largest opening
-constexpr double kLacking = 0.1;     // of the largest opening: missing more, there is no room ...
-constexpr double kPart = 1e-9;       // ... and so much of what is missing is near enough
-// Bounds: a line of N touching bodies takes some 1.5 N products. What is not done then is missing.
+// Of the largest opening: displacements that miss less have been found.
+constexpr double kResidual = 1e-12;
+// Of the largest opening: where displacements miss more, there is no room.
+constexpr double kLacking = 0.1;
+// Of what is missing where there is no room: a residual below is near enough.
+constexpr double kPart = 1e-9;
+// Products with the matrix, at most: a line of N touching bodies takes some 1.5 N. What is not done is
+// missing.
 constexpr int kProducts = 5000;
+// Rows visited in all products, at most.
 constexpr int kRowVisits = 30000000;
 
 using Forces = std::vector<double>;

@@ -12,14 +12,16 @@
 namespace carom {
 namespace {
 
-// Deeper than this, relative to the smaller body, bodies overlap, and farther from each other they are apart;
-// less is rounding of poses that touch, ...
+// Of the smaller body's width, at most a metre: a pair that is less deep or less far apart touches, as its
+// poses are rounded.
 constexpr double kOverlap = 1e-9;
-// ... and so is this, relative to how far from the origin they are.
+// Of how far from the origin the bodies are: what the rounding of their places adds to that.
 constexpr double kPlaceRounding = 8.0 * std::numeric_limits<double>::epsilon();
-constexpr double kApart = 1e-2;  // of the rest gap, and far above rounding
-// Each round finds pairs that the last one's displacements could meet, or less room than it had assumed.
-constexpr int kRounds = 8;
+// Of the rest gap: how much farther apart two parts are asked for their normal, far above rounding.
+constexpr double kApart = 1e-2;
+// Rounds after which the displacements are taken as they are. Each finds pairs that the last one's
+// displacements could meet, or less room than it had assumed.
+constexpr int kDisplacementRounds = 8;
 
 double roundingOf(const ShapePair& pair, const std::vector<Body>& bodies) {
   const double scale = pair.window.rest / tolerance::kRestGap;
@@ -143,13 +145,13 @@ bool shareRoom(const OpeningPairs& pairs, const LeastDisplacements& least, int b
 // Whether displacements take bodies to where they could meet others that they are not paired with yet; then
 // they are now.
 bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displacements) {
-  constexpr double kEnd = 1.0;  // s
+  constexpr double kWay_s = 1.0;  // the displacements are paths of one second
   Crew alone;
   for (std::size_t i = 0; i < start.bodies.size(); ++i) {
     Body& body = start.bodies[i];
-    body.path = Trajectory{.X_WB = body.X_WB, .velocity = displacements[i] / kEnd};
+    body.path = Trajectory{.X_WB = body.X_WB, .velocity = displacements[i] / kWay_s};
   }
-  if (!start.table.pathsLeaveBounds(start.bodies, start.shapes, start.active, kEnd, alone)) return false;
+  if (!start.table.pathsLeaveBounds(start.bodies, start.shapes, start.active, kWay_s, alone)) return false;
   const auto shapesOfPairs = [&] {
     std::vector<IndexPair> shapes;
     for (const int place : start.table.active()) shapes.push_back(start.table.pairs()[at(place)].shapes);
@@ -157,7 +159,7 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
   };
   const std::vector<IndexPair> before = shapesOfPairs();
   StepCounters counters;
-  start.table.updateBounds(start.bodies, start.shapes, start.active, kEnd, alone);
+  start.table.updateBounds(start.bodies, start.shapes, start.active, kWay_s, alone);
   start.table.collect(start.bodies, start.shapes, start.settings, counters, nullptr);
   const std::vector<IndexPair> now = shapesOfPairs();
   return !std::includes(before.begin(), before.end(), now.begin(), now.end());
@@ -169,7 +171,7 @@ std::vector<Vec3> displacementsOf(const StartingBodies& start) {
   for (int round = 0;; ++round) {
     const OpeningPairs pairs = openingPairs(start, shared);
     LeastDisplacements least = leastDisplacements(pairs.openings, bodies);
-    if (round == kRounds) return std::move(least.displacement_W);
+    if (round == kDisplacementRounds) return std::move(least.displacement_W);
     if (!pairOnTheWay(start, least.displacement_W) && !shareRoom(pairs, least, bodies, shared))
       return std::move(least.displacement_W);
   }

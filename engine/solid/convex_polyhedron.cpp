@@ -231,9 +231,9 @@ InnerBall ConvexPolyhedron::largestInnerBall() const {
   if (planes_.empty()) return {center, 0.0};
   if (clearanceAbout(*this, center_) >= clearanceAbout(*this, center)) center = center_;
   InnerBall best{center, std::max(0.0, clearanceAbout(*this, center))};
-  constexpr int kSteps = 100;
+  constexpr int kClearanceSteps = 100;
   double step_m = 0.2 * best.radius_m;
-  for (int i = 0; i < kSteps; ++i, step_m *= 0.95) {
+  for (int i = 0; i < kClearanceSteps; ++i, step_m *= 0.95) {
     const Plane& nearest =
         *std::max_element(planes_.begin(), planes_.end(), [&center](const Plane& p, const Plane& q) {
           return p.signedDistance(center) < q.signedDistance(center);

@@ -10,12 +10,12 @@ namespace carom {
 namespace {
 
 // Newton's method squares the bend relative to the shortest edge in each round: 1e-6 is rounding after three.
-constexpr int kRounds = 6;
+constexpr int kNewtonRounds = 6;
 // Conjugate gradients need as many sweeps as the conditions have clusters of eigenvalues: few for faces at
 // wide angles, n/2 for a ring of n faces. Visits of a corner, over all rounds: about a second.
 constexpr std::size_t kMostVisits = 50'000'000;
-constexpr double kSolved = 1e-8;     // of the right-hand side; the next round repairs the rest
-constexpr double kRounding = 4e-16;  // of the polyhedron's reach: a bend below is none
+constexpr double kSolved = 1e-8;   // of the right-hand side; the next round repairs the rest
+constexpr double kNoBend = 4e-16;  // of the polyhedron's reach: a bend below is none
 
 /// The corners of a face relative to their mean, in a basis in which heights can be compared with planes.
 struct BentFace {
@@ -170,14 +170,14 @@ double flattenFaces(std::vector<Vec3>& vertices, std::span<const std::vector<int
   std::vector<Vec3> moved = given;
   double least_bend = std::numeric_limits<double>::infinity();
   std::size_t visits = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kNewtonRounds; ++round) {
     const std::vector<BentFace> faces = facesThatCanBend(moved, loops);
     const Heights bends = currentBends(faces, moved);
     const double bend = largestOf(bends);
     if (!(bend < least_bend)) break;
     flattest = moved;
     least_bend = bend;
-    if (bend <= kRounding * reach) break;
+    if (bend <= kNoBend * reach) break;
     const std::vector<Vec3> moves = shortestMoves(faces, moved.size(), bends, visits);
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] -= moves[v];
   }

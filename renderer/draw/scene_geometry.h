@@ -15,8 +15,8 @@
 namespace carom::renderer {
 
 inline constexpr int kDetailLevels = 5;
-inline constexpr int kSharpLevel = 0;       ///< Without bevels, ...
-inline constexpr int kLastShadedLevel = 2;  ///< ... and the last with bevels in its normals alone.
+inline constexpr int kSharpLevel = 0;       ///< The level without bevels.
+inline constexpr int kLastShadedLevel = 2;  ///< The last level with bevels in its normals alone.
 
 /// The level for a solid whose radius is `radius_px` on the image: bevels narrower than a pixel are left out,
 /// and the sides of a ball's silhouette deviate by less than a quarter of a pixel (up to the finest level's

@@ -12,9 +12,9 @@ constexpr double kNearOverDistance = 1e-3;  // Of eye to target: what is nearer 
 constexpr double kBeyondImage_px = 8.0;     // Lines are followed so far beyond the image.
 constexpr double kSample_px = 1.5;          // Between two looks at the depth along a line.
 constexpr double kHiddenDash_px = 4.0;
-constexpr double kHeadLength = 5.5;  // Of an arrow, in line widths ...
-constexpr double kHeadWidth = 3.8;
-constexpr double kHeadShare = 0.45;  // ... and at most this share of the arrow.
+constexpr double kHeadLength = 5.5;  // Of an arrow, in line widths.
+constexpr double kHeadWidth = 3.8;   // Of an arrow, in line widths.
+constexpr double kHeadShare = 0.45;  // Of an arrow: its head is no longer than this.
 
 // The part of the segment p + t d, t in [0, 1], inside a rectangle (Liang and Barsky, ACM TOG 3, 1984).
 struct Part {

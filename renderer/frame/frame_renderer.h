@@ -25,8 +25,8 @@ namespace carom::renderer {
 struct DrawWork {
   std::int64_t triangles = 0;      ///< Of bodies, in the picture, the shadow map and the mirror.
   std::int64_t pixels = 0;         ///< Of the blocks drawn anew, over all exposures.
-  std::int64_t shadow_texels = 0;  ///< The same of the shadow map, ...
-  std::int64_t mirror_texels = 0;  ///< ... and of what the ground mirrors.
+  std::int64_t shadow_texels = 0;  ///< Of the shadow map's blocks drawn anew.
+  std::int64_t mirror_texels = 0;  ///< Of the blocks drawn anew of what the ground mirrors.
 };
 
 class FrameRenderer {

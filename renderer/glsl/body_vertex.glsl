@@ -19,8 +19,8 @@ layout(location = 12) in vec4 half_size;  // In the body's own frame.
 out vec3 p_S;
 out vec3 n_S;
 #ifdef GLASS
-flat out vec3 eye_S;      // The eye, ...
-flat out vec3 rows_S[3];  // ... and what turns from there into E.
+flat out vec3 eye_S;      // The eye.
+flat out vec3 rows_S[3];  // The rotation from S into E.
 flat out float is_ball;
 #endif
 flat out vec4 half_S;  // w: the body's number.

@@ -5,8 +5,8 @@ struct Finish {
   vec3 base;        // What it scatters of the light.
   vec3 reflected;   // What it mirrors of its surroundings, looked at straight.
   float clear;      // What it mirrors besides at grazing angles.
-  float sharpness;  // Of the sun's glint, ...
-  float glint;      // ... and how bright it is.
+  float sharpness;  // Of the sun's glint.
+  float glint;      // How bright the sun's glint is.
   float matte;      // How blurred its surroundings are in it: 0 a mirror.
 };
 

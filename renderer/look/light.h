@@ -14,8 +14,8 @@ namespace carom::renderer {
 struct Light {
   Vec3 to_light = Vec3(0.50, -0.50, 0.85);  ///< World, any length: where the sun stands.
   Vec3 sun = Vec3(1.76, 1.67, 1.53);
-  Vec3 sky_light = Vec3(0.32, 0.365, 0.44);      ///< From above, ...
-  Vec3 ground_light = Vec3(0.10, 0.097, 0.095);  ///< ... and from below.
+  Vec3 sky_light = Vec3(0.32, 0.365, 0.44);      ///< From above.
+  Vec3 ground_light = Vec3(0.10, 0.097, 0.095);  ///< From below.
   Vec3 horizon = Vec3(0.615, 0.665, 0.735);      ///< The sky as it appears on the image; the air far away.
   Vec3 zenith = Vec3(0.24, 0.37, 0.59);
   Vec3 below = Vec3(0.45, 0.47, 0.50);  ///< Under the horizon, where there is no ground.

@@ -13,12 +13,7 @@ namespace {
 
 // What is still to be changed. An entry that holds no more fails the tests: take it out.
 const std::set<std::string> kStillTooManyParameters{
-    "engine/contact/contact_manifold.h: contactManifold",  // asked so by engine/simulation
-    "engine/environment/environment_flight.cpp: flyThroughEnvironment",
-    "engine/environment/environment_flight.h: flyThroughEnvironment",  // likewise
     "engine/simulation/contacts/internal_edges.cpp: passes",
-    "engine/simulation/contacts/midstep_rows.cpp: moveToMidStep",
-    "engine/simulation/contacts/midstep_rows.h: moveToMidStep",
     "engine/simulation/contacts/pair_table.cpp: extend",
     "engine/simulation/contacts/pair_table.h: extend",
     "engine/simulation/events/event_loop.cpp: runEvents",

@@ -1,4 +1,5 @@
 #include "tests/fuzz/program.h"
+#include "tests/support/shell.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -65,7 +66,7 @@ std::string wrongWithProgram(const fs::path& program, const Input& input, const 
   }
   std::ifstream in(said);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  const int code = exitCodeOf(status);
   const auto lines = std::count(text.begin(), text.end(), '\n');
   const bool is_line = lines == 1 && text.back() == '\n' && text.rfind("carom: ", 0) == 0;
   if (code <= 5 && (code == 0 || is_line)) return "";

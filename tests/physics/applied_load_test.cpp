@@ -1,6 +1,7 @@
 // Constant forces and torques on bodies: flight, friction, spin, and the work that they do.
 
 #include "tests/physics/small_world.h"
+#include "tests/support/world_energy.h"
 
 namespace carom::physics {
 namespace {
@@ -26,10 +27,6 @@ void addFloor(World& world, double friction) {
                  true});
 }
 
-double energy(const World& world) {
-  return world.audit().kinetic_energy_J + world.audit().potential_energy_J;
-}
-
 void run(World& world, double seconds) {
   const int steps = static_cast<int>(std::round(seconds / world.settings().step_s));
   for (int i = 0; i < steps; ++i) world.step();
@@ -41,14 +38,14 @@ TEST(ConstantForce, MakesAParabolaAndItsWorkIsTheEnergy) {
   const int box = addLoaded(world, Solid::box(Vec3(0.3, 0.4, 0.5)),
                             {oracle::turned(Vec3::UnitX(), 0.4), Vec3(0, 0, 100)}, {.force_W = force});
   ASSERT_TRUE(world.start().empty());
-  const double before = energy(world);
+  const double before = energyOf(world);
   run(world, 2.0);
   const Vec3 a = Vec3(0, 0, -kGravity) + force / world.mass(box);
   const BodyState& state = world.states()[static_cast<std::size_t>(box)];
   EXPECT_LT((state.X_WB.position - Vec3(0, 0, 100) - 2.0 * a).norm(), 1e-11);
   EXPECT_LT((state.linear_velocity - 2.0 * a).norm(), 1e-12);
   EXPECT_NEAR(world.audit().work_J, force.dot(2.0 * a), 1e-9 * force.dot(2.0 * a));
-  EXPECT_NEAR((energy(world) - before) / world.audit().work_J, 1.0, 1e-9);
+  EXPECT_NEAR((energyOf(world) - before) / world.audit().work_J, 1.0, 1e-9);
 }
 
 TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {
@@ -64,7 +61,7 @@ TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {
     const double moment = world.mass(box) * (0.3 * 0.3 + 0.5 * 0.5) / 12.0;
     const BodyState& state = world.states()[static_cast<std::size_t>(box)];
     EXPECT_LT((state.angular_velocity - 3.0 * 2.0 / moment * axis).norm(), 1e-9);
-    EXPECT_NEAR(energy(world) / world.audit().work_J, 1.0, 1e-9);
+    EXPECT_NEAR(energyOf(world) / world.audit().work_J, 1.0, 1e-9);
     EXPECT_LT(state.X_WB.rotation.angularDistance(rotationBy(0.5 * 9.0 * 2.0 / moment * axis) * R), 1e-9);
   }
 }

@@ -3,6 +3,7 @@
 // do.
 
 #include "tests/physics/small_world.h"
+#include "tests/support/world_energy.h"
 
 namespace carom::physics {
 namespace {
@@ -44,10 +45,7 @@ class KinematicWorld {
     }
   }
   const BodyState& state(int body) const { return world.states()[static_cast<std::size_t>(body)]; }
-  double energy() const {
-    const Audit audit = world.audit();
-    return audit.kinetic_energy_J + audit.potential_energy_J;
-  }
+  double energy() const { return energyOf(world); }
   World world;
 };
 

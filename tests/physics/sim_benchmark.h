@@ -11,6 +11,7 @@
 #include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/world_energy.h"
 
 namespace carom::physics {
 
@@ -79,10 +80,7 @@ class ElasticBalls {
     begin_J_ = energy();
   }
 
-  double energy() const {
-    const Audit now = world_.audit();
-    return now.kinetic_energy_J + now.potential_energy_J;
-  }
+  double energy() const { return energyOf(world_); }
 
   World world_;
   Material material_;

@@ -3,11 +3,11 @@
 layout(location = 0) in vec4 corner;      // 0 to 1 over the mesh's box
 layout(location = 1) in vec2 folded;      // the normal on the unfolded octahedron
 layout(location = 2) in vec4 tint;
-layout(location = 3) in vec3 low;         // of each body: the mesh's box ...
+layout(location = 3) in vec3 low;         // of each body: a corner of the mesh's box
 layout(location = 4) in vec3 size;
-layout(location = 5) in vec3 middle_E;    // ... where it is ...
+layout(location = 5) in vec3 middle_E;    // of each body: where it is
 layout(location = 6) in vec4 rotation;
-layout(location = 7) in vec4 color;       // ... linear; w: negative for a checker, else how near the ground darkens it
+layout(location = 7) in vec4 color;       // of each body, linear; w: negative for a checker, else how near the ground darkens it
 layout(location = 8) in float number;
 layout(location = 9) in vec4 finish;      // 1 / scale, the axis of the body that is z, its number in [0, 1); w: a ball
 out vec3 p_E;

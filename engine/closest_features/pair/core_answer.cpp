@@ -3,9 +3,6 @@
 namespace carom {
 namespace {
 
-// Edges that cross at a larger angle have a well-defined common perpendicular.
-constexpr double kCrossingSine = 1e-3;
-
 inline Vec3 acrossEdge(const Vec3& direction, const Vec3& w) {
   return w - direction.dot(w) * direction;
 }

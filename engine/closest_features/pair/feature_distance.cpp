@@ -8,9 +8,6 @@
 namespace carom {
 namespace {
 
-// The common perpendicular of edges that cross at a smaller angle is uncertain: all ends are tried too.
-constexpr double kClearSineSquared = 1e-6;
-
 struct FeaturePoint {
   Feature feature;
   Vec3 p;
@@ -80,7 +77,8 @@ FeatureDistance edgeEdge(const Segment& e1, const Segment& e2) {
   FeaturePoint on1 = e1.at(s1);
   const FeaturePoint on2 = e2.nearest(on1.p);
   if (on2.feature.kind == FeatureKind::kVertex) on1 = e1.nearest(on2.p);
-  if (sine_squared > kClearSineSquared) return measure(on1, on2);
+  if (sine_squared > kCrossingSine * kCrossingSine) return measure(on1, on2);
+  // The common perpendicular is uncertain: all ends are tried too.
   FeatureDistance best = closestAtAnEnd(e1, e2);
   keepCloser(best, measure(on1, on2));
   return best;

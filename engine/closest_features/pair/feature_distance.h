@@ -13,6 +13,10 @@
 
 namespace carom {
 
+/// Edges that cross at a larger angle have a well-defined common perpendicular; at a smaller one their
+/// direction is the way between them.
+inline constexpr double kCrossingSine = 1e-3;
+
 /// The closest points of two closed features, in the frame of A.
 struct FeatureDistance {
   FeaturePair features;  ///< The lowest features that hold the points; never face-face or edge-face.

@@ -8,7 +8,7 @@ namespace {
 // How far rounding may take the square of a crossing's length from 1.
 constexpr double kUnit = 0x1p-48;
 // The support point itself is sought once there are this many; before, any point that is high enough will do.
-constexpr std::size_t kFew = 10;
+constexpr std::size_t kFewCaps = 10;
 
 // The end of the steepest edge at a vertex along `direction`; the vertex itself where none rises.
 int uphill(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
@@ -98,7 +98,7 @@ bool CapCover::findHigher(Cap& cap, const Cap& from) {
     cap.b = b = higher_b;
     place(cap);
     found = n.dot(cap.w) > depth_m_ + noise_m_;
-    if (found && count_ < kFew) return true;
+    if (found && count_ < kFewCaps) return true;
   }
 }
 

@@ -18,9 +18,7 @@ constexpr double kFlatSlope = 1e-15;
 // Distances this close, relative to the size, are equal to rounding.
 constexpr double kAsClose = 0x1p-51;
 // A distance that may be wrong by more than this, relative to the size, is looked at again.
-constexpr double kMargin = 0x1p-50;
-// One that may be wrong by more than this is no answer.
-constexpr double kLost = 0x1p-41;
+constexpr double kDoubtful = 0x1p-50;
 // A slope s gains d s^2 / 2 at distance d, which rounding hides up to s^2 = 1e-16 * size / d or so. Features
 // this close to level at a distance of the size, and closer in proportion, are looked at together.
 constexpr double kLevelSine = 1e-6;
@@ -149,9 +147,9 @@ Move FeatureWalk::next() {
   }
   const Vec3 unit = n.unit();
   const double unproven = at.distance() - slabAlong(pair_, at.features, unit);
-  if (unproven <= kMargin * size_m_) return Move::kLevel;
+  if (unproven <= kDoubtful * size_m_) return Move::kLevel;
   if (moveToLevelAxis() || moveAlongBoth(unit, minus_n_B / n.length)) return Move::kTaken;
-  return unproven <= kLost * size_m_ ? Move::kLevel : Move::kLost;
+  return unproven <= kUnproven * size_m_ ? Move::kLevel : Move::kLost;
 }
 
 bool FeatureWalk::asClose(const FeatureDistance& there) const {
@@ -225,7 +223,7 @@ bool FeatureWalk::moveAlongBoth(const Vec3& n, const Vec3& minus_n_B) {
     for (const Feature b : on_b.all()) moved = moveTo({a, b}) || moved;
   if (moved) return true;
   const double slab = slabAlong(pair_, here().features, n);
-  if (here().distance() - slab <= kLost * size_m_) return false;
+  if (here().distance() - slab <= kUnproven * size_m_) return false;
   for (const Feature a : on_a.all())
     for (const Feature b : on_b.all())
       if (moveToWiderSlab({a, b}, slab)) return true;
@@ -236,7 +234,7 @@ bool FeatureWalk::moveToWiderSlab(FeaturePair features, double slab_m) {
   const FeatureDistance there = anyFeatureDistance(pair_, features);
   if (!asClose(there) || dimensions(there.features) < dimensions(here().features)) return false;
   const Vec3 n = acrossOf(pair_, there).unit();
-  if (slabAlong(pair_, there.features, n) <= slab_m + kMargin * size_m_) return false;
+  if (slabAlong(pair_, there.features, n) <= slab_m + kDoubtful * size_m_) return false;
   seen_[1 - here_] = there;
   here_ = 1 - here_;
   return true;

@@ -29,6 +29,9 @@
 
 namespace carom {
 
+/// An answer that support planes leave a larger margin than this, relative to the size, is not proven.
+inline constexpr double kUnproven = 0x1p-41;
+
 enum class Move {
   kTaken,   ///< Closer, or as close with features of more dimensions.
   kClear,   ///< The end: every way off these features leads away by more than rounding.

@@ -8,8 +8,6 @@
 namespace carom {
 namespace {
 
-// Edges that cross at a smaller angle have no well-defined common perpendicular.
-constexpr double kCrossingSineSquared = 1e-6;
 constexpr int kMostTried = 8;  // tried before a walk begins
 // The cosine of how far apart the ways across features that lie side by side may be.
 constexpr double kBeside = 0.95;
@@ -116,7 +114,7 @@ class WarmPair {
     const Vec3 d2 = b_.direction(b.direction);
     const Vec3 across = d1.cross(d2);
     const double sine_squared = across.squaredNorm();
-    if (sine_squared < kCrossingSineSquared) return false;
+    if (sine_squared < kCrossingSine * kCrossingSine) return false;
     const Vec3 tail1 = a_.point(a_.polyhedron.vertex(a.tail));
     const Vec3 between = b_.point(b_.polyhedron.vertex(b.tail)) - tail1;
     const double inverse = 1.0 / sine_squared;
@@ -233,7 +231,7 @@ class WarmPair {
     const Vec3 d2 = b_.direction(b.direction);
     const Vec3 across = d1.cross(d2);
     const double sine_squared = across.squaredNorm();
-    if (sine_squared < kCrossingSineSquared) return here;
+    if (sine_squared < kCrossingSine * kCrossingSine) return here;
     const Vec3 tails = between(a.tail, b.tail);
     const double s1 = tails.cross(d2).dot(across) / sine_squared;
     const double s2 = tails.cross(d1).dot(across) / sine_squared;

@@ -8,16 +8,26 @@
 namespace carom {
 namespace {
 
-constexpr double kTurnShare = 0.07;   // of the slip: what one step of the integration changes it by
-constexpr double kStableShare = 1.0;  // of slip over stiffness: Runge-Kutta steps are stable below 2.7
-constexpr double kStraight = 1e-10;   // sine of the angle at which a slip changes: it goes straight on
-constexpr double kUnnoticed = 1e-7;  // of the velocity before: a slip that ends and turns by less does so too
-constexpr double kStopped = 1e-12;   // of the velocity before: slower is no slip
-constexpr int kMostSteps = 2000;     // a slip that turns for longer has found where it neither grows nor ends
-constexpr int kLengthRounds = 8;     // that fit a step to where a phase ends within it, ...
-constexpr double kFit = 1e-12;       // ... to this share of its length and of the impulse
-constexpr int kHalvings = 40;        // of a step that cannot be fitted
-constexpr int kDepartureRounds = 60;  // of Newton's method
+// One step of the integration changes the slip by this share of it.
+constexpr double kTurnShare = 0.07;
+// The longest step, as a share of slip over stiffness: Runge-Kutta steps are stable below 2.7.
+constexpr double kStableShare = 1.0;
+// A slip that changes at an angle of a smaller sine to itself goes straight on.
+constexpr double kStraight = 1e-10;
+// Of the velocity before: a slip that ends, and turns by less until then, is taken to go straight on as well.
+constexpr double kUnnoticed = 1e-7;
+// Of the velocity before: what is slower does not slip.
+constexpr double kNoSlip = 1e-12;
+// A slip that turns for more steps has found the direction in which it neither grows nor ends.
+constexpr int kMostSlipSteps = 2000;
+// Rounds in which a step is fitted to the end of a phase within it, at most.
+constexpr int kLengthRounds = 8;
+// Of the step's length and of the impulse: a step that ends this near to the end of its phase fits.
+constexpr double kFit = 1e-12;
+// A step that cannot be fitted is halved this often at most.
+constexpr int kHalvings = 40;
+// Steps of Newton's method that seek the direction of departure, at most.
+constexpr int kDepartureRounds = 60;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // The state while the normal impulse p grows. Where d impulse / dp = xi is constant, the velocity is linear
@@ -48,7 +58,7 @@ class Course {
     impulse_ += p * xi;
     velocity_ = c_->velocity + c_->response * impulse_;
     if (p < whole) return;
-    if (!compresses && velocity_.x() < -kStopped * c_->velocity.norm()) turns_back = true;
+    if (!compresses && velocity_.x() < -kNoSlip * c_->velocity.norm()) turns_back = true;
     if (compresses) {
       least_work_ = std::min(least_work_, work_);
       phase_ = c_->restitution > 0.0 ? Phase::kRestitution : Phase::kEnded;
@@ -95,13 +105,13 @@ class Slip {
  public:
   explicit Slip(const PointCollision& collision)
       : c_(collision),
-        stopped_(kStopped * collision.velocity.norm()),
+        stopped_(kNoSlip * collision.velocity.norm()),
         unnoticed_(kUnnoticed * collision.velocity.norm()),
         stiffness_(collision.friction.dynamic_coefficient *
                    collision.response.bottomRightCorner<2, 2>().norm()) {}
 
   void follow(Course& course) const {
-    for (int step = 0; step < kMostSteps && slips(course); ++step) {
+    for (int step = 0; step < kMostSlipSteps && slips(course); ++step) {
       const Vec3& u = course.velocity();
       const Vec2 slip = u.tail<2>();
       const Vec2 rate = (c_.response * along(u)).tail<2>();

@@ -106,10 +106,10 @@ RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction
   return solvePoint(row, bodies, friction);
 }
 
-// Cut off where the rows of a world could overflow a sum of them.
+// A change is cut off where the sum of the rows of a world could overflow.
 long excessOf(double change) {
-  constexpr double kMost = 1e6;
-  const double cut = std::min(change, kMost);
+  constexpr double kMostExcess = 1e6;
+  const double cut = std::min(change, kMostExcess);
   return static_cast<long>(cut * cut);
 }
 

@@ -9,8 +9,8 @@
 namespace carom {
 namespace {
 
-constexpr int kRounds = 8;         // over the rows of one body
-constexpr double kSettled = 1e-3;  // of what the first round changed
+constexpr int kRoundsOfABody = 8;  // over the rows of one body, at most
+constexpr double kSettled = 1e-3;  // of what the first round changed: a round that changes less is the last
 
 // The end of a row that gives way to the other.
 struct UpperEnd {
@@ -33,7 +33,7 @@ void settle(std::span<const UpperEnd> ends, std::span<const ContactRow> rows, st
             std::span<double> impulses) {
   ImpulseBody& body = bodies[at(ends.front().body)];
   double first = 0.0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRoundsOfABody; ++round) {
     double largest = 0.0;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const ContactRow& row = rows[ends[k].row];

@@ -7,8 +7,7 @@ namespace carom {
 namespace {
 
 constexpr Eigen::Index kPivots = 4;  // a row
-constexpr std::size_t kMostRows = 32;
-constexpr double kRegular = 1e-13;  // of a row's own response: so much, one that repeats another gives way
+constexpr double kRegular = 1e-13;   // of a row's own response: so much, one that repeats another gives way
 
 }  // namespace
 
@@ -45,7 +44,7 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
 }
 
 bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps) {
-  if (rows.size() > kMostRows) return false;
+  if (rows.size() > kMostPivotedRows) return false;
   const auto size = static_cast<Eigen::Index>(rows.size());
   const auto rowAt = [&](Eigen::Index i) -> ContactRow& { return rows[static_cast<std::size_t>(i)]; };
   Eigen::VectorXd missing(size);

@@ -12,6 +12,9 @@
 
 namespace carom {
 
+/// Of more rows than these it is cheaper to sweep: every pivot eliminates them anew.
+inline constexpr std::size_t kMostPivotedRows = 32;
+
 /// Impulses of rows whose speeds they change by `response` times them (symmetric, positive semidefinite), so
 /// that what was `missing` of each row's speed is made up for up to `slack`. None where rows contradict each
 /// other, or no such are found in four pivots a row. Rows that repeat each other share what they press.
@@ -19,7 +22,8 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
                                              const Eigen::VectorXd& slack);
 
 /// Gives bodies the normal impulses by which all rows, which have had none, part at their lowest speeds less
-/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none, or for more than 32 rows.
+/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none, or for more than
+/// `kMostPivotedRows`.
 bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps);
 
 }  // namespace carom

@@ -73,8 +73,8 @@ struct Body : StepMotion {
   Material material;
   double radius_m = 0.0;
   bool is_static = false;
-  bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it, ...
-  double late_s = 0.0;        ///< ... but it may be stopped: for so long it was, and is late on its path.
+  bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it.
+  double late_s = 0.0;        ///< How late it is on that path: for so long things in its way have stopped it.
   bool was_stopped = false;   ///< In the last step.
   double piece_end_s = std::numeric_limits<double>::infinity();  ///< Of the path, within the step.
   AxisLocks locks;

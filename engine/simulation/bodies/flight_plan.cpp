@@ -83,9 +83,9 @@ void FlightPlanner::planPath(int index, Body& body) const {
     turnFreely(body, dt);
     return;
   }
-  const EnvironmentFlight flight =
-      flyThroughEnvironment(environment_, environmentBody(index, body), path.X_WB, start,
-                            {body.contact_force, body.contact_torque}, time_s_ + path.start_s, dt, scratch());
+  const EnvironmentFlight flight = flyThroughEnvironment(
+      {environment_, environmentBody(index, body), {body.contact_force, body.contact_torque}}, path.X_WB,
+      start, time_s_ + path.start_s, dt, scratch());
   Vec3 mean = (flight.X_end.position - path.X_WB.position) / dt;
   const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, start.angular);
   path.acceleration = (flight.velocity_end - start.linear) / dt;

@@ -6,8 +6,6 @@
 namespace carom {
 namespace {
 
-constexpr double kLargestTurn = 2.0;  // rad in a step: beyond it a constant spin has no reliable axis
-
 // Where a constant angular momentum takes an orientation.
 Quat turned(const Inertia& inertia, const Quat& R_WB, const Vec3& momentum, double dt_s) {
   const Vec3 spin = angularVelocity(inertia, R_WB, momentum);

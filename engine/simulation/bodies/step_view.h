@@ -15,10 +15,10 @@ namespace carom {
 struct ContactView {
   int body_a = -1;
   int body_b = -1;
-  Vec3 p_A = Vec3::Zero();        ///< The point in the frames of the two bodies: carried along, it is ...
-  Vec3 p_B = Vec3::Zero();        ///< ... where the contact was, also at poses shown a little later.
-  Vec3 n_W = Vec3::UnitZ();       ///< Unit, from A to B.
-  double gap_m = 0.0;             ///< When the impulse acted.
+  Vec3 p_A = Vec3::Zero();   ///< The point on A, in A's frame: so it also fits poses shown a little later.
+  Vec3 p_B = Vec3::Zero();   ///< The point on B, in B's frame, likewise.
+  Vec3 n_W = Vec3::UnitZ();  ///< Unit, from A to B.
+  double gap_m = 0.0;        ///< When the impulse acted.
   Vec3 impulse_W = Vec3::Zero();  ///< N s on B; the opposite on A. Of lasting contact, in a whole step.
   std::uint64_t id = 0;           ///< `contactId` of the two features.
   double time_s = 0.0;            ///< World time of the impulse.

@@ -90,8 +90,8 @@ struct StepCounters {
   int distance_queries = 0;
   long states_walked = 0;  ///< Feature pairs visited by these queries.
   int contact_points = 0;
-  int events = 0;            ///< Times at which impulses acted between steps, ...
-  int impacts = 0;           ///< ... of these, roots: fast approaches that came into the window.
+  int events = 0;            ///< Times at which impulses acted between steps.
+  int impacts = 0;           ///< Events that are roots: fast approaches that came into the window.
   int landings = 0;          ///< Pairs without restitution that were foreseen to come down, and held in time.
   int projected_paths = 0;   ///< Bodies whose paths were led along their contacts; each time counts.
   int cleared_paths = 0;     ///< Times that two paths were led apart, without impulses.
@@ -99,8 +99,8 @@ struct StepCounters {
   int newton_steps = 0;      ///< Of the searches for times of impact.
   int stopped_bodies = 0;    ///< Held at their last safe time because an event budget was reached.
   int iteration_limits = 0;  ///< Closest-feature walks that reached their bound.
-  int active_bodies = 0;     ///< Bodies and pairs that the step looked at: those of what moves, ...
-  int active_pairs = 0;      ///< ... and of what came to rest in the step before.
+  int active_bodies = 0;     ///< Bodies that the step looked at: they move, or came to rest the step before.
+  int active_pairs = 0;      ///< Pairs that the step looked at: those of these bodies.
   int rest_test_rows = 0;    ///< Rows that were looked at to tell whether islands come to rest.
   int stopped_kinematic = 0;  ///< Kinematic bodies that were stopped at something that cannot give way.
   double work_J = 0.0;        ///< Done by kinematic bodies and by loads (BodyDescription).

@@ -16,8 +16,8 @@ namespace carom {
 struct CarriedStretch {
   Velocity begin;  ///< Of the momentum, at `body.path.start_s`, where the body is.
   Velocity gain;   ///< Its angular part by the tensor of the orientation `R_WB`.
-  Quat R_WB;       ///< The orientation that contacts were solved for, and ...
-  Vec3 spin;       ///< ... the body's spin there before their impulses, rad/s.
+  Quat R_WB;       ///< The orientation that contacts were solved for.
+  Vec3 spin;       ///< The body's spin in that orientation before their impulses, rad/s.
   double rest_of_step_s = 0.0;
 };
 

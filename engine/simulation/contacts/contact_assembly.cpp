@@ -344,8 +344,13 @@ class Assembly {
       return speed < -pair.collision_speed_mps ||
              (pair.restitution > 0.0 && speed > pair.collision_speed_mps);
     });
-    const MidStep mid{0.5 * step_s, noticedTurning(), contacts_.half_turns};
-    moveToMidStep(request, pair, mid, world_.bodies, world_.shapes, contacts_.bodies, rows, stretch.counters);
+    const MidStep mid{.bodies = world_.bodies,
+                      .shapes = world_.shapes,
+                      .solver_bodies = contacts_.bodies,
+                      .half_step_s = 0.5 * step_s,
+                      .noticed_mps = noticedTurning(),
+                      .half_turns = contacts_.half_turns};
+    moveToMidStep(request, pair, mid, rows, stretch.counters);
   }
 
   // Where the bodies come down. There the gap is known, and how it goes on changing with the velocities. They

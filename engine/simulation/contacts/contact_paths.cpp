@@ -13,8 +13,7 @@ namespace {
 
 constexpr int kPathSweeps = 2;          // at least
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
-constexpr double kPathShare =
-    0.01;  // of the smallest rest gap: what the path of a step may be off in a crowd
+constexpr double kPathGapShare = 0.01;  // of the smallest rest gap: what a path may be off after a step
 
 void lowerTo(double value, double& smallest) {
   std::atomic_ref<double> shared(smallest);
@@ -41,7 +40,7 @@ class ContactPaths {
 
   void set() {
     beginAtMeans();
-    const double residual_mps = kPathShare * boundPaths() / step_s_;
+    const double residual_mps = kPathGapShare * boundPaths() / step_s_;
     solve(residual_mps);
     for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solve(residual_mps);
     takeMomentum();

@@ -81,9 +81,10 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
                 std::vector<SourcedRow>& rows) {
   CollisionWindow window = pair.window;
   window.manifold = std::max(window.manifold, request.height_m);
-  const ContactManifold manifold =
-      contactManifold(*request.closest, *shapes[at(pair.shapes.a)].part, request.X_WA,
-                      *shapes[at(pair.shapes.b)].part, request.X_WB, window, request.former);
+  const ContactManifold manifold = contactManifold(
+      *request.closest,
+      {*shapes[at(pair.shapes.a)].part, request.X_WA, *shapes[at(pair.shapes.b)].part, request.X_WB}, window,
+      request.former);
   const double leaning = leaningOf(pair, bodies, shapes);
   const double slack_m = slackOf(pair, shapes);
   const Material& material_a = bodies[at(pair.body_a)].material;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/closest_features/pair/feature_distance.h"
 #include "engine/foundation/index.h"
 
 namespace carom {
 namespace {
-
-// Edges that cross at a smaller angle have their direction from the way between them.
-constexpr double kCrossingSine = 1e-3;
 
 // One side of a placed pair.
 struct Side {

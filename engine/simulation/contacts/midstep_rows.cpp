@@ -51,11 +51,9 @@ void takePlace(const SourcedRow& later, const Half& a, const Half& b, double mos
 }  // namespace
 
 void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
-                   const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                   std::span<const ImpulseBody> solver_bodies, std::span<SourcedRow> rows,
-                   StepCounters& counters) {
+                   std::span<SourcedRow> rows, StepCounters& counters) {
   const auto halfOf = [&](int body, int shape) {
-    return Half{bodies[at(body)], mid.half_turns[at(body)], shapes[at(shape)]};
+    return Half{mid.bodies[at(body)], mid.half_turns[at(body)], mid.shapes[at(shape)]};
   };
   const Half a = halfOf(pair.body_a, pair.shapes.a);
   const Half b = halfOf(pair.body_b, pair.shapes.b);
@@ -76,7 +74,7 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
   for (const SourcedRow& row : rows) now.add(row.id);
   later.former = now.view();
   std::vector<SourcedRow> there;
-  appendRows(later, pair, bodies, shapes, solver_bodies, there);
+  appendRows(later, pair, mid.bodies, mid.shapes, mid.solver_bodies, there);
   for (SourcedRow& row : rows) {
     const auto same =
         std::find_if(there.begin(), there.end(), [&](const SourcedRow& s) { return s.id == row.id; });

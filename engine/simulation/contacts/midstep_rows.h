@@ -14,18 +14,19 @@
 
 namespace carom {
 
-/// How far ahead the middle of the step is, and what turning is worth a look there.
+/// The world in the middle of the step: how far ahead that is, and what turning is worth a look there.
 struct MidStep {
+  const std::vector<Body>& bodies;
+  const std::vector<Shape>& shapes;
+  std::span<const ImpulseBody> solver_bodies;
   double half_step_s = 0.0;
   double noticed_mps = 0.0;              ///< Speed by which a contact's arms change in half a step.
   std::span<const HalfTurn> half_turns;  ///< Of the world's bodies.
 };
 
 /// Moves the rows of one pair, as `appendRows` made them for `request`, to mid-step, where the velocities of
-/// `solver_bodies` carry the two; their coefficients stay. Rows of points that are not there then stay.
+/// the solver's bodies carry the two; their coefficients stay. Rows of points that are not there then stay.
 void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
-                   const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                   std::span<const ImpulseBody> solver_bodies, std::span<SourcedRow> rows,
-                   StepCounters& counters);
+                   std::span<SourcedRow> rows, StepCounters& counters);
 
 }  // namespace carom

@@ -18,28 +18,35 @@
 namespace carom {
 namespace {
 
-// What lies between bodies a thousand times as heavy converges slowly; where rows are few, that is waited
-// for.
-constexpr std::size_t kFewRows = 32;
+// Rows visited in one solve of so few rows that pivoting takes them, at most. What lies between bodies a
+// thousand times as heavy converges slowly, and there that is waited for.
 constexpr long kFewRowsVisits = 4000;
-constexpr double kFewRowsShare = 1e-3;  // of what is safe
-constexpr int kSweepsARound = 4;        // between two looks at whom the impulses have reached
-constexpr int kFineSweeps = 20;         // at least, when they have reached all
-constexpr int kMostSweeps = 80;         // of one solve
-// A crowd: most of its rows are quiet, and only those that are not are visited; what has not settled after
-// these sweeps is left to the next step. Impulses and forces go on only to bodies that they move by so many
-// rest gaps in a step, and by more the larger the crowd has grown.
+// Of the safe residual: the one to which few rows are solved while these visits last.
+constexpr double kFewRowsShare = 1e-3;
+// Sweeps between two looks at which bodies the impulses have reached.
+constexpr int kSweepsARound = 4;
+// Sweeps, at least, once the impulses have reached all whom they reach.
+constexpr int kFineSweeps = 20;
+// Sweeps of one solve of a small cluster, at most.
+constexpr int kMostSweeps = 80;
+// A cluster of more rows is large: most of them are quiet, and only those that are not are visited.
 constexpr std::size_t kCrowdRows = 100;
+// Sweeps of one solve of a large cluster, at most: what they leave over is left to the next step.
 constexpr int kCrowdSweeps = 20;
+// Rest gaps a step: impulses and forces go on only to bodies that they move by more, and by more still the
+// larger a large cluster has grown.
 constexpr double kCrowdRestGaps = 2.0;
-// Small clusters are solved to this share of the approach; when so many rows have been visited, and for
-// paths, it is enough that what is left over cannot use up much of the gap within a step.
+// Of the approach: the residual to which small clusters are solved.
 constexpr double kShareOfApproach = 1e-10;
+// Rows visited at that residual, at most. Then the safe residual is enough, which cannot use up much of the
+// gap within a step.
 constexpr long kCarefulVisits = 1000;
-constexpr double kPathShare = 0.01;   // of that, for small clusters
-constexpr double kGapShare = 0.4;     // of the rest gap
-constexpr double kWakingShare = 0.1;  // of the resting mode's speed: forces that do less wake nobody
-constexpr double kSlowShare = 0.5;  // of the collision speed: the fastest closing left to a gap in the window
+// Of the safe residual: the one to which the paths of small clusters are solved.
+constexpr double kPathShare = 0.01;
+// Of the rest gap: what the safe residual may use up in a step.
+constexpr double kGapShare = 0.4;
+// Of the resting mode's speed: forces that make less of it in a step wake no body.
+constexpr double kWakingShare = 0.1;
 
 }  // namespace
 
@@ -273,7 +280,7 @@ int ContactCluster::mostSweeps() const {
 }
 
 long ContactCluster::fewRowsVisits() const {
-  return rows_.size() <= kFewRows ? kFewRowsVisits : 0;
+  return rows_.size() <= kMostPivotedRows ? kFewRowsVisits : 0;
 }
 
 void ContactCluster::solveSpreading(double careful_mps) {
@@ -304,7 +311,7 @@ void ContactCluster::solveSpreading(double careful_mps) {
     if (!grew && report.residual_mps <= enough) return;
     reached = !grew;
     const bool diverges = fine && !grew && report.residual_mps > safe;
-    if (!diverges || solved_at_once || rows_.size() > kFewRows) continue;
+    if (!diverges || solved_at_once || rows_.size() > kMostPivotedRows) continue;
     solved_at_once = true;
     solveAtOnce(enough);
   }

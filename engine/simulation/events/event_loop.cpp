@@ -16,21 +16,23 @@
 namespace carom {
 namespace {
 
-// Of solving landings: what the last leaves over are events.
+// Rounds in which landings are solved: what the last of them leaves over are events.
 constexpr int kLandingRounds = 2;
-// Of leading a body's path clear in one step: so often apart from others; up to the next number without what
-// turning brings back; then so often its motion is halved; then it is held.
+// How often in one step a body's path is led clear of others with what turning brings back led apart as well.
 constexpr int kTurningClearings = 8;
+// How often in one step a body's path is led clear of others at all.
 constexpr int kMostClearings = 20;
+// How often in one step the motion of a body that has been led clear that often is halved; then it is frozen.
 constexpr int kMostHalvings = 2;
-constexpr double kInstants = 0x1p32;  // of a step: times that differ by rounding are nearly always one
+// Instants of a step: times that differ by rounding are nearly always one.
+constexpr double kInstants = 0x1p32;
 
 // The time up to which a pair's gap is proven: there it must be looked at again, if its bodies still travel
 // as they did when it was predicted.
 struct Event {
   std::int64_t instant = 0;     // its time, as the events are ordered
-  bool looked = false;          // then it is an impact or a stop at that time, and parts ...
-  double separating_mps = 0.0;  // ... so fast
+  bool looked = false;          // then it is an impact or a stop at that time
+  double separating_mps = 0.0;  // of the pair at that time, once it is looked
   std::uint64_t rank = 0;       // of the pair
   int pair = -1;                // none: a kinematic body comes to the next piece of its path, before all else
   int version = 0;
@@ -432,13 +434,9 @@ class EventLoop {
   // Straight on, at this mean velocity.
   void lead(int index, const Velocity& mean, double rest_of_step_s) {
     Body& body = bodies_[at(index)];
-    countLift(body, meanOf(body.path, rest_of_step_s), mean.linear);
+    countLift(body, body.path.meanVelocity(body.path.start_s, rest_of_step_s), mean.linear);
     body.travel = Travel::kCarried;
     carryAlong(body, mean, rest_of_step_s, false);
-  }
-
-  static Vec3 meanOf(const Trajectory& path, double rest_of_step_s) {
-    return path.velocity + 0.5 * rest_of_step_s * path.acceleration;
   }
 
   // From now on the body goes on at another mean velocity than it would have.
@@ -457,7 +455,8 @@ class EventLoop {
 
   void halve(int index, double rest_of_step_s) {
     const Trajectory& path = bodies_[at(index)].path;
-    lead(index, {0.5 * meanOf(path, rest_of_step_s), 0.5 * path.angularVelocityAt(path.start_s)},
+    lead(index,
+         {0.5 * path.meanVelocity(path.start_s, rest_of_step_s), 0.5 * path.angularVelocityAt(path.start_s)},
          rest_of_step_s);
   }
 
@@ -594,7 +593,8 @@ class EventLoop {
 
   void straighten(Body& body, double rest_of_step_s) {
     body.travel = Travel::kCarried;
-    carryAlong(body, {meanOf(body.path, rest_of_step_s), body.path.spin}, rest_of_step_s, false);
+    carryAlong(body, {body.path.meanVelocity(body.path.start_s, rest_of_step_s), body.path.spin},
+               rest_of_step_s, false);
   }
 
   void takePaths(double time_s, bool crowded) {
@@ -628,7 +628,8 @@ class EventLoop {
       stop(index);
       return;
     }
-    countLift(body, meanOf(body.path, settings_.step_s - body.path.start_s), Vec3::Zero());
+    const double start_s = body.path.start_s;
+    countLift(body, body.path.meanVelocity(start_s, settings_.step_s - start_s), Vec3::Zero());
     endPath(body);
     ++counters_.stopped_bodies;
   }

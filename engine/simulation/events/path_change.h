@@ -11,6 +11,9 @@
 
 namespace carom {
 
+/// Of the collision speed: the fastest closing that a path keeps towards a gap in the window.
+inline constexpr double kSlowShare = 0.5;
+
 /// Twice the energy of a body at these velocities, J; 0 for one that cannot move. What turns about one axis
 /// alone has a tensor of rank one.
 inline double twiceEnergy(const ImpulseBody& body, const Velocity& v) {

@@ -13,24 +13,29 @@
 namespace carom {
 namespace {
 
-constexpr double kOverRelaxed = 1.3;  // of what is missing, so that what is wedged converges
-constexpr double kOpened = 0.5;       // of what a gap misses to the rest gap
-constexpr double kWideShare = 0.5;    // of the collision speed: the fastest closing left to a wider one
-constexpr double kSlack = 0.05;       // of the rest gap: a place that misses less has been led apart
-constexpr double kMuch = 0.25;  // rad: of what turns by less, the rows have seen the end of the arc to 1 %
-constexpr int kVisits = 2000;   // of rows in one solve, 0.1 ms
+// Of the speed that a row misses: a sweep gives more than that, so that what is wedged converges.
+constexpr double kOverRelaxed = 1.3;
+// Of what a gap misses to the rest gap: so much is opened over the rest of the step.
+constexpr double kOpened = 0.5;
+// Of the collision speed: the fastest closing that is left to a wider place.
+constexpr double kWideShare = 0.5;
+// Of the rest gap: a place that misses less has been led apart.
+constexpr double kSlack = 0.05;
+// Radians: of what turns by less, the rows have seen the end of the arc to 1 %.
+constexpr double kMuch = 0.25;
+// Rows visited in one solve, at most: 0.1 ms.
+constexpr int kVisits = 2000;
 
 // What a body's path does in the mean over the rest of the step.
-Velocity meanOf(const Body& body, double time_s, double rest_s) {
-  return {body.path.velocityAt(time_s) + 0.5 * rest_s * body.path.acceleration,
-          body.path.angularVelocityAt(time_s)};
+Velocity meanMotion(const Body& body, double time_s, double rest_s) {
+  return {body.path.meanVelocity(time_s, rest_s), body.path.angularVelocityAt(time_s)};
 }
 
 }  // namespace
 
 double PathClearing::turningSpeed(const ShapePair& pair, double time_s, double rest_s,
                                   const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  const auto motionOf = [&](int body) { return meanOf(bodies[at(body)], time_s, rest_s); };
+  const auto motionOf = [&](int body) { return meanMotion(bodies[at(body)], time_s, rest_s); };
   return mostClosing({motionOf(pair.body_a), shapes[at(pair.shapes.a)].reach_m},
                      {motionOf(pair.body_b), shapes[at(pair.shapes.b)].reach_m}, rest_s) /
          rest_s;
@@ -105,7 +110,7 @@ int PathClearing::addPath(int index, double time_s, double rest_s, const std::ve
   const Body& body = bodies[at(index)];
   path_of_[at(index)] = static_cast<int>(paths_.size());
   touched_.push_back(index);
-  paths_.push_back(body.impulseBody(body.path.at(time_s), meanOf(body, time_s, rest_s)));
+  paths_.push_back(body.impulseBody(body.path.at(time_s), meanMotion(body, time_s, rest_s)));
   return path_of_[at(index)];
 }
 

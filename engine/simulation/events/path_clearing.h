@@ -51,8 +51,8 @@ class PathClearing {
     Vec3 n_W;
     Vec3 p_A_W;
     Vec3 p_B_W;
-    double wanted_mps = 0.0;  ///< At least so fast must it part, ...
-    double slack_mps = 0.0;   ///< ... or as little slower.
+    double wanted_mps = 0.0;  ///< The speed at which it shall part.
+    double slack_mps = 0.0;   ///< A place that parts slower by no more than this has been led apart.
     bool turned = false;      ///< Turning brought it back: only moving its bodies keeps it away.
     double led_s = 0.0;       ///< When its bodies were led apart last.
     bool gathered = false;    ///< In the last `gather`.

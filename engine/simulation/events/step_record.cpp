@@ -14,9 +14,10 @@ void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& 
   const Body& b = world.bodies[at(pair.body_b)];
   if (a.moves() || b.moves() || pair.remembered.empty()) return;
   const RememberedPoints points(pair);
-  const ContactManifold manifold =
-      contactManifold(pair.closest, *world.shapes[at(pair.shapes.a)].part, a.X_WB,
-                      *world.shapes[at(pair.shapes.b)].part, b.X_WB, pair.window, points.view());
+  const ContactManifold manifold = contactManifold(
+      pair.closest,
+      {*world.shapes[at(pair.shapes.a)].part, a.X_WB, *world.shapes[at(pair.shapes.b)].part, b.X_WB},
+      pair.window, points.view());
   for (const ManifoldPoint& point : manifold.view())
     for (const RememberedImpulse& remembered : pair.remembered) {
       if (remembered.id != point.id) continue;

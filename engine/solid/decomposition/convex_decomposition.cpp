@@ -20,7 +20,7 @@ namespace {
 // A distance from a plane is a sum of four products of numbers as large as the coordinates, of which each
 // factor is rounded: at most 16 roundings; as much again for points that are themselves cuts of edges.
 constexpr double kRoundings = 32.0;
-constexpr double kRounding = 0x1p-53;
+constexpr double kUnitRoundoff = 0x1p-53;
 // A plane face of a file is bent by a coordinate's error in each of three directions at the corner and at the
 // three corners that the plane is put through: sqrt(3) (1 + 3) errors.
 constexpr double kErrorsToFlat = 7.0;
@@ -470,7 +470,7 @@ class Merging {
 double flatTolerance(const SurfaceMesh& mesh, double coordinate_error_m) {
   double largest = 0.0;
   for (const Vec3& p : mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  return std::max(kRoundings * kRounding * largest, kErrorsToFlat * coordinate_error_m);
+  return std::max(kRoundings * kUnitRoundoff * largest, kErrorsToFlat * coordinate_error_m);
 }
 
 ConvexDecomposition convexDecomposition(const ClosedSurface& surface, const DecompositionSettings& settings) {

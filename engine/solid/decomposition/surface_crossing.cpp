@@ -55,7 +55,7 @@ class CrossingSearch {
   }
 
   std::optional<Vec3> among(std::vector<int> triangles) const {
-    if (triangles.size() <= kFew) return alongAxis(std::move(triangles), 0);
+    if (triangles.size() <= kFewTriangles) return alongAxis(std::move(triangles), 0);
     Eigen::AlignedBox3d middles;
     for (const int t : triangles) middles.extend(boxes_[at(t)].center());
     Eigen::Index axis = 0;
@@ -79,7 +79,7 @@ class CrossingSearch {
 
  private:
   // What is on both sides is looked at twice, and so on: a quarter more doubles in three partings.
-  static constexpr std::size_t kFew = 24, kMostInParts = 5, kParts = 4;
+  static constexpr std::size_t kFewTriangles = 24, kMostInParts = 5, kParts = 4;
 
   std::optional<Vec3> alongAxis(std::vector<int> triangles, Eigen::Index axis) const {
     std::sort(triangles.begin(), triangles.end(), [&](int a, int b) {

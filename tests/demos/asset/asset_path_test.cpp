@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

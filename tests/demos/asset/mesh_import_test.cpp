@@ -16,8 +16,8 @@
 #include "demos/asset/asset_path.h"
 #include "demos/asset/mesh_solid.h"
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -9,8 +9,8 @@
 #include "demos/asset/picture_file.h"
 #include "engine/foundation/contract.h"
 #include "renderer/image/png.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "demos/system/exit_code.h"
 #include "tests/demos/budget/budget_samples.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

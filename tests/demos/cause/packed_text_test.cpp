@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

@@ -10,8 +10,9 @@
 #include "demos/system/exit_code.h"
 #include "engine/foundation/contract.h"
 #include "tests/demos/support/program_run.h"
-#include "tests/demos/support/thrown_message.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/shell.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {
@@ -330,7 +331,7 @@ class Conversation {
     close(to_);
     int status = 0;
     waitpid(child_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return exitCodeOf(status);
   }
 
  private:

@@ -6,7 +6,7 @@
 #include "demos/cause/picture_evidence.h"
 #include "demos/format/content_hash.h"
 #include "tests/demos/support/png_files.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "demos/compare/comparison_run.h"
 #include "tests/demos/support/png_files.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

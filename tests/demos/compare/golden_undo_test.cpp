@@ -4,7 +4,7 @@
 
 #include "demos/asset/asset_path.h"
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

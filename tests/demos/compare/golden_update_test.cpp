@@ -5,7 +5,7 @@
 #include "demos/asset/asset_path.h"
 #include "demos/system/exit_code.h"
 #include "tests/demos/support/png_files.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

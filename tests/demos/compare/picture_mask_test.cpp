@@ -6,8 +6,8 @@
 #include "engine/foundation/contract.h"
 #include "renderer/image/image_difference.h"
 #include "tests/demos/support/png_files.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

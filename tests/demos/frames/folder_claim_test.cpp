@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "demos/system/exit_code.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "demos/format/content_hash.h"
 #include "demos/system/exit_code.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

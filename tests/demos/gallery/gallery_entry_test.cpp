@@ -6,7 +6,7 @@
 
 #include "demos/format/content_hash.h"
 #include "demos/language/scene_file.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

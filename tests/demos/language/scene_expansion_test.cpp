@@ -9,8 +9,8 @@
 #include "demos/scene/scene_world.h"
 #include "demos/system/exit_code.h"
 #include "engine/foundation/elementary.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "demos/language/scene_file.h"
 #include "demos/scene/scene_world.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {
@@ -16,12 +17,7 @@ std::string scene(const std::string& material, const std::string& more = "") {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parseScene(text, "look.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return thrownMessage<InputError>([&text] { parseScene(text, "look.json"); });
 }
 
 TEST(SceneLook, ASurfaceHasItsOwnColourUnlessTheSceneChoosesOne) {

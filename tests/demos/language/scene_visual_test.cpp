@@ -4,8 +4,8 @@
 #include "demos/language/scene_file.h"
 #include "demos/scene/scene_world.h"
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/temporary_folder.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -5,7 +5,7 @@
 #include "demos/asset/asset_path.h"
 #include "demos/language/scene_file.h"
 #include "demos/system/exit_code.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

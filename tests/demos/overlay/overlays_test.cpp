@@ -10,7 +10,7 @@
 #include "demos/overlay/panel_overlays.h"
 #include "engine/contact/contact_manifold.h"
 #include "tests/demos/support/shown_overlays.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

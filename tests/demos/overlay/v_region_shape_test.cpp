@@ -6,6 +6,7 @@
 
 #include "engine/closest_features/vclip.h"
 #include "engine/solid/convex_hull.h"
+#include "tests/support/features.h"
 
 namespace carom::demos {
 namespace {
@@ -21,14 +22,6 @@ Feature closestTo(const ConvexPolyhedron& polyhedron, const Vec3& p) {
   const ConvexPart body{polyhedron, 0.0}, point{ConvexPolyhedron::point(Vec3::Zero()), 0.0};
   FeaturePair cold;
   return closestFeatures(body, Pose{}, point, {Quat::Identity(), p}, cold).features.a;
-}
-
-std::vector<Feature> allFeatures(const ConvexPolyhedron& p) {
-  std::vector<Feature> all;
-  for (int i = 0; i < p.vertexCount(); ++i) all.push_back(vertexFeature(i));
-  for (int i = 0; i < p.edgeCount(); ++i) all.push_back(edgeFeature(i));
-  for (int i = 0; i < p.faceCount(); ++i) all.push_back(faceFeature(i));
-  return all;
 }
 
 // A point inside a side of the region is on its border: a little to either side V-Clip must answer with the

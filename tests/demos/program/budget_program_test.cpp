@@ -23,11 +23,9 @@ std::vector<std::string> quick(const std::vector<std::string>& options) {
   return words;
 }
 
-void expectOneLine(const ProgramEnd& end, const std::string& part) {
+void expectOnlyOneLine(const ProgramEnd& end, const std::string& part) {
   EXPECT_EQ(end.out, "");
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
+  expectOneLine(end, part);
 }
 
 /// Processes that keep every core busy several times over.
@@ -104,7 +102,7 @@ TEST(Budget, LoadFromOutsideEndsWith7AndNeverWithAFalseNo) {
 TEST(Budget, APercentileThatTheFramesCannotSupportIsRefusedWithTheNumberNeeded) {
   const ProgramEnd end = runCarom({"budget", "bouncing-ball", "--duration", "1", "-q"});
   EXPECT_EQ(end.code, 2);
-  expectOneLine(
+  expectOnlyOneLine(
       end,
       "budget: p99 needs 100 frames, and this run has 60; accepted: --duration 1.66667 or longer at "
       "60 fps, or --percentile 98.3 or lower");
@@ -128,7 +126,7 @@ TEST(Budget, WrongValuesEndWith2InOneLine) {
     words.insert(words.end(), options.begin(), options.end());
     const ProgramEnd end = runCarom(words);
     EXPECT_EQ(end.code, 2) << options[0] << ' ' << options[1];
-    expectOneLine(end, options[0]);
+    expectOnlyOneLine(end, options[0]);
   }
 }
 
@@ -230,7 +228,7 @@ TEST(Budget, AnotherSubjectEndsWith3AndASlowedPhaseWith1AndIsNamed) {
   ASSERT_EQ(runCarom(quick({"--budget", "100000", "--json", old})).code, 0);
   const ProgramEnd seed = runCarom(quick({"--seed", "99", "--baseline", old}));
   EXPECT_EQ(seed.code, 3);
-  expectOneLine(seed, old + ": is of another content of the scene");
+  expectOnlyOneLine(seed, old + ": is of another content of the scene");
 
   // The past is made faster by far more than noise: what is measured now has become slower.
   std::string text = readTextFile(old);

@@ -35,12 +35,6 @@ class Compare : public testing::Test {
   Raster golden_ = flatRaster(40, 30, 100);
 };
 
-void expectOneLine(const ProgramEnd& end, const std::string& part) {
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
-}
-
 TEST_F(Compare, FoldersThatPassEndWith0AndLeaveNothingBehind) {
   add("b.png", flatRaster(40, 30, 102), golden_);
   const Program program({"compare", at("actual").string(), at("golden").string(), "-q"});

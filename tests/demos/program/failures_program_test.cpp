@@ -17,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-void expectOneLine(const ProgramEnd& end, int code, const std::string& part) {
-  EXPECT_EQ(end.code, code) << end.err;
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
-}
-
 bool isCharacterDevice(const char* path) {
   return fs::is_character_file(path);
 }
@@ -164,8 +157,8 @@ ProgramEnd onSmallDisk(const TemporaryFolder& folder, const std::string& script)
   const std::string line = "unshare --mount --map-root-user sh '" + file.string() + "' 2> '" +
                            (folder.path() / "err").string() + "' || unshare --mount sh '" + file.string() +
                            "' 2> '" + (folder.path() / "err").string() + "'";
-  const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", readTextFile(folder.path() / "err")};
+  const int code = exitCodeOf(std::system(line.c_str()));
+  return {code, "", readTextFile(folder.path() / "err")};
 }
 
 TEST_F(Failures, ADiskThatFillsUpLeavesWholeFramesAndResumesWhenThereIsSpace) {
@@ -207,9 +200,8 @@ TEST_F(Failures, AGoldenFileThatFindsNoSpaceKeepsItsOldContent) {
   const std::string line = "ulimit -f 8; exec '" CAROM_BINARY "' compare '" + big.string() + "' '" + golden +
                            "' -q --update --report none > /dev/null 2> '" + (folder.path() / "err").string() +
                            "'";
-  const int status = std::system(line.c_str());
-  expectOneLine({WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", readTextFile(folder.path() / "err")}, 4,
-                "a.png: File too large");
+  const int code = exitCodeOf(std::system(line.c_str()));
+  expectOneLine({code, "", readTextFile(folder.path() / "err")}, 4, "a.png: File too large");
   EXPECT_EQ(readTextFile(golden), before);
 }
 

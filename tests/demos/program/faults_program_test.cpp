@@ -27,15 +27,8 @@ ProgramEnd endInShell(const TemporaryFolder& folder, const std::string& before,
   const std::string line = "cd '" + folder.path().string() + "' && bash -c '" + before +
                            " \"" CAROM_BINARY "\" " + arguments + "' > '" + out.string() + "' 2> '" +
                            err.string() + "'";
-  const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readTextFile(out),
-          readTextFile(err)};
-}
-
-void expectOneLineOf(const ProgramEnd& end, int code) {
-  EXPECT_EQ(end.code, code) << end.err;
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+  const int code = exitCodeOf(std::system(line.c_str()));
+  return {code, readTextFile(out), readTextFile(err)};
 }
 
 std::ptrdiff_t entriesOf(const fs::path& folder) {
@@ -80,7 +73,7 @@ TEST(Faults, AFolderThatCannotBeWrittenToEndsWith4AndStaysEmpty) {
                           : std::string(command) +
                                 (std::string(command).rfind("figures", 0) == 0 ? "" : " --duration 0.2"));
     SCOPED_TRACE(command);
-    expectOneLineOf(end, 4);
+    expectOneLine(end, 4);
     EXPECT_NE(end.err.find("locked"), std::string::npos) << end.err;
     EXPECT_TRUE(fs::is_empty(locked));
   }
@@ -122,7 +115,7 @@ TEST_F(Drawn, ARecordingThatIsCutShortMeanwhileEndsWith3AndWholeFrames) {
   const fs::path recording = folder.path() / "run.carom";
   simulate("crates-in-a-pool", recording);
   const ProgramEnd end = draw(recording, [&] { fs::resize_file(recording, fs::file_size(recording) / 8); });
-  expectOneLineOf(end, 3);
+  expectOneLine(end, 3);
   EXPECT_NE(end.err.find("the recording is "), std::string::npos) << end.err;
   for (const auto& [name, bytes] : framesOf(program->folder() / "frames")) {
     EXPECT_EQ(name.rfind("f_", 0), 0u) << name;

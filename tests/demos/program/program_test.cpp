@@ -23,13 +23,6 @@ const std::string kBall =
     "\"color\": \"#d55e00\" } ] }";
 
 /// One line that starts with the program's name and holds `part`.
-void expectOneLine(const ProgramEnd& end, const std::string& part) {
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
-  EXPECT_EQ(end.err.find('\033'), std::string::npos);
-}
-
 TEST(Program, HelpOfEveryCommandShowsAnExample) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"--help"},

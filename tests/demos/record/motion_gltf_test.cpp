@@ -14,7 +14,7 @@
 #include "demos/motion/frame_states.h"
 #include "demos/system/exit_code.h"
 #include "renderer/mesh/solid_mesh.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

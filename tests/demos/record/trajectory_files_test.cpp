@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/asset/asset_path.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

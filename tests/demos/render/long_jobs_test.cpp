@@ -72,18 +72,10 @@ struct LongJob : testing::Test {
                    const std::string& after = "> out") const {
     std::string line = "cd '" + folder.path().string() + "'; " + before + " exec '" CAROM_BINARY "'";
     for (const std::string& word : words) line += " '" + word + "'";
-    const int status = std::system((line + " 2> err " + after).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "",
-            readTextFile(folder.path() / "err")};
+    const int code = exitCodeOf(std::system((line + " 2> err " + after).c_str()));
+    return {code, "", readTextFile(folder.path() / "err")};
   }
 };
-
-void expectOneLine(const ProgramEnd& end, int code, const std::string& part) {
-  EXPECT_EQ(end.code, code) << end.err;
-  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
-  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
-}
 
 TEST_F(LongJob, ShardsAtOnceAreTheSingleRunByteForByte) {
   render("single");
@@ -382,9 +374,9 @@ TEST_F(LongJob, AReaderThatGoesAwayEndsItWith141AndOneLine) {
   char head[3] = {};
   EXPECT_EQ(std::fread(head, 1, 2, reader), 2u);
   EXPECT_STREQ(head, "P6");
-  const int status = pclose(reader);
-  expectOneLine({WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", readTextFile(folder.path() / "err")},
-                128 + SIGPIPE, "the reader of standard output closed the pipe");
+  const int code = exitCodeOf(pclose(reader));
+  expectOneLine({code, "", readTextFile(folder.path() / "err")}, 128 + SIGPIPE,
+                "the reader of standard output closed the pipe");
 }
 
 TEST_F(LongJob, AFullDiskEndsItWith4AndLeavesNothingPartial) {

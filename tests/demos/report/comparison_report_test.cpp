@@ -10,7 +10,7 @@
 #include "demos/format/json.h"
 #include "demos/system/exit_code.h"
 #include "tests/demos/support/png_files.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

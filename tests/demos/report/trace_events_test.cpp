@@ -8,7 +8,7 @@
 #include "demos/format/json.h"
 #include "demos/motion/phase_stopwatch.h"
 #include "tests/demos/budget/budget_samples.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {

@@ -7,32 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demos/asset/asset_path.h"
-#include "demos/language/scene_file.h"
-#include "demos/scene/scene_world.h"
+#include "tests/demos/support/played.h"
 
 namespace carom::demos {
 namespace {
-
-struct Played {
-  explicit Played(const std::string& name)
-      : scene(readSceneFile(findScene(name))), made(makeSceneWorld(scene, std::nullopt)) {}
-  const BodyState& state(const std::string& name) const {
-    const auto found = std::find(made.names.begin(), made.names.end(), name);
-    EXPECT_NE(found, made.names.end()) << name;
-    return made.world.states()[static_cast<std::size_t>(found - made.names.begin())];
-  }
-  void run(double until_s) {
-    while (made.world.time() < until_s) made.world.step();
-  }
-  double energy() const {
-    const Audit audit = made.world.audit();
-    return audit.kinetic_energy_J + audit.potential_energy_J;
-  }
-
-  Scene scene;
-  SceneWorld made;
-};
 
 TEST(TurntableScene, HoldsWhatIsWithinTheRadiusOfItsFriction) {
   Played played("turntable");

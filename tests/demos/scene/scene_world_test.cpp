@@ -4,7 +4,7 @@
 
 #include "demos/language/scene_file.h"
 #include "engine/foundation/contract.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

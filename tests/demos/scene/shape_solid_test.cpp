@@ -6,7 +6,7 @@
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -2,35 +2,25 @@
 // Pages opened from disk in headless Chromium, and what a visitor's script notes there. Needs Debian's
 // chromium.
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "demos/asset/asset_path.h"
 #include "demos/format/json.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
-
-inline std::string outputOf(const std::string& command) {
-  std::FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> chunk{};
-  while (std::fgets(chunk.data(), static_cast<int>(chunk.size()), pipe) != nullptr) text += chunk.data();
-  pclose(pipe);
-  return text;
-}
 
 /// The page as it is when it has been opened; nothing where it cannot be. `options` are Chromium's. A
 /// container's root has no sandbox, and its shared memory may be small.
 inline std::string openedPage(const std::string& address, const std::string& options) {
   const TemporaryFolder user;
-  return outputOf(
+  return endOfShell(
       "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir=" +
-      (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null");
+      (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null")
+      .out;
 }
 
 /// Whether it opens an empty page: it may be installed where nothing lets it start.

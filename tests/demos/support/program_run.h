@@ -14,11 +14,13 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "demos/asset/asset_path.h"
-#include "tests/demos/support/temporary_folder.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 
@@ -66,8 +68,8 @@ class Program {
   ProgramEnd wait() const {
     int status = 0;
     if (waitpid(child_, &status, 0) != child_) throw std::runtime_error("cannot wait");
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {code, outlet_.descriptor == Outlet::kHeld ? readTextFile(out()) : "", readTextFile(err())};
+    return {exitCodeOf(status), outlet_.descriptor == Outlet::kHeld ? readTextFile(out()) : "",
+            readTextFile(err())};
   }
 
  private:
@@ -98,6 +100,18 @@ class Program {
   Outlet outlet_;
   pid_t child_ = -1;
 };
+
+/// It told its user why it ended in one line that names the program and says `part`.
+inline void expectOneLine(const ProgramEnd& end, const std::string& part = "") {
+  EXPECT_EQ(end.err.rfind("carom: ", 0), 0u) << end.err;
+  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+  EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
+  EXPECT_EQ(end.err.find('\033'), std::string::npos) << end.err;
+}
+inline void expectOneLine(const ProgramEnd& end, int code, const std::string& part = "") {
+  EXPECT_EQ(end.code, code) << end.err;
+  expectOneLine(end, part);
+}
 
 inline ProgramEnd runCarom(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment = {}) {

@@ -11,7 +11,7 @@
 
 #include "demos/system/exit_code.h"
 #include "demos/system/interrupt.h"
-#include "tests/demos/support/thrown_message.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -7,8 +7,8 @@
 #include "demos/video/contact_sheet.h"
 #include "renderer/image/png.h"
 #include "tests/demos/support/program_run.h"
-#include "tests/demos/support/thrown_message.h"
 #include "tests/renderer/image/apng_reader.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::demos {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/adversarial_pairs.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
@@ -15,12 +16,7 @@ namespace {
 using oracle::Family;
 using oracle::PosedPair;
 
-// Builds without optimisation are 20 times slower.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 20;
-#endif
+constexpr int kShare = inThisBuild(1, 20);
 
 // As a cold query: its class, its distance to 1e-12 of the size, numbers that are finite.
 void expectColdAnswer(const PosedPair& pair, PairMemory& memory) {

@@ -8,18 +8,15 @@
 
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
 
 using oracle::turned;
 
-// Builds without optimisation are 20 times slower and try fewer of the pairs.
-#ifdef __OPTIMIZE__
-constexpr int kStride = 1;
-#else
-constexpr int kStride = 61;
-#endif
+constexpr int kStride = inThisBuild(1, 61);
 
 struct NamedSolid {
   const char* name;
@@ -31,14 +28,6 @@ std::vector<NamedSolid> fourSolids() {
           {"dodecahedron", {oracle::dodecahedron(), 0.0}},
           {"prism", {oracle::prism(60, 1.0, 1.0), 0.0}},
           {"grid", {oracle::coplanarGrid(3, {1.0, 1.5, 0.75}), 0.0}}};
-}
-
-std::vector<Feature> allFeatures(const ConvexPolyhedron& p) {
-  std::vector<Feature> all;
-  for (int v = 0; v < p.vertexCount(); ++v) all.push_back(vertexFeature(v));
-  for (int e = 0; e < p.edgeCount(); ++e) all.push_back(edgeFeature(e));
-  for (int f = 0; f < p.faceCount(); ++f) all.push_back(faceFeature(f));
-  return all;
 }
 
 // How far one must be moved along x, y or z to touch the other in axis-aligned poses.

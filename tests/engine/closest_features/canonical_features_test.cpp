@@ -14,25 +14,22 @@
 #include "engine/closest_features/separated/level_axes.h"
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-// Builds without optimisation are 20 times slower and see fewer poses.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 20;
-#endif
+constexpr int kShare = inThisBuild(1, 20);
 
 struct PosedPair {
   ConvexPart a, b;
   Pose X_WA, X_WB;
 
   PolyhedronPair pair() const { return {a.core, X_WA, b.core, X_WB}; }
-  double size() const { return pair().t_AB.lpNorm<1>() + a.core.reach() + b.core.reach(); }
+  double size() const { return sizeOf(pair()); }
   // How far apart features may be and still count as level, by the query (vclip.cpp).
   double tolerance() const { return 0x1p-47 * size(); }
   ClosestFeatures query(FeaturePair seed = {}) const { return closestFeatures(a, X_WA, b, X_WB, seed); }

@@ -12,6 +12,8 @@
 #include "engine/closest_features/pair/feature_distance.h"
 #include "engine/closest_features/penetrating/penetration.h"
 #include "tests/oracle/adversarial_pairs.h"
+#include "tests/support/features.h"
+#include "tests/support/pose_at.h"
 
 namespace carom {
 namespace {
@@ -28,10 +30,6 @@ ConvexPart part(ConvexPolyhedron core, double radius_m = 0.0) {
 ConvexPart box(const Vec3& size_m) {
   return part(boxPolyhedron(size_m));
 }
-Pose at(double x, double y, double z, const Quat& rotation = Quat::Identity()) {
-  return {rotation, Vec3(x, y, z)};
-}
-
 struct Query {
   std::string name;
   ConvexPart a, b;
@@ -61,26 +59,26 @@ std::vector<Query> separatedQueries() {
   const ConvexPart octahedron = part(oracle::octahedron());
   const Quat roof_x = turned(Vec3::UnitX(), kQuarter), roof_y = turned(Vec3::UnitY(), kQuarter);
   return {
-      placed("vertex-vertex", cube, Pose{}, cube, at(2, 3, 3)),
+      placed("vertex-vertex", cube, Pose{}, cube, poseAt(2, 3, 3)),
       placed("edge-vertex", box({1, 1, 2}), Pose{}, octahedron,
-             at(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter))),
-      placed("vertex-edge", octahedron, at(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter)), box({1, 1, 2}),
+             poseAt(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter))),
+      placed("vertex-edge", octahedron, poseAt(2, 2, 0.25, turned(Vec3::UnitZ(), kQuarter)), box({1, 1, 2}),
              Pose{}),
-      placed("face-vertex", box({2, 2, 2}), Pose{}, octahedron, at(0.2, 0.3, 3)),
-      placed("vertex-face", octahedron, at(0.2, 0.3, 3), box({2, 2, 2}), Pose{}),
-      placed("edge-edge", cube, at(0, 0, 0, roof_x), cube, at(0.1, 0.2, 2, roof_y)),
-      placed("edge level over a face", cube, Pose{}, cube, at(0.1, 0.2, 2, roof_y)),
-      placed("edges level with each other", box({1, 3, 1}), at(0, 0, 0, roof_y), box({1, 3, 1}),
-             at(0, 0.5, 2, roof_y)),
+      placed("face-vertex", box({2, 2, 2}), Pose{}, octahedron, poseAt(0.2, 0.3, 3)),
+      placed("vertex-face", octahedron, poseAt(0.2, 0.3, 3), box({2, 2, 2}), Pose{}),
+      placed("edge-edge", cube, poseAt(0, 0, 0, roof_x), cube, poseAt(0.1, 0.2, 2, roof_y)),
+      placed("edge level over a face", cube, Pose{}, cube, poseAt(0.1, 0.2, 2, roof_y)),
+      placed("edges level with each other", box({1, 3, 1}), poseAt(0, 0, 0, roof_y), box({1, 3, 1}),
+             poseAt(0, 0.5, 2, roof_y)),
       placed("face level over a face", cube, Pose{}, part(oracle::triangulatedBox({1, 2, 1})),
-             at(0.3, 0.4, 1.5, turned(Vec3::UnitZ(), 0.4))),
+             poseAt(0.3, 0.4, 1.5, turned(Vec3::UnitZ(), 0.4))),
       placed("dodecahedron over a prism", part(oracle::dodecahedron()), Pose{},
-             part(oracle::prism(60, 1.0, 1.0)), at(3.1, 1.2, 0.4, turned({1, 2, 3}, 0.7))),
-      placed("ball over a corner", part(ConvexPolyhedron::point(Vec3::Zero()), 0.25), at(2, 3, 3), cube,
+             part(oracle::prism(60, 1.0, 1.0)), poseAt(3.1, 1.2, 0.4, turned({1, 2, 3}, 0.7))),
+      placed("ball over a corner", part(ConvexPolyhedron::point(Vec3::Zero()), 0.25), poseAt(2, 3, 3), cube,
              Pose{}),
       placed("capsules crossed", part(ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.25), Pose{},
              part(ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.2),
-             at(1, 0.3, 0.2, turned(Vec3::UnitX(), 1.0))),
+             poseAt(1, 0.3, 0.2, turned(Vec3::UnitX(), 1.0))),
   };
 }
 
@@ -88,16 +86,16 @@ std::vector<Query> penetratingQueries() {
   const ConvexPart cube = box({1, 1, 1});
   const Quat roof_x = turned(Vec3::UnitX(), kQuarter), roof_y = turned(Vec3::UnitY(), kQuarter);
   return {
-      placed("through a face", cube, Pose{}, cube, at(0.7, 0.1, 0.2, turned(Vec3::UnitX(), 0.3))),
-      placed("through crossing edges", cube, at(0, 0, 0, roof_x), cube, at(0.1, 0.1, 1.1, roof_y)),
-      placed("by a corner", box({2, 2, 2}), Pose{}, part(oracle::octahedron()), at(0.2, 0.3, 1.7)),
-      placed("level faces", cube, Pose{}, box({1, 2, 1}), at(0.1, 0.2, 0.8)),
+      placed("through a face", cube, Pose{}, cube, poseAt(0.7, 0.1, 0.2, turned(Vec3::UnitX(), 0.3))),
+      placed("through crossing edges", cube, poseAt(0, 0, 0, roof_x), cube, poseAt(0.1, 0.1, 1.1, roof_y)),
+      placed("by a corner", box({2, 2, 2}), Pose{}, part(oracle::octahedron()), poseAt(0.2, 0.3, 1.7)),
+      placed("level faces", cube, Pose{}, box({1, 2, 1}), poseAt(0.1, 0.2, 0.8)),
       placed("almost one centre", part(oracle::dodecahedron()), Pose{}, part(oracle::dodecahedron()),
-             at(0.1, 0.05, 0.02, turned({1, 2, 3}, 0.7))),
+             poseAt(0.1, 0.05, 0.02, turned({1, 2, 3}, 0.7))),
       placed("one pose", box({1, 0.4, 2}), Pose{}, box({1, 0.4, 2}), Pose{}),
       placed("a capsule's axis in a box", box({2, 2, 2}), Pose{},
              part(ConvexPolyhedron::segment({0, 0, -1}, {0, 0, 1}), 0.25),
-             at(0.8, 0.1, 0.2, turned(Vec3::UnitX(), 0.3))),
+             poseAt(0.8, 0.1, 0.2, turned(Vec3::UnitX(), 0.3))),
   };
 }
 
@@ -175,10 +173,10 @@ TEST(Certificate, WithoutAPolytope_ADepthIsOnlyProvenToFree) {
 
 TEST(Certificate, AcceptsATouch) {
   const Query touches[] = {
-      placed("corner", box({2, 2, 2}), Pose{}, part(oracle::octahedron()), at(0.25, 0.125, 2)),
-      placed("faces", box({1, 1, 1}), Pose{}, box({1, 1, 1}), at(0.25, 0.25, 1)),
-      placed("edges", box({1, 1, 1}), at(0, 0, 0, turned(Vec3::UnitX(), kQuarter)), box({1, 1, 1}),
-             at(0.1, 0.2, std::numbers::sqrt2, turned(Vec3::UnitY(), kQuarter)))};
+      placed("corner", box({2, 2, 2}), Pose{}, part(oracle::octahedron()), poseAt(0.25, 0.125, 2)),
+      placed("faces", box({1, 1, 1}), Pose{}, box({1, 1, 1}), poseAt(0.25, 0.25, 1)),
+      placed("edges", box({1, 1, 1}), poseAt(0, 0, 0, turned(Vec3::UnitX(), kQuarter)), box({1, 1, 1}),
+             poseAt(0.1, 0.2, std::numbers::sqrt2, turned(Vec3::UnitY(), kQuarter)))};
   for (const Query& q : touches) {
     PairMemory memory;
     const ClosestFeatures c = q.ask(memory);
@@ -262,14 +260,6 @@ TEST(Certificate, RefusesWitnessesThatAreBothMovedOutOfTheirParts) {
       1e6);
 }
 
-std::vector<Feature> allFeatures(const ConvexPolyhedron& p) {
-  std::vector<Feature> all;
-  for (int v = 0; v < p.vertexCount(); ++v) all.push_back(vertexFeature(v));
-  for (int e = 0; e < p.edgeCount(); ++e) all.push_back(edgeFeature(e));
-  for (int f = 0; f < p.faceCount(); ++f) all.push_back(faceFeature(f));
-  return all;
-}
-
 // The answer that two features would have if they were the closest: consistent in itself.
 ClosestFeatures claimFrom(const Query& q, const FeatureDistance& d) {
   const Vec3 n = (d.p_b - d.p_a) / d.distance();
@@ -313,7 +303,7 @@ TEST(Certificate, OfAllFeaturePairsOnlyThoseAsNearAsTheAnswerAreAccepted) {
 // The two cubes of triangles on which the classic implementation answers 1.5 from below a flat edge.
 TEST(Certificate, RefusesTheLocalMinimumBehindAFlatEdge) {
   const ConvexPart cube = part(oracle::triangulatedBox({1, 1, 1}));
-  const Query q{"", cube, cube, Pose{}, at(1.5, -0.375, 0.375, turned(Vec3::UnitZ(), std::numbers::pi))};
+  const Query q{"", cube, cube, Pose{}, poseAt(1.5, -0.375, 0.375, turned(Vec3::UnitZ(), std::numbers::pi))};
   PairMemory memory;
   ClosestFeatures c = q.ask(memory);
   ASSERT_NEAR(c.distance_m, 0.5, 1e-15);
@@ -349,8 +339,8 @@ TEST(Certificate, RefusesTheDepthOfAnAxisThatIsNotTheLeast) {
 // The corners are looked up anew: a polytope of an earlier pose proves what it still encloses, no more.
 TEST(Certificate, APolytopeOfAnotherPose_DoesNotProveATooLargeDepth) {
   const ConvexPart cube = box({1, 1, 1});
-  const Query deep = placed("", cube, Pose{}, cube, at(0.3, 0.05, 0.02, turned({1, 2, 3}, 0.3)));
-  const Query shallow = placed("", cube, Pose{}, cube, at(0.8, 0.05, 0.02, turned({1, 2, 3}, 0.3)));
+  const Query deep = placed("", cube, Pose{}, cube, poseAt(0.3, 0.05, 0.02, turned({1, 2, 3}, 0.3)));
+  const Query shallow = placed("", cube, Pose{}, cube, poseAt(0.8, 0.05, 0.02, turned({1, 2, 3}, 0.3)));
   PairMemory of_deep, of_shallow;
   deep.ask(of_deep);
   ClosestFeatures c = shallow.ask(of_shallow);
@@ -389,9 +379,10 @@ TEST(Certificate, RefusesNaNInAnyPartOfAnAnswer) {
 TEST(Certificate, ItsBoundIsATrillionthOfTheSizeAndTheRoundingOfThePositions) {
   const ConvexPart cube = box({1, 1, 1});
   const double reaches = 2.0 * cube.core.reach();
-  EXPECT_DOUBLE_EQ(certifiedError(cube, Pose{}, cube, at(0, 3, 4)), 1e-12 * (5.0 + reaches) + 5.0 * 0x1p-50);
+  EXPECT_DOUBLE_EQ(certifiedError(cube, Pose{}, cube, poseAt(0, 3, 4)),
+                   1e-12 * (5.0 + reaches) + 5.0 * 0x1p-50);
   const ConvexPart rounded = part(cube.core, 0.5);
-  EXPECT_DOUBLE_EQ(certifiedError(cube, at(0, 3, 4), rounded, at(0, 3, 4)),
+  EXPECT_DOUBLE_EQ(certifiedError(cube, poseAt(0, 3, 4), rounded, poseAt(0, 3, 4)),
                    1e-12 * (reaches + 0.5) + 10.0 * 0x1p-50);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/closest_features/certificate.h"
 #include "tests/bench/queries/true_gap.h"
 #include "tests/oracle/adversarial_pairs.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
@@ -17,12 +18,7 @@ using oracle::Family;
 using oracle::PosedPair;
 using oracle::Random;
 
-// Builds without optimisation are tens of times slower and see fewer pairs.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 40;
-#endif
+constexpr int kShare = inThisBuild(1, 40);
 
 struct Counts {
   int asked = 0, penetrating = 0, measured = 0;

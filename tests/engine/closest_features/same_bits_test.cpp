@@ -8,6 +8,7 @@
 
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/adversarial_pairs.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
@@ -16,12 +17,7 @@ using oracle::Family;
 using oracle::PosedPair;
 using oracle::Random;
 
-// Builds without optimisation are tens of times slower and see fewer pairs.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 40;
-#endif
+constexpr int kShare = inThisBuild(1, 40);
 
 constexpr int kExponents[] = {-20, -3, 1, 10, 20};
 

@@ -13,18 +13,14 @@
 #include "tests/oracle/adversarial_pairs.h"
 #include "tests/oracle/brute_force_distance.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
 
 using oracle::Family;
 
-// Builds without optimisation are 20 times slower.
-#ifdef __OPTIMIZE__
-constexpr int kPairs = 10'000;
-#else
-constexpr int kPairs = 500;
-#endif
+constexpr int kPairs = inThisBuild(10'000, 500);
 
 double trueGap(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB) {
   return static_cast<double>(oracle::signedGap(oracle::place(a, X_WA), oracle::place(b, X_WB)));

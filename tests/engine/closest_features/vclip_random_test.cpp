@@ -7,6 +7,7 @@
 #include "engine/foundation/contract.h"
 #include "tests/oracle/adversarial_pairs.h"
 #include "tests/oracle/witness_certificate.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
@@ -16,12 +17,7 @@ using oracle::PlacedConvex;
 using oracle::PosedPair;
 using oracle::Real;
 
-// Builds without optimisation are 20 times slower and see fewer pairs.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 20;
-#endif
+constexpr int kShare = inThisBuild(1, 20);
 
 constexpr double kRight = 1e-9;  // relative to the pair's scale
 

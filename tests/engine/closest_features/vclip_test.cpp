@@ -7,6 +7,7 @@
 
 #include "tests/oracle/adversarial_pairs.h"
 #include "tests/oracle/witness_certificate.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
@@ -207,14 +208,6 @@ TEST(VClip, ScalingBothByAPowerOfTwo_ScalesTheDistanceToTheBit) {
 }
 
 // ---- where the walk starts does not matter ----
-
-std::vector<Feature> allFeatures(const ConvexPolyhedron& p) {
-  std::vector<Feature> all;
-  for (int v = 0; v < p.vertexCount(); ++v) all.push_back(vertexFeature(v));
-  for (int e = 0; e < p.edgeCount(); ++e) all.push_back(edgeFeature(e));
-  for (int f = 0; f < p.faceCount(); ++f) all.push_back(faceFeature(f));
-  return all;
-}
 
 void expectEverySeedAgrees(const ConvexPart& a, const ConvexPart& b, const Pose& X_WB, int stride) {
   const ClosestFeatures want = cold(a, Pose{}, b, X_WB);

@@ -20,7 +20,7 @@ ContactManifold manifoldOf(const Solid& a, const Pose& X_WA, const Solid& b, con
   FeaturePair cold;
   const ConvexPart &pa = a.parts()[0], &pb = b.parts()[0];
   const ClosestFeatures closest = closestFeatures(pa, X_WA, pb, X_WB, cold);
-  return contactManifold(closest, pa, X_WA, pb, X_WB, collisionWindow(pa, pb));
+  return contactManifold(closest, {pa, X_WA, pb, X_WB}, collisionWindow(pa, pb));
 }
 
 template <typename Manifold>
@@ -277,7 +277,7 @@ TEST(ContactManifold, AlwaysHoldsTheClosestDistance) {
     X_WB.position -= (closest.distance_m - 1e-3) * closest.n_W;
     cold = {};
     closest = closestFeatures(a.parts()[0], X_WA, b.parts()[0], X_WB, cold);
-    const ContactManifold m = contactManifold(closest, a.parts()[0], X_WA, b.parts()[0], X_WB,
+    const ContactManifold m = contactManifold(closest, {a.parts()[0], X_WA, b.parts()[0], X_WB},
                                               collisionWindow(a.parts()[0], b.parts()[0]));
     ASSERT_GE(m.count, 1);
     ASSERT_LE(m.count, ContactManifold::kMaxPoints);
@@ -315,8 +315,8 @@ TEST(ContactManifold, OfManyCorners_KeepsTheFormerFourAndTheClosestPoint) {
   std::vector<std::uint64_t> former;
   for (const ManifoldPoint& p : before.view()) former.push_back(p.id);
   ASSERT_EQ(former.size(), 4u);
-  const ContactManifold fresh = contactManifold(closest, part, X_WA, part, X_WB, window);
-  const ContactManifold now = contactManifold(closest, part, X_WA, part, X_WB, window, former);
+  const ContactManifold fresh = contactManifold(closest, {part, X_WA, part, X_WB}, window);
+  const ContactManifold now = contactManifold(closest, {part, X_WA, part, X_WB}, window, former);
   ASSERT_NE(idsOf(fresh), idsOf(before)) << "nothing would change";
   double least = 1.0;
   for (const ManifoldPoint& p : now.view()) least = std::min(least, p.gap_m);
@@ -328,8 +328,8 @@ TEST(ContactManifold, OfManyCorners_KeepsTheFormerFourAndTheClosestPoint) {
   const Pose X_WTilted{turned(elsewhere, 1e-3) * turned(Vec3::UnitZ(), std::numbers::pi / 4),
                        Vec3(0, 0, 0.5015)};
   const ClosestFeatures tilted = closestFeatures(part, X_WA, part, X_WTilted, cold);
-  EXPECT_EQ(idsOf(contactManifold(tilted, part, X_WA, part, X_WTilted, window, former)),
-            idsOf(contactManifold(tilted, part, X_WA, part, X_WTilted, window)));
+  EXPECT_EQ(idsOf(contactManifold(tilted, {part, X_WA, part, X_WTilted}, window, former)),
+            idsOf(contactManifold(tilted, {part, X_WA, part, X_WTilted}, window)));
 }
 
 TEST(ContactManifold, IdsStayWhenTheBodiesMoveALittle) {

@@ -36,7 +36,7 @@ struct Pair {
     return closestFeatures(a, X_WA, b, X_WB, cold);
   }
   ContactPolygon polygon() const { return contactPolygon(closest(), a, X_WA, b, X_WB, window()); }
-  ContactManifold manifold() const { return contactManifold(closest(), a, X_WA, b, X_WB, window()); }
+  ContactManifold manifold() const { return contactManifold(closest(), {a, X_WA, b, X_WB}, window()); }
   Pair swapped() const { return {b, X_WB, a, X_WA}; }
   Pair moved(const Pose& X) const { return {a, X * X_WA, b, X * X_WB}; }
 };

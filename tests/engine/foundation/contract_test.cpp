@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/thrown_message.h"
+
 namespace carom {
 namespace {
 
@@ -15,16 +17,11 @@ TEST(Require, LetsATrueConditionPass) {
 TEST(Require, NamesTheConditionThePlaceAndTheValues) {
   const double gap_m = -0.25;
   const int body = 7;
-  try {
-    REQUIRE(gap_m > 0.0, gap_m, body);
-    FAIL() << "REQUIRE let a false condition pass";
-  } catch (const ContractViolation& violation) {
-    const std::string message = violation.what();
-    EXPECT_NE(message.find("gap_m > 0.0"), std::string::npos) << message;
-    EXPECT_NE(message.find("contract_test.cpp:"), std::string::npos) << message;
-    EXPECT_NE(message.find("-0.25 7"), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
-  }
+  const std::string message = thrownMessage<ContractViolation>([&] { REQUIRE(gap_m > 0.0, gap_m, body); });
+  EXPECT_NE(message.find("gap_m > 0.0"), std::string::npos) << message;
+  EXPECT_NE(message.find("contract_test.cpp:"), std::string::npos) << message;
+  EXPECT_NE(message.find("-0.25 7"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
 }
 
 TEST(Require, IsAStatementThatAnElseMayFollow) {

@@ -1,25 +1,21 @@
 #include "engine/foundation/input_file.h"
 
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "engine/foundation/contract.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom {
 namespace {
 namespace fs = std::filesystem;
 
 struct InputFiles : testing::Test {
-  InputFiles() {
-    std::string name = (fs::temp_directory_path() / "carom-input-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder = name;
-  }
-  ~InputFiles() override { fs::remove_all(folder); }
-  fs::path folder;
+  const TemporaryFolder made;
+  const fs::path& folder = made.path();
 };
 
 TEST_F(InputFiles, AFileAndALinkToItAreRead) {
@@ -43,12 +39,8 @@ TEST_F(InputFiles, WhatIsNoFileIsRefusedAtOnceWithItsPathAndTheReason) {
                                      {folder, "it is a folder"},
                                      {"/dev/zero", "it is a device"}}) {
     EXPECT_NE(tryInputFile(path).problem.find(reason), std::string::npos) << tryInputFile(path).problem;
-    try {
-      openInputFile(path);
-      ADD_FAILURE() << path << " was opened";
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).rfind("cannot read '" + path.string() + "': " + reason, 0), 0u);
-    }
+    const std::string said = thrownMessage<InputError>([&path] { openInputFile(path); });
+    EXPECT_EQ(said.rfind("cannot read '" + path.string() + "': " + reason, 0), 0u) << said;
   }
 }
 

@@ -10,23 +10,15 @@
 
 #include "engine/foundation/contract.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-std::string refusal(const std::vector<Vec3>& points) {
-  try {
-    convexHull(points);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 void expectRefused(const std::vector<Vec3>& points, const std::string& reason) {
-  const std::string said = refusal(points);
+  const std::string said = thrownMessage<InputError>([&points] { convexHull(points); });
   EXPECT_NE(said.find(reason), std::string::npos) << "want " << reason << ", got: " << said;
 }
 

@@ -12,18 +12,14 @@
 #include <utility>
 
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-// Builds without optimisation are 20 times slower and see fewer directions.
-#ifdef __OPTIMIZE__
-constexpr int kDirections = 100000;
-#else
-constexpr int kDirections = 2000;
-#endif
+constexpr int kDirections = inThisBuild(100000, 2000);
 
 SupportTable tableOf(const ConvexPolyhedron& p) {
   return {p.vertexCount(), [&](const Vec3& d, int start) { return p.support(d, start); }};

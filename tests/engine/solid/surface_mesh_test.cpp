@@ -5,6 +5,7 @@
 #include "engine/foundation/contract.h"
 #include "engine/solid/decomposition/surface_crossing.h"
 #include "tests/engine/solid/generated_meshes.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom {
 namespace {
@@ -16,12 +17,7 @@ SurfaceMesh cube() {
 }
 
 std::string refusal(const SurfaceMesh& mesh) {
-  try {
-    closedSurface(mesh);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return thrownMessage<InputError>([&mesh] { closedSurface(mesh); });
 }
 
 TEST(SurfaceMesh, MassOfAHollowCubeIsTheDifferenceOfTwo) {

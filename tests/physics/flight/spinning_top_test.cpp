@@ -7,6 +7,7 @@
 // With momenta that do not change by themselves within a step: 1.1e-3, 2.0e-3, 1.4e-2 and 2.1e-3 at 240 Hz.
 
 #include "tests/physics/small_world.h"
+#include "tests/support/world_energy.h"
 
 namespace carom::physics {
 namespace {
@@ -46,10 +47,7 @@ class SpinningTop : public testing::TestWithParam<std::tuple<double, double>> { 
 
   Vec3 axis() const { return world_.state(top_).X_WB.rotation * Vec3::UnitZ(); }
   Vec3 tip() const { return world_.position(top_) - lever_m_ * axis(); }
-  double energy() const {
-    const Audit now = world_.world().audit();
-    return now.kinetic_energy_J + now.potential_energy_J;
-  }
+  double energy() const { return energyOf(world_.world()); }
 
   static constexpr double kDensity = 1000.0;
   const Solid cone_ = cone();

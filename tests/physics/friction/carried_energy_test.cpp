@@ -3,14 +3,10 @@
 
 #include "tests/oracle/overlap_oracle.h"
 #include "tests/physics/small_world.h"
+#include "tests/support/world_energy.h"
 
 namespace carom::physics {
 namespace {
-
-double energy(const SmallWorld& w) {
-  const Audit now = w.world().audit();
-  return now.kinetic_energy_J + now.potential_energy_J;
-}
 
 class Trough : public testing::TestWithParam<std::tuple<double, std::uint64_t>> {};  // Hz, seed
 
@@ -37,16 +33,16 @@ TEST_P(Trough, OfElasticBalls_NeverGainsEnergy) {
   for (int i = 0; i < 4; ++i)
     ball(Vec3(random.uniform(-0.3, 0.3), -1.7 + 0.9 * i, 1.0 + 0.3 * i), random.uniform(-1.0, 1.0));
   w.start();
-  const double begin = energy(w);
+  const double begin = energyOf(w.world());
   int events = 0;
   for (int i = 0; i < static_cast<int>(20.0 * rate_hz); ++i) {
     w.step();
     events += w.world().audit().last_step.events;
-    ASSERT_LE(energy(w), begin * (1.0 + 1e-6)) << "step " << i;
+    ASSERT_LE(energyOf(w.world()), begin * (1.0 + 1e-6)) << "step " << i;
     ASSERT_GT(w.world().audit().smallest_gap_m, 0.0) << "step " << i;
   }
   EXPECT_GT(events, 100);
-  EXPECT_GT(energy(w), 0.999 * begin) << "and next to none is lost";
+  EXPECT_GT(energyOf(w.world()), 0.999 * begin) << "and next to none is lost";
 }
 
 INSTANTIATE_TEST_SUITE_P(RatesAndSeeds, Trough,
@@ -76,7 +72,7 @@ TEST_P(SlidingIntoAStop, ComesBackToWhereItBegan) {
          springy,
          true});
   w.start();
-  const double begin = energy(w);
+  const double begin = energyOf(w.world());
   const double acceleration = kGravity * std::sin(slope);
   const double fall_J = w.world().mass(box) * acceleration * way_m;
   double farthest = 0.0, bounced_at = 0.0;
@@ -93,7 +89,7 @@ TEST_P(SlidingIntoAStop, ComesBackToWhereItBegan) {
       EXPECT_NEAR(x - 0.5 * speed * speed / acceleration, 0.0, 1e-6) << "top " << tops;
       ++tops;
     }
-    ASSERT_NEAR(energy(w), begin, 1e-8 * fall_J) << "step " << i;
+    ASSERT_NEAR(energyOf(w.world()), begin, 1e-8 * fall_J) << "step " << i;
     last_speed = speed;
   }
   EXPECT_LE(farthest, way_m);

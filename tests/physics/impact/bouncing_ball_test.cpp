@@ -16,8 +16,7 @@ class BouncingBall : public testing::TestWithParam<std::tuple<double, double, do
 // A bounce that would last for less than a substep is none. Dropped so are it and those after it, which take
 // 1 / (1 - e) of it at most. The last one that counts begins and ends somewhere in the collision window,
 // whose half it falls through in the less time the longer it lasts. Looked at is the end of every step: it
-// may have stopped just after one, or just have been slow there. Measured for e = 0.5: 1.350 s at 60
-// Hz, 1.346 at 240, of 1.3546.
+// may have stopped just after one, or just have been slow there.
 TEST_P(BouncingBall, StopsAtTheClosedFormTime) {
   const auto [rate_hz, restitution, radius] = GetParam();
   const double dropped = std::min(1.0 / rate_hz, 1.0 / 240.0) / (1.0 - restitution);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/gl/offscreen_context.h"
+#include "tests/support/pose_at.h"
 
 namespace carom::renderer {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 const Camera kCamera{Vec3(1.0, -7.0, 3.0), Vec3(0.0, 0.0, 0.5), 40.0};
 enum : int { kFloor, kBall, kBox };
 const FaceLight kSunlit{kAllFaces, 0, 0}, kShadowed{0, 0, kAllFaces};
-
-Pose at(double x, double y, double z) {
-  return {Quat::Identity(), Vec3(x, y, z)};
-}
 
 class DrawListTest : public testing::Test {
  protected:
@@ -38,8 +35,9 @@ class DrawListTest : public testing::Test {
 };
 
 TEST_F(DrawListTest, WhatTheCameraCannotSeeOnlyCastsShadows) {
-  const DrawList drawn =
-      list({{kBox, at(0, 0, 0.5), {}}, {kBox, at(0, -20.0, 0.5), {}}, {kBall, at(60.0, 10.0, 0.5), {}}});
+  const DrawList drawn = list({{kBox, poseAt(0, 0, 0.5), {}},
+                               {kBox, poseAt(0, -20.0, 0.5), {}},
+                               {kBall, poseAt(60.0, 10.0, 0.5), {}}});
   EXPECT_EQ(count(drawn.visible), 1);
   EXPECT_EQ(count(drawn.casting), 3);
   EXPECT_EQ(drawn.records.size(), 4u);
@@ -77,10 +75,10 @@ TEST_F(DrawListTest, TheDepthsStayTheSameWhileTheNearestBodyMovesALittle) {
 }
 
 TEST_F(DrawListTest, SunlitBodiesNeedNoShadowsAndCheckersTheirOwnShader) {
-  const DrawList drawn = list({{kBox, at(0, 0, 0.5), {}},
-                               {kBox, at(1.5, 0, 0.5), {}},
-                               {kBox, at(-1.5, 0, 0.5), {}, true},
-                               {kFloor, at(0, 0, -0.5), {}, true}},
+  const DrawList drawn = list({{kBox, poseAt(0, 0, 0.5), {}},
+                               {kBox, poseAt(1.5, 0, 0.5), {}},
+                               {kBox, poseAt(-1.5, 0, 0.5), {}, true},
+                               {kFloor, poseAt(0, 0, -0.5), {}, true}},
                               {kSunlit, kShadowed, kSunlit, kSunlit});
   ASSERT_EQ(drawn.visible.size(), 3u);
   for (const DrawGroup& group : drawn.visible) {
@@ -137,10 +135,10 @@ TEST_F(DrawListTest, ABodySeenFromNearIsDrawnAsAWhole) {
 
 TEST_F(DrawListTest, TheLowestLevelCheckerIsTheGround) {
   const Quat tilted(Eigen::AngleAxisd(0.2, Vec3::UnitX()));
-  const std::vector<Instance> instances = {{kBox, at(0, 0, 0.5), {}, true},
+  const std::vector<Instance> instances = {{kBox, poseAt(0, 0, 0.5), {}, true},
                                            {kFloor, {tilted, Vec3(0, 0, -9.0)}, {}, true},
-                                           {kFloor, at(0, 0, -0.5), {}, true},
-                                           {kFloor, at(0, 0, -5.0), {}, false}};
+                                           {kFloor, poseAt(0, 0, -0.5), {}, true},
+                                           {kFloor, poseAt(0, 0, -5.0), {}, false}};
   EXPECT_EQ(findGround(instances, geometry_), 2);
   EXPECT_NEAR(list(instances).ground_z_E, -kCamera.eye.z(), 1e-12);
 }

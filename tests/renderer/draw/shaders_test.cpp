@@ -2,20 +2,20 @@
 // judges it. Needs Debian's glslang-tools; without it the test is skipped.
 #include "renderer/draw/shaders.h"
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "renderer/draw/glsl_texts.h"
 #include "renderer/draw/shader_lines.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::renderer {
 namespace {
@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 /// What glslangValidator says of the texts; empty when all are right.
 class Validator {
  public:
-  Validator() : folder_(fs::temp_directory_path() / ("carom glsl " + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~Validator() { fs::remove_all(folder_); }
-
   void add(const ShaderSources& sources) {
     addStage(sources.vertex, "vert");
     addStage(sources.fragment, "frag");
@@ -36,14 +31,14 @@ class Validator {
   int count() const { return static_cast<int>(known_.size()); }
 
   std::string verdict() const {
-    const std::string command = "cd '" + folder_.string() + "' && glslangValidator *.vert *.frag 2>&1";
-    std::FILE* pipe = popen(command.c_str(), "r");
+    const ShellEnd end =
+        endOfShell("cd '" + folder_.path().string() + "' && glslangValidator *.vert *.frag 2>&1");
+    if (end.code == 0) return "";
     std::string said;
-    std::array<char, 512> chunk{};
-    while (std::fgets(chunk.data(), static_cast<int>(chunk.size()), pipe) != nullptr)
-      if (std::string(chunk.data()).starts_with("ERROR")) said += chunk.data();
-    const bool accepted = pclose(pipe) == 0;
-    return accepted ? "" : said.empty() ? "glslangValidator failed" : said;
+    std::istringstream lines(end.out);
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("ERROR")) said += line + "\n";
+    return said.empty() ? "glslangValidator failed" : said;
   }
 
  private:
@@ -53,15 +48,15 @@ class Validator {
     for (const char* piece : pieces)
       if (piece != nullptr) text += piece;
     if (!known_.insert(ending + text).second) return;
-    std::ofstream(folder_ / (std::to_string(known_.size()) + "." + ending)) << text;
+    folder_.file(std::to_string(known_.size()) + "." + ending, text);
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
   std::set<std::string> known_;
 };
 
 bool hasValidator() {
-  return std::system("glslangValidator --version >/dev/null 2>&1") == 0;
+  return succeeds("glslangValidator --version");
 }
 
 std::vector<Settings> settingsOfEveryKind() {

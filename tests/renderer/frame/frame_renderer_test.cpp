@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
+#include "tests/support/pose_at.h"
 
 namespace carom::renderer {
 namespace {
@@ -24,11 +25,8 @@ const std::vector<Solid>& solids() {
   return all;
 }
 
-Pose at(double x, double y, double z) {
-  return {Quat::Identity(), Vec3(x, y, z)};
-}
 Instance ground() {
-  return {kGround, at(0.0, 0.0, -0.5), {}, true};
+  return {kGround, poseAt(0.0, 0.0, -0.5), {}, true};
 }
 
 // The oracle for where a point is drawn: heading and pitch as angles, then the pinhole equation.
@@ -70,7 +68,7 @@ class Frame : public testing::Test {
 
 TEST_F(Frame, ABallFillsTheDiscThatThePinholeProjectionGivesIt) {
   const Vec3 center(0.6, 0.3, 1.4);
-  const Image image = draw({ground(), {kBall, at(center.x(), center.y(), center.z()), kRed}});
+  const Image image = draw({ground(), {kBall, poseAt(center.x(), center.y(), center.z()), kRed}});
   // Near the middle of the image the outline, a cone of sine r/d about the centre, is a circle of this
   // radius.
   const double sine = 0.5 / (center - kCamera.eye).norm();
@@ -88,13 +86,13 @@ TEST_F(Frame, ABallFillsTheDiscThatThePinholeProjectionGivesIt) {
 
 TEST_F(Frame, TheNearerBodyHidesTheFartherOne) {
   const Vec3 near = kCamera.eye + 0.5 * (kCamera.target - kCamera.eye);
-  const Image image = draw({{kBox, at(kCamera.target.x(), kCamera.target.y(), kCamera.target.z()), kBlue},
-                            {kBall, at(near.x(), near.y(), near.z()), kRed}});
+  const Image image = draw({{kBox, poseAt(kCamera.target.x(), kCamera.target.y(), kCamera.target.z()), kBlue},
+                            {kBall, poseAt(near.x(), near.y(), near.z()), kRed}});
   EXPECT_TRUE(isRed(seenAt(image, kCamera.target)));
 }
 
 TEST_F(Frame, TheShadowLiesOnTheSideAwayFromTheLight) {
-  const Image image = draw({ground(), {kBall, at(0.0, 0.0, 0.9), kRed}});
+  const Image image = draw({ground(), {kBall, poseAt(0.0, 0.0, 0.9), kRed}});
   const Vec3 light = Settings{}.light.to_light;
   // The middle of the shadow is where the line through the centre along the light meets the ground.
   const Vec3 shadow = Vec3(0.0, 0.0, 0.9) - light * (0.9 / light.z());
@@ -105,7 +103,8 @@ TEST_F(Frame, TheShadowLiesOnTheSideAwayFromTheLight) {
 }
 
 TEST_F(Frame, WhereNothingStandsInTheLightTheGroundIsLit) {
-  const std::vector<Instance> bodies = {{kBall, at(0.0, 0.0, 0.9), kRed}, {kBall, at(1.5, 0.5, 0.5), kBlue}};
+  const std::vector<Instance> bodies = {{kBall, poseAt(0.0, 0.0, 0.9), kRed},
+                                        {kBall, poseAt(1.5, 0.5, 0.5), kBlue}};
   const Image image = draw({ground(), bodies[0], bodies[1]}), empty = draw({ground()});
   const Vec3 to_light = Settings{}.light.to_light.normalized();
   for (double x = -6.0; x <= 6.0; x += 0.21)
@@ -131,7 +130,7 @@ TEST_F(Frame, ALightFromTheOtherSideThrowsTheShadowToTheOtherSide) {
   Settings settings{kWidth, kHeight};
   settings.light.to_light = Vec3(-0.8, -0.2, 1.0);
   FrameRenderer other(settings, solids());
-  const std::vector<Instance> scene = {ground(), {kBall, at(0.0, 0.0, 0.9), kRed}};
+  const std::vector<Instance> scene = {ground(), {kBall, poseAt(0.0, 0.0, 0.9), kRed}};
   const Image left = draw(scene), right = other.draw(scene, kCamera);
   const Vec3 shadow = Vec3(0.0, 0.0, 0.9) - settings.light.to_light * 0.9;
   EXPECT_LT(seenAt(right, shadow).sum(), 0.7 * seenAt(left, shadow).sum());
@@ -139,7 +138,7 @@ TEST_F(Frame, ALightFromTheOtherSideThrowsTheShadowToTheOtherSide) {
 
 TEST_F(Frame, ALitFaceHasNoShadowOfItsOwn) {
   // The top of the box: all of its inner pixels within a few steps of each other.
-  const Image image = draw({ground(), {kBox, at(0.0, 0.0, 0.5), {0.7f, 0.7f, 0.7f}}});
+  const Image image = draw({ground(), {kBox, poseAt(0.0, 0.0, 0.5), {0.7f, 0.7f, 0.7f}}});
   int darkest = 3 * 255, brightest = 0;
   for (double x = -0.4; x <= 0.4; x += 0.02)
     for (double y = -0.4; y <= 0.4; y += 0.02) {
@@ -150,7 +149,7 @@ TEST_F(Frame, ALitFaceHasNoShadowOfItsOwn) {
 }
 
 TEST_F(Frame, TheGroundIsDarkerNextToWhatStandsOnIt) {
-  const Image image = draw({ground(), {kBox, at(0.0, 0.0, 0.5), kRed}});
+  const Image image = draw({ground(), {kBox, poseAt(0.0, 0.0, 0.5), kRed}});
   const Image empty = draw({ground()});
   // In front of the box, where the light reaches.
   const Vec3 close(0.15, -0.56, 0.0), away(0.15, -1.6, 0.0);
@@ -189,9 +188,9 @@ TEST_F(Frame, TheGroundFadesIntoTheHorizonBeyondItsOwnBox) {
 
 TEST_F(Frame, TheSameFrameTwiceIsTheSameBytesWhateverWasDrawnBetween) {
   const std::vector<Instance> scene = {
-      ground(), {kBall, at(0.2, 0.0, 0.5), kRed}, {kCapsule, at(-0.8, 0.2, 0.7), kBlue}};
+      ground(), {kBall, poseAt(0.2, 0.0, 0.5), kRed}, {kCapsule, poseAt(-0.8, 0.2, 0.7), kBlue}};
   const Image first = draw(scene);
-  draw({{kBox, at(0.0, 0.0, 3.0), kBlue}});
+  draw({{kBox, poseAt(0.0, 0.0, 3.0), kBlue}});
   EXPECT_EQ(draw(scene).rgb, first.rgb);
   FrameRenderer fresh(Settings{kWidth, kHeight}, solids());
   EXPECT_EQ(fresh.draw(scene, kCamera).rgb, first.rgb);
@@ -199,11 +198,11 @@ TEST_F(Frame, TheSameFrameTwiceIsTheSameBytesWhateverWasDrawnBetween) {
 
 // Sky and ground are kept while the camera stands still.
 TEST_F(Frame, AKeptBackgroundIsTheOneThatANewRendererDraws) {
-  const std::vector<Instance> before = {ground(), {kBall, at(0.6, 0.3, 1.4), kRed}};
+  const std::vector<Instance> before = {ground(), {kBall, poseAt(0.6, 0.3, 1.4), kRed}};
   const std::vector<Instance> after = {
-      ground(), {kBall, at(-0.6, 0.4, 1.0), kRed}, {kBox, at(1.0, 1.0, 0.5), kBlue}};
-  const std::vector<Instance> lower = {{kGround, at(0.0, 0.0, -0.6), {}, true}};
-  const std::vector<Instance> none = {{kBall, at(0.6, 0.3, 1.4), kRed}};
+      ground(), {kBall, poseAt(-0.6, 0.4, 1.0), kRed}, {kBox, poseAt(1.0, 1.0, 0.5), kBlue}};
+  const std::vector<Instance> lower = {{kGround, poseAt(0.0, 0.0, -0.6), {}, true}};
+  const std::vector<Instance> none = {{kBall, poseAt(0.6, 0.3, 1.4), kRed}};
   for (const std::vector<Instance>& next : {after, lower, none}) {
     draw(before);
     FrameRenderer fresh(Settings{kWidth, kHeight}, solids());
@@ -216,13 +215,14 @@ TEST_F(Frame, AShadowFallsOnABodyUnderAnother) {
   const auto light = Vec3(0.50, -0.50, 0.85).normalized();
   const Vec3 above = top + 1.5 * light;
   const Image shaded =
-      draw({ground(), {kBox, at(0, 0, 0.5), kRed}, {kBall, {Quat::Identity(), above}, kBlue}});
-  const Image open = draw({ground(), {kBox, at(0, 0, 0.5), kRed}, {kBall, at(-3.0, 4.0, 0.5), kBlue}});
+      draw({ground(), {kBox, poseAt(0, 0, 0.5), kRed}, {kBall, {Quat::Identity(), above}, kBlue}});
+  const Image open =
+      draw({ground(), {kBox, poseAt(0, 0, 0.5), kRed}, {kBall, poseAt(-3.0, 4.0, 0.5), kBlue}});
   EXPECT_LT(seenAt(shaded, top).sum(), 0.85 * seenAt(open, top).sum());
 }
 
 TEST_F(Frame, AnotherThreadDrawsTheSameBytes) {
-  const std::vector<Instance> scene = {ground(), {kBox, at(0.2, 0.0, 0.5), kRed}};
+  const std::vector<Instance> scene = {ground(), {kBox, poseAt(0.2, 0.0, 0.5), kRed}};
   const Image here = draw(scene);
   Image there;
   std::thread([&] {
@@ -234,8 +234,8 @@ TEST_F(Frame, AnotherThreadDrawsTheSameBytes) {
 
 TEST_F(Frame, ATwentiethOfAPixelOfMotionChangesTheFrame) {
   const double pixel_m = (kCamera.target - kCamera.eye).norm() / focalLengthPixels(kCamera, kHeight);
-  const Image before = draw({ground(), {kBall, at(0.2, 0.0, 0.5), kRed}});
-  const Image after = draw({ground(), {kBall, at(0.2 + 0.05 * pixel_m, 0.0, 0.5), kRed}});
+  const Image before = draw({ground(), {kBall, poseAt(0.2, 0.0, 0.5), kRed}});
+  const Image after = draw({ground(), {kBall, poseAt(0.2 + 0.05 * pixel_m, 0.0, 0.5), kRed}});
   EXPECT_NE(before.rgb, after.rgb);
 }
 
@@ -262,7 +262,7 @@ TEST_F(Frame, SlantedSilhouettesAreSmooth) {
 TEST_F(Frame, FarFromTheOriginTheFrameIsTheSame) {
   // Whole squares of the checker away; 1e5 m in single precision would be 8 mm.
   const Vec3 away(100000.0, -60000.0, 0.0);
-  const std::vector<Instance> here = {ground(), {kBox, at(0.25, 0.0, 0.5), kRed}};
+  const std::vector<Instance> here = {ground(), {kBox, poseAt(0.25, 0.0, 0.5), kRed}};
   std::vector<Instance> there = here;
   for (Instance& instance : there) instance.X_WB.position += away;
   const Image near = renderer_.draw(here, kCamera);
@@ -279,10 +279,10 @@ TEST_F(Frame, SmallScenesLookLikeLargeOnes) {
   // compared.
   const double s = 0.01;
   const std::vector<Solid> small = {Solid::box(Vec3(s, s, s)), Solid::ball(0.5 * s)};
-  const std::vector<Instance> large_scene = {{kBox, at(0.1, 0.0, 0.5), kRed},
-                                             {kBall, at(0.2, 0.1, 1.5), kBlue}};
-  const std::vector<Instance> small_scene = {{0, at(0.1 * s, 0.0, 0.5 * s), kRed},
-                                             {1, at(0.2 * s, 0.1 * s, 1.5 * s), kBlue}};
+  const std::vector<Instance> large_scene = {{kBox, poseAt(0.1, 0.0, 0.5), kRed},
+                                             {kBall, poseAt(0.2, 0.1, 1.5), kBlue}};
+  const std::vector<Instance> small_scene = {{0, poseAt(0.1 * s, 0.0, 0.5 * s), kRed},
+                                             {1, poseAt(0.2 * s, 0.1 * s, 1.5 * s), kBlue}};
   const Image large = draw(large_scene);
   const Image tiny = FrameRenderer(Settings{kWidth, kHeight}, small)
                          .draw(small_scene, {s * kCamera.eye, s * kCamera.target, kCamera.fov_degrees});
@@ -305,7 +305,7 @@ TEST(FrameRenderer, FacesOfDifferentLightMeetWithoutAGap) {
   FrameRenderer renderer(Settings{kWidth, kHeight}, solids());
   std::vector<Instance> bodies = {ground()};
   for (int i = 0; i < 9; ++i)
-    bodies.push_back({kBox, at(1.2 * (i % 3 - 1), 1.2 * (i / 3 - 1), 0.5001), kRed});
+    bodies.push_back({kBox, poseAt(1.2 * (i % 3 - 1), 1.2 * (i / 3 - 1), 0.5001), kRed});
   const Image image = renderer.draw(bodies, camera);
   const std::vector<std::int32_t>& shown = renderer.surfaces().instance;
   int inside = 0;
@@ -331,8 +331,8 @@ TEST(FrameRenderer, AShadedTopIsDarkerThanASunlitOne) {
   const Vec3 top(-2.0, 0.0, 1.0), other(2.0, 0.0, 1.0);
   const Image& image =
       renderer.draw(std::vector<Instance>{ground(),
-                                          {kBox, at(-2.0, 0.0, 0.5), kRed},
-                                          {kBox, at(2.0, 0.0, 0.5), kRed},
+                                          {kBox, poseAt(-2.0, 0.0, 0.5), kRed},
+                                          {kBox, poseAt(2.0, 0.0, 0.5), kRed},
                                           {kBox, {Quat::Identity(), top + 2.5 * to_light}, kBlue}},
                     camera);
   EXPECT_GT(at(image, pinhole(camera, other)).r, at(image, pinhole(camera, top)).r + 60);
@@ -351,7 +351,7 @@ TEST(FrameRenderer, OddAndTinySizesAreDrawn) {
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {17, 211}, {333, 1}}) {
     FrameRenderer renderer(Settings{width, height}, solids());
     const Image& image =
-        renderer.draw(std::vector<Instance>{ground(), {kBall, at(0, 0, 0.5), kRed}}, kCamera);
+        renderer.draw(std::vector<Instance>{ground(), {kBall, poseAt(0, 0, 0.5), kRed}}, kCamera);
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
     EXPECT_EQ(image.rgb.size(), static_cast<std::size_t>(3 * width * height));

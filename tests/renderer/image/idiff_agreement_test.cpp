@@ -3,8 +3,6 @@
 #include "renderer/image/image_difference.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,28 +12,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "renderer/image/png.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::renderer {
 namespace {
 namespace fs = std::filesystem;
-
-struct Said {
-  int code = 0;
-  std::string text;
-};
-
-Said run(const std::string& command) {
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  Said said;
-  std::array<char, 512> chunk{};
-  while (std::fgets(chunk.data(), static_cast<int>(chunk.size()), pipe) != nullptr) said.text += chunk.data();
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
 
 double numberAfter(const std::string& text, const std::string& label) {
   std::smatch match;
@@ -81,9 +65,9 @@ void write(const fs::path& path, const Raster& raster) {
 }
 
 TEST(ImageDifference, AgreesWithIdiffOn100Pairs) {
-  if (run("idiff --help").code != 0) GTEST_SKIP() << "idiff is not installed (Debian: openimageio-tools)";
-  const fs::path folder = fs::temp_directory_path() / ("carom_idiff_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
+  if (!succeeds("idiff --help")) GTEST_SKIP() << "idiff is not installed (Debian: openimageio-tools)";
+  const TemporaryFolder made;
+  const fs::path& folder = made.path();
   int failed = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -94,20 +78,19 @@ TEST(ImageDifference, AgreesWithIdiffOn100Pairs) {
     const ImageDifference d = differenceOf(pair.a, pair.b, tolerance);
     // Half a step above the tolerance, so that rounding to float decides nothing.
     const std::string threshold = std::to_string((tolerance + 0.5) / d.full_scale);
-    const Said said = run("idiff -warn 1 -fail " + threshold + " " + (folder / "a.png").string() + " " +
-                          (folder / "b.png").string());
-    EXPECT_EQ(said.code == 0, d.pixels_beyond == 0) << said.text;
+    const ShellEnd said = endOfShell("idiff -warn 1 -fail " + threshold + " " + (folder / "a.png").string() +
+                                     " " + (folder / "b.png").string() + " 2>&1");
+    EXPECT_EQ(said.code == 0, d.pixels_beyond == 0) << said.out;
     failed += said.code == 0 ? 0 : 1;
     if (said.code == 0) continue;  // it prints no figures then
     // idiff prints six significant digits or so of figures between 0 and 1.
-    EXPECT_NEAR(numberAfter(said.text, "Max error"), static_cast<double>(d.largest) / d.full_scale, 2e-6)
-        << said.text;
-    EXPECT_NEAR(numberAfter(said.text, "Mean error"), d.mean / d.full_scale,
+    EXPECT_NEAR(numberAfter(said.out, "Max error"), static_cast<double>(d.largest) / d.full_scale, 2e-6)
+        << said.out;
+    EXPECT_NEAR(numberAfter(said.out, "Mean error"), d.mean / d.full_scale,
                 1e-5 * d.mean / d.full_scale + 1e-9)
-        << said.text;
-    EXPECT_EQ(pixelsOver(said.text), d.pixels_beyond) << said.text;
+        << said.out;
+    EXPECT_EQ(pixelsOver(said.out), d.pixels_beyond) << said.out;
   }
-  fs::remove_all(folder);
   EXPECT_GT(failed, 20);
   EXPECT_LT(failed, 80);
 }

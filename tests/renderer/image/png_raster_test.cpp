@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "engine/foundation/contract.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::renderer {
 namespace {
@@ -20,19 +20,11 @@ namespace fs = std::filesystem;
 
 class PngRaster : public testing::Test {
  protected:
-  PngRaster() : folder_(fs::temp_directory_path() / ("carom_png_raster_test_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~PngRaster() override { fs::remove_all(folder_); }
-
   fs::path write(const std::vector<std::uint8_t>& bytes) const {
-    const fs::path path = folder_ / "raster.png";
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    return path;
+    return folder_.file("raster.png", {bytes.begin(), bytes.end()});
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 Raster noise(int width, int height, int channels, int bits) {

@@ -8,12 +8,13 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include "engine/foundation/contract.h"
 #include "renderer/image/quick_deflate.h"
 #include "tests/fuzz/png_mutations.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom::renderer {
 namespace {
@@ -22,28 +23,15 @@ namespace fs = std::filesystem;
 
 class PngFile : public testing::Test {
  protected:
-  PngFile() : folder_(fs::temp_directory_path() / ("carom_png_test_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~PngFile() override { fs::remove_all(folder_); }
-
   fs::path write(const std::vector<std::uint8_t>& bytes) const {
-    const fs::path path = folder_ / "image.png";
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    return path;
+    return folder_.file("image.png", {bytes.begin(), bytes.end()});
   }
   // What the refusal of the file says.
   static std::string refusal(const fs::path& path) {
-    try {
-      readPng(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return thrownMessage<InputError>([&path] { readPng(path); });
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 Image noise(int width, int height) {
@@ -190,8 +178,8 @@ TEST_F(PngFile, ADamagedByteIsRefused) {
 }
 
 TEST_F(PngFile, AMissingFileAFolderAndATextFileAreRefusedInOneLine) {
-  for (const fs::path& path :
-       {folder_ / "nothing.png", folder_, write({'h', 'e', 'l', 'l', 'o', ' ', 'p', 'n', 'g'})}) {
+  for (const fs::path& path : {folder_.path() / "nothing.png", folder_.path(),
+                               write({'h', 'e', 'l', 'l', 'o', ' ', 'p', 'n', 'g'})}) {
     const std::string message = refusal(path);
     EXPECT_NE(message.find(path.string()), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -290,7 +278,7 @@ TEST_F(PngFile, MorePixelsThanAcceptedAreRefusedByTheHeaderWithTheLimitNamed) {
 }
 
 TEST_F(PngFile, APipeADeviceAndALinkToItselfAreRefusedAtOnce) {
-  const fs::path pipe = folder_ / "pipe.png", link = folder_ / "link.png";
+  const fs::path pipe = folder_.path() / "pipe.png", link = folder_.path() / "link.png";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink(link, link);
   EXPECT_NE(refusal(pipe).find("it is a pipe"), std::string::npos);

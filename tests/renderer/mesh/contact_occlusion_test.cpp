@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/pose_at.h"
+
 namespace carom::renderer {
 namespace {
 
@@ -36,18 +38,14 @@ struct Stage {
   }
 };
 
-Pose at(double x, double y, double z) {
-  return {Quat::Identity(), Vec3(x, y, z)};
-}
-
 double worldZ(const OcclusionVertex& v) {
   return v.p_E[2] + kEye.z();
 }
 
 TEST(ContactOcclusion, ABallOnTheGroundDarkensTheGroundUnderIt) {
   Stage stage;
-  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5), true);
-  stage.add(Solid::ball(0.5), at(3.0, 1.0, 0.5));  // Beyond the box: the ground is endless.
+  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), poseAt(0, 0, -0.5), true);
+  stage.add(Solid::ball(0.5), poseAt(3.0, 1.0, 0.5));  // Beyond the box: the ground is endless.
   const std::vector<OcclusionVertex> triangles = stage.occlusion();
   ASSERT_EQ(triangles.size(), 6u);
   for (const OcclusionVertex& v : triangles) {
@@ -60,8 +58,8 @@ TEST(ContactOcclusion, ABallOnTheGroundDarkensTheGroundUnderIt) {
 
 TEST(ContactOcclusion, PolygonsEndWhereTheFaceEnds) {
   Stage stage;
-  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5));
-  stage.add(Solid::ball(0.5), at(0.9, 0.2, 0.501));
+  stage.add(Solid::box(Vec3(2.0, 2.0, 1.0)), poseAt(0, 0, -0.5));
+  stage.add(Solid::ball(0.5), poseAt(0.9, 0.2, 0.501));
   double highest = -1e9;
   for (const OcclusionVertex& v : stage.occlusion()) highest = std::max(highest, v.p_E[0] + kEye.x());
   EXPECT_NEAR(highest, 1.0, 1e-6);
@@ -70,9 +68,9 @@ TEST(ContactOcclusion, PolygonsEndWhereTheFaceEnds) {
 TEST(ContactOcclusion, WhatCannotBeDarkenedIsNotDrawn) {
   Stage stage;
   const Quat turned(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.5, 2.0).normalized()));
-  stage.add(Solid::box(Vec3(9.0, 9.0, 1.0)), at(0, 0, -0.5), true);
+  stage.add(Solid::box(Vec3(9.0, 9.0, 1.0)), poseAt(0, 0, -0.5), true);
   stage.add(Solid::box(Vec3(0.8, 0.3, 0.2)), {turned, Vec3(0.3, 0.2, 0.4)});
-  stage.add(Solid::box(Vec3(0.7, 0.6, 0.9)), at(-0.4, -0.1, 0.451));
+  stage.add(Solid::box(Vec3(0.7, 0.6, 0.9)), poseAt(-0.4, -0.1, 0.451));
   const std::vector<OcclusionVertex> triangles = stage.occlusion();
   ASSERT_GT(triangles.size(), 12u);
   for (const OcclusionVertex& v : triangles)
@@ -81,8 +79,8 @@ TEST(ContactOcclusion, WhatCannotBeDarkenedIsNotDrawn) {
 
 TEST(ContactOcclusion, StackedBoxesDarkenEachOther) {
   Stage stage;
-  stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
-  stage.add(Solid::box(Vec3(0.4, 0.4, 0.4)), at(0.1, 0.0, 1.201));
+  stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, 0, 0.5));
+  stage.add(Solid::box(Vec3(0.4, 0.4, 0.4)), poseAt(0.1, 0.0, 1.201));
   const std::vector<OcclusionVertex> triangles = stage.occlusion();
   ASSERT_FALSE(triangles.empty());
   for (const OcclusionVertex& v : triangles)
@@ -91,12 +89,12 @@ TEST(ContactOcclusion, StackedBoxesDarkenEachOther) {
 
 TEST(ContactOcclusion, DistantAndHiddenNeighboursChangeNothing) {
   Stage apart;
-  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
-  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(4.0, 0, 0.5));
+  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, 0, 0.5));
+  apart.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(4.0, 0, 0.5));
   EXPECT_TRUE(apart.occlusion().empty());
   Stage high;
-  high.add(Solid::box(Vec3(20.0, 20.0, 1.0)), at(0, 0, -0.5), true);
-  high.add(Solid::ball(0.5), at(0, 0, 5.0));
+  high.add(Solid::box(Vec3(20.0, 20.0, 1.0)), poseAt(0, 0, -0.5), true);
+  high.add(Solid::ball(0.5), poseAt(0, 0, 5.0));
   EXPECT_TRUE(high.occlusion().empty());
 }
 
@@ -105,21 +103,21 @@ TEST(ContactOcclusion, BetweenBodiesThatDoNotTouchItFadesAwayWithDistance) {
   bool seen_faded = false;
   for (double away = 10.0; away < 500.0; away *= 1.2) {
     Stage stage;
-    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 0.5));
-    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 1.6));
+    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, away, 0.5));
+    stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, away, 1.6));
     float strength = 0.0f;
     for (const OcclusionVertex& v : stage.occlusion()) strength = std::max(strength, v.strength);
     Stage touching;
-    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 0.5));
-    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, away, 1.501));
+    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, away, 0.5));
+    touching.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, away, 1.501));
     for (const OcclusionVertex& v : touching.occlusion()) EXPECT_GT(v.strength, 0.6f);
     EXPECT_EQ(touching.occlusion().empty(), away > 430.0);  // A reach of 1.5 pixels.
     EXPECT_LE(strength, last) << away;
     seen_faded = seen_faded || (strength > 0.0f && strength < 0.5f);
     last = strength;
     Stage on_ground;
-    on_ground.add(Solid::box(Vec3(2.0, 2.0, 1.0)), at(0, 0, -0.5), true);
-    on_ground.add(Solid::ball(0.5), at(0.0, away, 0.5));
+    on_ground.add(Solid::box(Vec3(2.0, 2.0, 1.0)), poseAt(0, 0, -0.5), true);
+    on_ground.add(Solid::ball(0.5), poseAt(0.0, away, 0.5));
     EXPECT_FALSE(on_ground.occlusion().empty());
     for (const OcclusionVertex& v : on_ground.occlusion()) EXPECT_GT(v.strength, 0.6f);
   }
@@ -130,10 +128,10 @@ TEST(ContactOcclusion, BetweenBodiesThatDoNotTouchItFadesAwayWithDistance) {
 TEST(ContactOcclusion, NeitherTheOrderOfBodiesNorTheirSideMatters) {
   const auto count = [](double side, bool box_first) {
     Stage stage;
-    if (box_first) stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
-    stage.add(Solid::ball(0.8), at(0.3 * side, 0.1, 1.81));
-    if (!box_first) stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), at(0, 0, 0.5));
-    stage.add(Solid::ball(0.3), at(5.0 * side, 0.0, 0.3));
+    if (box_first) stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, 0, 0.5));
+    stage.add(Solid::ball(0.8), poseAt(0.3 * side, 0.1, 1.81));
+    if (!box_first) stage.add(Solid::box(Vec3(1.0, 1.0, 1.0)), poseAt(0, 0, 0.5));
+    stage.add(Solid::ball(0.3), poseAt(5.0 * side, 0.0, 0.3));
     return stage.occlusion().size();
   };
   const std::size_t expected = count(1.0, true);

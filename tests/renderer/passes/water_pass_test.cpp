@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame_renderer.h"
+#include "tests/support/pose_at.h"
 
 namespace carom::renderer {
 namespace {
@@ -26,11 +27,8 @@ const std::vector<Solid>& solids() {
   return all;
 }
 
-Pose at(double x, double y, double z) {
-  return {Quat::Identity(), Vec3(x, y, z)};
-}
 Instance groundAt(double top) {
-  return {kGround, at(0.0, 0.0, top - 0.5), {}, true};
+  return {kGround, poseAt(0.0, 0.0, top - 0.5), {}, true};
 }
 WaterVolume seaAt(double level) {
   WaterVolume sea;
@@ -80,7 +78,7 @@ class Water : public testing::Test {
 };
 
 TEST_F(Water, FramesWithoutItDoNotDependOnFramesWithIt) {
-  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, at(0.0, 0.0, 0.0), {0.8f, 0.2f, 0.1f}}};
+  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, poseAt(0.0, 0.0, 0.0), {0.8f, 0.2f, 0.1f}}};
   const Image before = draw(scene), wet = draw(scene, {seaAt(0.0)}), after = draw(scene);
   EXPECT_EQ(before.rgb, after.rgb);
   EXPECT_NE(before.rgb, wet.rgb);
@@ -88,7 +86,7 @@ TEST_F(Water, FramesWithoutItDoNotDependOnFramesWithIt) {
 }
 
 TEST_F(Water, AboveTheWaterlineNothingChangesAndBelowItEverythingDoes) {
-  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, at(0.0, 0.0, 0.0), {0.8f, 0.2f, 0.1f}}};
+  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, poseAt(0.0, 0.0, 0.0), {0.8f, 0.2f, 0.1f}}};
   const Image dry = draw(scene), wet = draw(scene, {seaAt(0.0)});
   // Down the ball's front: every point of it well above the level, and every one well below.
   const Vec3 front = (Vec3(kCamera.eye.x(), kCamera.eye.y(), 0.0)).normalized();
@@ -110,7 +108,7 @@ TEST_F(Water, AboveTheWaterlineNothingChangesAndBelowItEverythingDoes) {
 }
 
 TEST_F(Water, ALineMarksWhereTheSurfaceCutsABall) {
-  const Image image = draw({{kBall, at(0.0, 0.0, 0.0), {0.05f, 0.08f, 0.3f}}}, {seaAt(0.1)});
+  const Image image = draw({{kBall, poseAt(0.0, 0.0, 0.0), {0.05f, 0.08f, 0.3f}}}, {seaAt(0.1)});
   const double radius = std::sqrt(0.25 - 0.01);
   const double towards = std::atan2(kCamera.eye.y(), kCamera.eye.x());
   for (double turn = -0.9; turn <= 0.9; turn += 0.15) {
@@ -125,7 +123,7 @@ TEST_F(Water, ALineMarksWhereTheSurfaceCutsABall) {
 
 TEST_F(Water, ALineMarksWhereTheSurfaceCutsTheWallsOfAPool) {
   const Camera camera{Vec3(0.0, -5.0, 4.0), Vec3(0.0, 0.0, 0.0), 40.0};
-  const std::vector<Instance> wall = {{kBox, at(0.0, 1.5, 0.0), {0.3f, 0.2f, 0.2f}}};
+  const std::vector<Instance> wall = {{kBox, poseAt(0.0, 1.5, 0.0), {0.3f, 0.2f, 0.2f}}};
   const Image image = draw(wall, {boxOf(Vec3(-2.0, -1.0, -1.0), Vec3(2.0, 1.0, 0.2))}, camera);
   for (const double x_m : {-0.4, -0.1, 0.3}) {
     const Vec2 line = pixelOf(Vec3(x_m, 1.0, 0.2), camera);
@@ -148,8 +146,8 @@ TEST_F(Water, DimsByBeerAndLambertsLawAlongTheRay) {
   sea.color = {0.55f, 0.8f, 0.9f};
   const auto shareAt = [&](double top, double* length_m) {
     const Vec3 p(0.1, 0.2, top);
-    const std::vector<Instance> white = {{kSlab, at(0.0, 0.0, top - 0.25), {1.0f, 1.0f, 1.0f}}},
-                                black = {{kSlab, at(0.0, 0.0, top - 0.25), {0.0f, 0.0f, 0.0f}}};
+    const std::vector<Instance> white = {{kSlab, poseAt(0.0, 0.0, top - 0.25), {1.0f, 1.0f, 1.0f}}},
+                                black = {{kSlab, poseAt(0.0, 0.0, top - 0.25), {0.0f, 0.0f, 0.0f}}};
     const Vec2 pixel = pixelOf(p, camera);
     *length_m = (p - camera.eye).norm() * (0.0 - top) / (camera.eye.z() - top);
     const Image wet_white = draw(white, {sea}, camera), wet_black = draw(black, {sea}, camera),
@@ -178,7 +176,7 @@ TEST_F(Water, WavesStandWhereTheirSinesDo) {
   for (const double phase : {0.0, 1.1, 2.9, 4.6}) {
     sea.waves = {{0.25, Vec2(2.0, 0.3), phase}, {0.1, Vec2(-1.0, 1.7), 2.0 * phase}};
     for (const double x_m : {-2.0, -0.7, 0.6, 1.9}) {
-      const Image image = draw({{kPost, at(x_m, 0.0, 0.0), {0.25f, 0.1f, 0.05f}}}, {sea}, camera);
+      const Image image = draw({{kPost, poseAt(x_m, 0.0, 0.0), {0.25f, 0.1f, 0.05f}}}, {sea}, camera);
       const Vec2 front(x_m, -0.15);
       double height_m = 0.1;
       for (const WaterWave& wave : sea.waves)
@@ -251,7 +249,7 @@ TEST_F(Water, ABoxIsSeenWithinItsOutlineAndNowhereElse) {
 }
 
 TEST_F(Water, WhatStandsBeforeItHidesIt) {
-  const std::vector<Instance> scene = {{kBox, at(0.3, -2.5, 1.0), {0.8f, 0.2f, 0.1f}}};
+  const std::vector<Instance> scene = {{kBox, poseAt(0.3, -2.5, 1.0), {0.8f, 0.2f, 0.1f}}};
   const WaterVolume behind = boxOf(Vec3(-3.0, 0.0, -1.0), Vec3(3.0, 2.0, 1.0));
   const Image dry = draw(scene), wet = draw(scene, {behind});
   const Vec2 middle = pixelOf(Vec3(0.3, -3.0, 1.0));
@@ -286,7 +284,7 @@ TEST_F(Water, SeenFromWithinItDimsWhatIsFarther) {
   const auto reddest = [&](double y) {
     WaterVolume sea = seaAt(3.0);
     sea.color = {0.7f, 0.9f, 0.9f};
-    const Image image = draw({{kBox, at(0.0, y, 0.0), {0.9f, 0.1f, 0.1f}}}, {sea}, camera);
+    const Image image = draw({{kBox, poseAt(0.0, y, 0.0), {0.9f, 0.1f, 0.1f}}}, {sea}, camera);
     return static_cast<int>(image.pixel(kWidth / 2, kHeight / 2)[0]);
   };
   const int near = reddest(-2.0), middle = reddest(0.0), far = reddest(3.0);
@@ -295,7 +293,7 @@ TEST_F(Water, SeenFromWithinItDimsWhatIsFarther) {
 }
 
 TEST_F(Water, IsNotInTheSurfaceImages) {
-  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, at(0.0, 0.0, 0.0), {}}};
+  const std::vector<Instance> scene = {groundAt(-1.0), {kBall, poseAt(0.0, 0.0, 0.0), {}}};
   draw(scene);
   const SurfaceImage dry = renderer_.surfaces();
   draw(scene, {seaAt(0.2)});

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame_renderer.h"
+#include "tests/support/pose_at.h"
 
 namespace carom::renderer {
 namespace {
@@ -22,11 +23,8 @@ const std::vector<Solid>& solids() {
                                          Solid::box(Vec3(1.0, 1.0, 1.0))};
   return all;
 }
-Pose at(double x, double y, double z) {
-  return {Quat::Identity(), Vec3(x, y, z)};
-}
 Instance ground() {
-  return {kGround, at(0.0, 0.0, -0.5), {}, true};
+  return {kGround, poseAt(0.0, 0.0, -0.5), {}, true};
 }
 
 Image drawn(Preset preset, const std::vector<Instance>& instances, Style style = Style::kDaylight) {
@@ -71,7 +69,7 @@ TEST(Preset, ExposuresLieInTheirPixelAndDiscAndHaveNoMeanShift) {
 
 TEST(Preset, RepeatedFramesAreTheSamePixelsInEveryPresetAndStyle) {
   const std::vector<Instance> scene = {
-      ground(), {kBall, at(0.3, 0.2, 0.9), kRed}, {kBox, at(-1.0, 0.5, 0.5), {}}};
+      ground(), {kBall, poseAt(0.3, 0.2, 0.9), kRed}, {kBox, poseAt(-1.0, 0.5, 0.5), {}}};
   for (const Preset preset : kAll)
     for (const Style style : {Style::kDaylight, Style::kPrint})
       EXPECT_EQ(drawn(preset, scene, style).rgb, drawn(preset, scene, style).rgb) << nameOf(preset);
@@ -79,7 +77,7 @@ TEST(Preset, RepeatedFramesAreTheSamePixelsInEveryPresetAndStyle) {
 
 // The middle of the ball's red pixels, against the same of the plain preset: more exposures shift nothing.
 TEST(Preset, NoPresetShiftsThePicture) {
-  const std::vector<Instance> scene = {{kBall, at(0.3, 0.2, 0.9), kRed}};
+  const std::vector<Instance> scene = {{kBall, poseAt(0.3, 0.2, 0.9), kRed}};
   const auto middle = [&](Preset preset) {
     const Image image = drawn(preset, scene);
     Vec2 sum = Vec2::Zero();
@@ -122,7 +120,7 @@ TEST(Preset, EveryPresetSmoothsEdges) {
 // between lit and dark.
 TEST(Preset, TheCinematicSunCastsWiderPenumbrasThanThePlainOne) {
   const auto penumbra = [](Preset preset) {
-    const Image image = drawn(preset, {ground(), {kBall, at(0.0, 0.0, 2.3), kRed}});
+    const Image image = drawn(preset, {ground(), {kBall, poseAt(0.0, 0.0, 2.3), kRed}});
     // The shadow's centre by the sun's direction (0.5, -0.5, 0.85).
     const Vec3 center(-0.5 / 0.85 * 2.3, 0.5 / 0.85 * 2.3, 0.0);
     int partly = 0;
@@ -144,7 +142,7 @@ TEST(Preset, TheCinematicSunCastsWiderPenumbrasThanThePlainOne) {
 }
 
 TEST(Preset, TheCinematicGroundMirrorsABodyWhereItsImageIs) {
-  const std::vector<Instance> scene = {ground(), {kBall, at(0.0, -0.5, 0.9), kRed}};
+  const std::vector<Instance> scene = {ground(), {kBall, poseAt(0.0, -0.5, 0.9), kRed}};
   // A sunlit point of the ball that the eye's image below the ground sees.
   const Vec3 point = Vec3(0.0, -0.5, 0.9) + 0.45 * Vec3(0.0, -1.0, 0.2).normalized();
   const Vec3 image_of_point(point.x(), point.y(), -point.z());
@@ -156,7 +154,7 @@ TEST(Preset, TheCinematicGroundMirrorsABodyWhereItsImageIs) {
 }
 
 TEST(Preset, PrintIsWhiteAroundTheBodiesAndDarkensOnlyInShadow) {
-  const std::vector<Instance> scene = {ground(), {kBall, at(0.0, 0.0, 0.6), kRed}};
+  const std::vector<Instance> scene = {ground(), {kBall, poseAt(0.0, 0.0, 0.6), kRed}};
   for (const Preset preset : kAll) {
     const Image image = drawn(preset, scene, Style::kPrint);
     const auto least = [](const std::uint8_t* p) { return std::min({p[0], p[1], p[2]}); };

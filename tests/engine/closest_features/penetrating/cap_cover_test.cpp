@@ -7,17 +7,14 @@
 
 #include "engine/closest_features/penetrating/penetration.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-#ifdef __OPTIMIZE__
-constexpr int kPoses = 300;
-#else
-constexpr int kPoses = 20;
-#endif
+constexpr int kPoses = inThisBuild(300, 20);
 
 double supportAlong(const PolyhedronPair& pair, const Vec3& n) {
   double highest_of_a = -1e300, lowest_of_b = 1e300;

@@ -10,24 +10,18 @@
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/brute_force_distance.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-// Builds without optimisation are 20 times slower and take fewer steps.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 40;
-#endif
+constexpr int kShare = inThisBuild(1, 40);
 
-// What a query calls the size of a pair, and what rounding may do within it: the two bounds of a depth meet
-// to within that, and each is as much off.
-double sizeOf(const PolyhedronPair& pair) {
-  return pair.t_AB.lpNorm<1>() + pair.a.reach() + pair.b.reach();
-}
+// What rounding may do within a query: the two bounds of a depth meet to within that, and each is as much
+// off.
 double noiseOf(const PolyhedronPair& pair) {
   return 0x1p-47 * sizeOf(pair);
 }

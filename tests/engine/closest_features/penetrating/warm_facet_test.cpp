@@ -9,21 +9,18 @@
 #include "engine/closest_features/certificate.h"
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/test_shapes.h"
+#include "tests/support/build_effort.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
 
 using oracle::Random;
 
-// Builds without optimisation are 20 times slower and look at fewer poses.
-#ifdef __OPTIMIZE__
-constexpr int kPoses = 60;
-#else
-constexpr int kPoses = 4;
-#endif
+constexpr int kPoses = inThisBuild(60, 4);
 
 double noiseOf(const PolyhedronPair& pair) {
-  return 0x1p-47 * (pair.t_AB.lpNorm<1>() + pair.a.reach() + pair.b.reach());
+  return 0x1p-47 * sizeOf(pair);
 }
 
 std::vector<ConvexPolyhedron> shapes(Random& random) {

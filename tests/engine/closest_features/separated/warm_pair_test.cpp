@@ -10,6 +10,8 @@
 #include "engine/closest_features/vclip.h"
 #include "tests/oracle/adversarial_pairs.h"
 #include "tests/oracle/brute_force_distance.h"
+#include "tests/support/build_effort.h"
+#include "tests/support/features.h"
 
 namespace carom {
 namespace {
@@ -18,28 +20,11 @@ using oracle::Family;
 using oracle::PosedPair;
 using oracle::Random;
 
-// Builds without optimisation are 20 times slower and see fewer pairs.
-#ifdef __OPTIMIZE__
-constexpr int kShare = 1;
-#else
-constexpr int kShare = 20;
-#endif
-
-double sizeOf(const PolyhedronPair& pair) {
-  return pair.t_AB.lpNorm<1>() + pair.a.reach() + pair.b.reach();
-}
+constexpr int kShare = inThisBuild(1, 20);
 
 double fourUlp(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB) {
   return 4.0 * std::numeric_limits<double>::epsilon() *
          (sizeOf({a.core, X_WA, b.core, X_WB}) + a.radius_m + b.radius_m);
-}
-
-std::vector<Feature> allFeatures(const ConvexPolyhedron& p) {
-  std::vector<Feature> all;
-  for (int i = 0; i < p.vertexCount(); ++i) all.push_back(vertexFeature(i));
-  for (int i = 0; i < p.edgeCount(); ++i) all.push_back(edgeFeature(i));
-  for (int i = 0; i < p.faceCount(); ++i) all.push_back(faceFeature(i));
-  return all;
 }
 
 Feature anyFeature(const ConvexPolyhedron& p, Random& random) {

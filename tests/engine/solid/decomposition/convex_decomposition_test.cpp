@@ -6,6 +6,7 @@
 #include "engine/solid/mass_properties.h"
 #include "tests/engine/solid/generated_meshes.h"
 #include "tests/oracle/separating_axes.h"
+#include "tests/support/thrown_message.h"
 
 namespace carom {
 namespace {
@@ -181,13 +182,9 @@ TEST(ConvexDecomposition, TakesANotchThatNoPlaneDividesForNone) {
 
 TEST(ConvexDecomposition, RefusesWhatNeedsTooManyPieces) {
   const ClosedSurface surface = closedSurface(bowl(16, 5));  // 80 faces within, none two in one piece
-  try {
-    convexDecomposition(surface, {.most_pieces = 40});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("more than 40 convex pieces"), std::string::npos)
-        << error.what();
-  }
+  const std::string said =
+      thrownMessage<InputError>([&] { convexDecomposition(surface, {.most_pieces = 40}); });
+  EXPECT_NE(said.find("more than 40 convex pieces"), std::string::npos) << said;
 }
 
 TEST(ConvexDecomposition, GivesTheSameBitsAgain) {

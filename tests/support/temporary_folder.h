@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace carom::demos {
+namespace carom {
 
 class TemporaryFolder {
  public:
@@ -33,4 +33,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace carom::demos
+}  // namespace carom

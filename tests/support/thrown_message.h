@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace carom::demos {
+namespace carom {
 
 template <typename Exception, typename Call>
 std::string thrownMessage(Call&& call) {
@@ -21,4 +21,4 @@ std::string thrownMessage(Call&& call) {
   return "";
 }
 
-}  // namespace carom::demos
+}  // namespace carom
