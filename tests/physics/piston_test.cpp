@@ -1,5 +1,5 @@
 // A kinematic body that leaves others no room: it stops, and is late, rather than press without bound. What
-// it does is paid for, and no more than what bodies take up that are brought to its speed again and again.
+// it does is paid for, and no more than what it takes to bring bodies to its speed, again and again.
 
 #include "tests/physics/small_world.h"
 
@@ -111,9 +111,9 @@ TEST(PistonAgainstAWall, StopsAtWhatItPresses_AndDoesNoMoreWorkThanThatTakesUp) 
 
 // Between the two an elastic ball gains speed with every stroke, which is work, to the rounding.
 TEST(PistonAgainstAWall, PaysForWhatAnElasticBallGains) {
-  const Material lively = rubbing(0.0, 1.0);
-  PistonWorld w(1.0, lively, 240.0);
-  w.add(pressedBodies().front(), lively, Vec3(0.0, 0.0, 3.0));
+  const Material elastic = rubbing(0.0, 1.0);
+  PistonWorld w(1.0, elastic, 240.0);
+  w.add(pressedBodies().front(), elastic, Vec3(0.0, 0.0, 3.0));
   ASSERT_TRUE(w.world.start().empty());
   const double start = w.gained();
   while (w.world.time() < 0.5)  // then 0.1 m of room are left
