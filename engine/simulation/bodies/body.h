@@ -75,7 +75,7 @@ struct Body : StepMotion {
   bool is_static = false;
   bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it.
   double late_s = 0.0;        ///< How late it is on that path: for so long things in its way have stopped it.
-  bool was_stopped = false;   ///< In the last step.
+  bool was_stopped = false;   ///< In the last step, and its way has not been found free since.
   double piece_end_s = std::numeric_limits<double>::infinity();  ///< Of the path, within the step.
   AxisLocks locks;
   bool resting = false;
@@ -136,6 +136,21 @@ struct Body : StepMotion {
     return seen;
   }
 };
+
+/// The body stays where its path has come to.
+inline void endPath(Body& body) {
+  body.travel = Travel::kHeld;
+  body.path.velocity.setZero();
+  body.path.acceleration.setZero();
+  body.path.turnAt(Vec3::Zero());
+}
+
+/// Stops a kinematic body for the rest of the step.
+inline void stopKinematic(Body& body) {
+  endPath(body);
+  body.momentum_velocity = {};
+  body.acceleration.setZero();
+}
 
 /// Makes a body that rested move again.
 inline void wake(Body& body) {

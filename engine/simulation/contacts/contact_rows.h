@@ -62,6 +62,12 @@ struct GapSpeeds {
 };
 GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool presses = false);
 
+/// m/s: what speeds may miss, so that it cannot use up a gap within a step.
+inline double safeResidual(const CollisionWindow& window, double step_s) {
+  constexpr double kGapShare = 0.4;  // of the rest gap
+  return kGapShare * window.rest / step_s;
+}
+
 /// Where rows are that bound paths: the bodies' poses at `time_s`, and from there the rest of the step.
 struct PathBounds {
   const std::vector<Body>& bodies;

@@ -10,6 +10,7 @@
 #include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
 #include "engine/response/sweeps/energy_bound.h"
+#include "engine/response/sweeps/no_room.h"
 #include "engine/response/sweeps/turning_resistance.h"
 #include "engine/simulation/bodies/solver_patience.h"
 #include "engine/simulation/contacts/contact_paths.h"
@@ -130,6 +131,66 @@ SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody
                               .crew = &crew});
 }
 
+// Whether an island's rows miss their bounds by so much that gaps could be used up within the step.
+bool missesBounds(const LastingContacts& contacts, const LastingContacts::Island& island,
+                  const LastingWorld& world) {
+  const auto pairs = contacts.pairsOf(island);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const LastingContacts::PairRows& of_pair) {
+    const CollisionWindow& window = world.table.pairs()[at(of_pair.pair)].window;
+    const double safe = safeResidual(window, world.settings.step_s);
+    for (std::size_t i = of_pair.begin; i < of_pair.end; ++i)
+      if (-rowMiss(contacts.rows[i], contacts.bodies).x() > safe) return true;
+    return false;
+  });
+}
+
+bool hasDriven(std::span<const ContactRow> rows, const std::vector<Body>& bodies) {
+  return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
+    return bodies[at(row.a)].travel == Travel::kDriven || bodies[at(row.b)].travel == Travel::kDriven;
+  });
+}
+
+void takeBack(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+  for (ContactRow& row : rows) {
+    row.impulse = -row.impulse;
+    row.torque = -row.torque;
+    applyLoad(row, bodies);
+    row.impulse.setZero();
+    row.torque.setZero();
+  }
+}
+
+// Kinematic bodies that leave others no room stop where they are, for the step. Returns the islands that are
+// to be solved anew.
+std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::span<const std::size_t> islands,
+                                              const LastingWorld& world, StepCounters& counters) {
+  std::vector<int> stopped;
+  for (const std::size_t i : islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
+    if (!hasDriven(rows, world.bodies) || !missesBounds(contacts, contacts.islands[i], world)) continue;
+    const std::vector<int> driven = leavingNoRoom(rows, contacts.bodies, true);
+    for (const int body : driven) {
+      stopKinematic(world.bodies[at(body)]);
+      contacts.bodies[at(body)].velocity = contacts.gained[at(body)] = {};
+      ++counters.stopped_kinematic;
+    }
+    stopped.insert(stopped.end(), driven.begin(), driven.end());
+  }
+  std::vector<std::size_t> again;
+  for (const std::size_t i : islands) {
+    const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
+    const auto isStopped = [&](int body) {
+      return std::find(stopped.begin(), stopped.end(), body) != stopped.end();
+    };
+    if (!std::any_of(rows.begin(), rows.end(),
+                     [&](const ContactRow& row) { return isStopped(row.a) || isStopped(row.b); }))
+      continue;
+    takeBack(rows, contacts.bodies);
+    again.push_back(i);
+  }
+  return again;
+}
+
 // With friction.
 void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
                    StepCounters& counters) {
@@ -149,8 +210,11 @@ void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islan
     return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
                              gravity_speed, world.crew);
   };
-  counters.row_visits +=
-      solveWithinBudget(contacts, islands, tolerance::kSolverResidual * gravity_speed, solve);
+  // Each round stops a kinematic body, or is the last.
+  for (std::vector<std::size_t> unsolved(islands.begin(), islands.end()); !unsolved.empty();
+       unsolved = stopWhatLeavesNoRoom(contacts, unsolved, world, counters))
+    counters.row_visits +=
+        solveWithinBudget(contacts, unsolved, tolerance::kSolverResidual * gravity_speed, solve);
   for (const std::size_t island : islands)
     takeBackGain(contacts.rowsOf(contacts.islands[island]), contacts.bodies);
 }

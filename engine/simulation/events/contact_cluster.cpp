@@ -8,8 +8,9 @@
 #include "engine/response/collision.h"
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/standing_solver.h"
-#include "engine/response/sweeps/principal_pivoting.h"
 #include "engine/response/sweeps/energy_bound.h"
+#include "engine/response/sweeps/no_room.h"
+#include "engine/response/sweeps/principal_pivoting.h"
 #include "engine/response/sweeps/turning_resistance.h"
 #include "engine/simulation/contacts/carried_path.h"
 #include "engine/simulation/contacts/internal_edges.h"
@@ -43,8 +44,6 @@ constexpr double kShareOfApproach = 1e-10;
 constexpr long kCarefulVisits = 1000;
 // Of the safe residual: the one to which the paths of small clusters are solved.
 constexpr double kPathShare = 0.01;
-// Of the rest gap: what the safe residual may use up in a step.
-constexpr double kGapShare = 0.4;
 // Of the resting mode's speed: forces that make less of it in a step wake no body.
 constexpr double kWakingShare = 0.1;
 
@@ -114,7 +113,7 @@ int ContactCluster::join(int index) {
   paths_.back().velocity = member.path_before;
   if (body.travel == Travel::kHeld) fixPath(paths_.size() - 1);
   ends_.push_back(momentum_.back());
-  const Velocity gain = gainedByForces(body);
+  const Velocity gain = gainedByForces(member);
   ends_.back().velocity = {member.momentum_before.linear + gain.linear,
                            member.momentum_before.angular + gain.angular};
   planned_ends_.push_back(ends_.back().velocity);
@@ -130,8 +129,9 @@ void ContactCluster::fixPath(std::size_t i) {
   paths_[i].inverse_tensor.setZero();
 }
 
-Velocity ContactCluster::gainedByForces(const Body& body) const {
-  if (body.is_static) return {};
+Velocity ContactCluster::gainedByForces(const Member& member) const {
+  const Body& body = bodies_[at(member.body)];
+  if (body.is_static || member.stops) return {};
   Velocity gain{restOfStep() * body.acceleration, Vec3::Zero()};
   if (body.is_kinematic) {
     if (body.travel == Travel::kDriven) gain.angular = restOfStep() * body.path.spin_change.rate;
@@ -262,7 +262,7 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
 }
 
 double ContactCluster::safeResidual() const {
-  return kGapShare * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
+  return carom::safeResidual(table_.pairs()[at(event_pair_)].window, settings_.step_s);
 }
 
 double ContactCluster::noticeableSpeed() const {
@@ -284,6 +284,48 @@ long ContactCluster::fewRowsVisits() const {
 }
 
 void ContactCluster::solveSpreading(double careful_mps) {
+  // Each round stops a member, or is the last.
+  while (!sweepSpreading(careful_mps)) {
+    const std::vector<int> without_room = drivenWithoutRoom();
+    if (without_room.empty()) return;
+    stopDriven(without_room);
+  }
+}
+
+// Members that are driven, and leave the others no room.
+std::vector<int> ContactCluster::drivenWithoutRoom() const {
+  const bool any = std::any_of(members_.begin(), members_.end(), [this](const Member& m) {
+    return bodies_[at(m.body)].travel == Travel::kDriven && !m.stops;
+  });
+  if (!any || stops_short_) return {};
+  const double safe_mps = safeResidual();
+  const bool misses = std::any_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
+    return -rowMiss(row, stageBodies()).x() > safe_mps;
+  });
+  if (!misses) return {};
+  return leavingNoRoom(rows_, stageBodies(), stage_ != Stage::kPath);
+}
+
+// They stay where they are from now on, and the rows begin anew.
+void ContactCluster::stopDriven(std::span<const int> members) {
+  for (ContactRow& row : rows_) {
+    row.impulse = -row.impulse;
+    row.torque = -row.torque;
+    applyLoad(row, stageBodies());
+    row.impulse.setZero();
+    row.torque.setZero();
+  }
+  for (const int i : members) {
+    Member& member = members_[at(i)];
+    member.stops = true;
+    member.momentum_before = member.path_before = {};
+    momentum_[at(i)].velocity = ends_[at(i)].velocity = paths_[at(i)].velocity = {};
+    planned_ends_[at(i)] = solve_before_[at(i)] = {};
+  }
+}
+
+// Whether it has converged.
+bool ContactCluster::sweepSpreading(double careful_mps) {
   const bool friction = stage_ != Stage::kPath;
   const double safe = safeResidual();
   long visits = 0;
@@ -308,13 +350,14 @@ void ContactCluster::solveSpreading(double careful_mps) {
     visits += report.visits;
     visits_ += report.visits;
     const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
-    if (!grew && report.residual_mps <= enough) return;
+    if (!grew && report.residual_mps <= enough) return true;
     reached = !grew;
     const bool diverges = fine && !grew && report.residual_mps > safe;
     if (!diverges || solved_at_once || rows_.size() > kMostPivotedRows) continue;
     solved_at_once = true;
     solveAtOnce(enough);
   }
+  return false;
 }
 
 // Few rows that sweeps do not bring to rest: bodies of very different mass lie on each other.
@@ -498,7 +541,7 @@ bool ContactCluster::meetsCarried() const {
 void ContactCluster::support() {
   stage_ = Stage::kSupport;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Velocity gain = gainedByForces(bodies_[at(members_[i].body)]);
+    const Velocity gain = gainedByForces(members_[i]);
     ends_[i].velocity = {momentum_[i].velocity.linear + gain.linear,
                          momentum_[i].velocity.angular + gain.angular};
     solve_before_[i] = planned_ends_[i];

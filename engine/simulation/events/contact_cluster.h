@@ -36,6 +36,7 @@ class ContactCluster {
     int body = -1;
     bool collided = false;  ///< Met another fast enough for restitution.
     bool expanded = false;  ///< All contacts of the body have joined.
+    bool stops = false;     ///< Kinematic, and leaves others no room: solved as if it stopped now.
     Velocity momentum_before;
     Velocity path_before;  ///< The mean over the rest of the step.
   };
@@ -110,7 +111,10 @@ class ContactCluster {
   std::vector<ImpulseBody>& stageBodies() {
     return stage_ == Stage::kMomentum ? momentum_ : stage_ == Stage::kSupport ? ends_ : paths_;
   }
-  Velocity gainedByForces(const Body& body) const;
+  const std::vector<ImpulseBody>& stageBodies() const {
+    return stage_ == Stage::kMomentum ? momentum_ : stage_ == Stage::kSupport ? ends_ : paths_;
+  }
+  Velocity gainedByForces(const Member& member) const;
   double restOfStep() const { return settings_.step_s - time_s_; }
   bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
   int join(int body);
@@ -138,6 +142,9 @@ class ContactCluster {
   void findBends();
   bool raiseForTurning(bool all);
   void solveSpreading(double careful_mps);
+  bool sweepSpreading(double careful_mps);
+  std::vector<int> drivenWithoutRoom() const;
+  void stopDriven(std::span<const int> members);
   void solveAtOnce(double enough_mps);
   void pivotPaths();
   bool solvePaths();

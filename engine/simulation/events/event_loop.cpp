@@ -215,24 +215,23 @@ class EventLoop {
   }
 
   // Stops those of the two that are kinematic for the rest of the step.
-  void stopKinematic(const ShapePair& pair, double time_s) {
+  void stopDrivenOf(const ShapePair& pair, double time_s) {
     changed_.clear();
-    for (const int i : {pair.body_a, pair.body_b}) {
-      Body& body = bodies_[at(i)];
-      if (body.travel != Travel::kDriven) continue;
-      bring(i, time_s);
-      stop(i);
-      changed_.push_back(i);
-    }
+    for (const int i : {pair.body_a, pair.body_b}) stopDriven(i, time_s);
     searchAgain(time_s);
+  }
+
+  void stopDriven(int index, double time_s) {
+    if (bodies_[at(index)].travel != Travel::kDriven) return;
+    bring(index, time_s);
+    stop(index);
+    changed_.push_back(index);
   }
 
   void stop(int index) {
     Body& body = bodies_[at(index)];
     countForcesOf(index, body.path.start_s, -1.0);
-    endPath(body);
-    body.momentum_velocity = {};
-    body.acceleration.setZero();
+    stopKinematic(body);
     ++counters_.stopped_kinematic;
   }
 
@@ -342,7 +341,7 @@ class EventLoop {
     const TimeOfImpact& found = predictions_[at(index)].found;
     const ShapePair& pair = table_.pairs()[at(index)];
     if (!givesWay(pair.body_a) && !givesWay(pair.body_b)) {
-      stopKinematic(pair, found.time_s);
+      stopDrivenOf(pair, found.time_s);
       return;
     }
     for (const int i : {pair.body_a, pair.body_b})
@@ -419,6 +418,7 @@ class EventLoop {
     for (const int i : changed_) bring(i, time_s);
     if (leads) {
       const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, table_, bodies_);
+      if (stopWedging(time_s)) return;
       for (std::size_t k = 0; k < changed_.size(); ++k) {
         lead(changed_[k], paths[k].velocity, rest);
         lifts_.join(changed_.front(), changed_[k], bodies_);
@@ -429,6 +429,18 @@ class EventLoop {
       for (const int i : changed_) hold(i);
     }
     searchAgain(time_s);
+  }
+
+  // Stops the kinematic bodies that lead the others together; whether there are any.
+  bool stopWedging(double time_s) {
+    if (clearing_.wedging().empty()) return false;
+    const std::size_t others = changed_.size();
+    for (const int body : clearing_.wedging()) stopDriven(body, time_s);
+    if (changed_.size() == others) return false;
+    for (const int body : std::span(changed_).first(others))
+      if (bodies_[at(body)].travel == Travel::kBallistic) planner_.plan(body, bodies_[at(body)]);
+    searchAgain(time_s);
+    return true;
   }
 
   // Straight on, at this mean velocity.
@@ -474,13 +486,16 @@ class EventLoop {
     // speed are one; the others do not come back, and press at once on all that stands behind.
     const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
     const bool crowded = spent > share * tolerance::kPairEvents;
-    const bool spreads = crowded || pair.restitution == 0.0;
+    // What a body that was stopped strikes has perhaps no room behind it.
+    const bool spreads = crowded || pair.restitution == 0.0 || bodies_[at(pair.body_a)].was_stopped ||
+                         bodies_[at(pair.body_b)].was_stopped;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
       cluster_.begin(index, found.closest, time_s);
       cluster_.collide(spreads);
     }
     counters_.work_J += cluster_.workOfCollision();
+    goOn(time_s);
     if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, time_s, *watchers_.view);
     changed_.clear();
     const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
@@ -490,11 +505,23 @@ class EventLoop {
     }
     takeMomentum(time_s, crowded || spreads);
     if (supports) takePaths(time_s, crowded);
+    for (std::size_t i = 0; i < cluster_.size(); ++i)
+      if (cluster_.member(i).stops) stopDriven(cluster_.member(i).body, time_s);
     const int most =
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
       if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) hold(i);
     searchAgain(time_s);
+  }
+
+  // Kinematic bodies that were stopped, and have just moved what was in their way.
+  void goOn(double time_s) {
+    for (std::size_t i = 0; i < cluster_.size(); ++i) {
+      const int index = cluster_.member(i).body;
+      if (!bodies_[at(index)].was_stopped || cluster_.member(i).stops) continue;
+      bodies_[at(index)].was_stopped = false;
+      countForcesOf(index, time_s, 1.0);
+    }
   }
 
   void wakeInStep(int index) {
@@ -612,7 +639,7 @@ class EventLoop {
         changed_.push_back(index);
       }
       body.travel = Travel::kCarried;
-      countFall(body, meanOf(body.path, settings_.step_s - time_s), cluster_.path(i).linear);
+      countFall(body, body.path.meanVelocity(time_s, settings_.step_s - time_s), cluster_.path(i).linear);
       carryAlong(body, cluster_.path(i), settings_.step_s - time_s, !crowded && cluster_.bends(i));
       for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
         lifts_.join(first, index, bodies_);
@@ -632,14 +659,6 @@ class EventLoop {
     countLift(body, body.path.meanVelocity(start_s, settings_.step_s - start_s), Vec3::Zero());
     endPath(body);
     ++counters_.stopped_bodies;
-  }
-
-  // The body stays where its path has come to.
-  static void endPath(Body& body) {
-    body.travel = Travel::kHeld;
-    body.path.velocity.setZero();
-    body.path.acceleration.setZero();
-    body.path.turnAt(Vec3::Zero());
   }
 
   void searchAgain(double time_s) {

@@ -197,6 +197,24 @@ void PathClearing::push(const Row& row, double impulse) {
   paths_[at(row.b)].apply(impulse * row.place->n_W, row.r_b);
 }
 
+// Who is not led, the first `led` paths being, and presses others together fastest, or half as fast: what
+// slides by presses by rounding.
+void PathClearing::findWedging(std::size_t led) {
+  const auto pushOfA = [&](const Row& row) {
+    return at(row.a) < led ? 0.0 : row.place->n_W.dot(paths_[at(row.a)].velocity.at(row.r_a));
+  };
+  const auto pushOfB = [&](const Row& row) {
+    return at(row.b) < led ? 0.0 : -row.place->n_W.dot(paths_[at(row.b)].velocity.at(row.r_b));
+  };
+  double most = 0.0;
+  for (const Row& row : rows_) most = std::max({most, pushOfA(row), pushOfB(row)});
+  if (!(most > 0.0)) return;
+  for (const Row& row : rows_) {
+    if (pushOfA(row) >= 0.5 * most) wedging_.push_back(touched_[at(row.a)]);
+    if (pushOfB(row) >= 0.5 * most) wedging_.push_back(touched_[at(row.b)]);
+  }
+}
+
 std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members, double time_s,
                                                  double rest_s, const PairTable& table,
                                                  const std::vector<Body>& bodies) {
@@ -205,11 +223,13 @@ std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members
     setRows(time_s, rest_s, table, bodies);
   };
   begin();
+  wedging_.clear();
   if (!sweepRows() || !staysNear(before_, paths_)) {
     begin();
     if (!pivotRows() ||
         !staysNear(before_,
                    paths_)) {  // nothing keeps all of them apart: at least the one that was added last
+      findWedging(members.size());
       for (std::size_t i = 0; i < places_.size(); ++i) places_[i].gathered = i == last_added_;
       begin();
       sweepRows();

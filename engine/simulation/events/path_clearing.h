@@ -37,6 +37,10 @@ class PathClearing {
   std::span<const ImpulseBody> solve(const std::vector<int>& members, double time_s, double rest_s,
                                      const PairTable& table, const std::vector<Body>& bodies);
 
+  /// If the last `solve` found no paths that keep all apart: who was not led, and presses the others
+  /// together.
+  std::span<const int> wedging() const { return wedging_; }
+
   /// The speed at which turning can bring two bodies together over the rest of a step, m/s: at most.
   static double turningSpeed(const ShapePair& pair, double time_s, double rest_s,
                              const std::vector<Body>& bodies, const std::vector<Shape>& shapes);
@@ -79,6 +83,7 @@ class PathClearing {
   bool sweepRows();
   /// The same, at once, where the masses are too different for sweeps.
   bool pivotRows();
+  void findWedging(std::size_t led);
   void push(const Row& row, double impulse);
   double partingOf(const Row& row) const;
 
@@ -89,6 +94,7 @@ class PathClearing {
   std::vector<int> path_of_;         ///< By body: its place in `paths_`; -1: none.
   std::vector<int> touched_;         ///< Bodies that have one.
   std::vector<Row> rows_;
+  std::vector<int> wedging_;
 };
 
 }  // namespace carom
