@@ -1,10 +1,10 @@
 #include "demos/budget/budget_baseline.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/formatted.h"
 #include "demos/format/json.h"
 #include "engine/foundation/contract.h"
 
@@ -58,9 +58,9 @@ PhaseChange change(const std::string& name, const std::string& figure, double be
 }
 
 std::string changeLine(const PhaseChange& c, double tolerance_percent) {
-  char line[256];
   const double growth = c.before_ms > 0.0 ? 100.0 * (c.evidence.least_ms / c.before_ms - 1.0) : 100.0;
-  std::snprintf(line, sizeof line, "%s: %s, %s %.3g ms, was %.3g ms (+%.0f %%, tolerance %.3g %%)",
+  const std::string line =
+      formatted("%s: %s, %s %.3g ms, was %.3g ms (+%.0f %%, tolerance %.3g %%)",
                 c.verdict == BudgetVerdict::kOver ? "slower" : "inconclusive", c.name.c_str(),
                 c.figure.c_str(), c.evidence.least_ms, c.before_ms, growth, tolerance_percent);
   return c.verdict == BudgetVerdict::kOver ? line : line + (", but " + noiseText(c.evidence));
@@ -119,11 +119,8 @@ bool tellsOfWork(const BudgetResult& result) {
 }
 
 std::string growthText(const WorkChange& c) {
-  char text[64];
   if (c.before == 0) return "new";
-  std::snprintf(text, sizeof text, "%+.3g %%",
-                100.0 * (static_cast<double>(c.now) / static_cast<double>(c.before) - 1.0));
-  return text;
+  return formatted("%+.3g %%", 100.0 * (static_cast<double>(c.now) / static_cast<double>(c.before) - 1.0));
 }
 
 /// What the work of a phase says of its time; empty where none of its work is counted.
@@ -292,14 +289,12 @@ std::vector<std::string> baselineLines(const BaselineComparison& comparison) {
   std::vector<std::string> lines;
   for (const PhaseChange& c : slower)
     lines.push_back(changeLine(c, comparison.tolerance_percent) + workOf(comparison, c.name));
-  char tolerance[32];
-  std::snprintf(tolerance, sizeof tolerance, "%.3g %%", comparison.tolerance_percent);
   if (!comparison.other_machine.empty())
     lines.push_back("no times were compared: " + comparison.file + " is of another " +
                     comparison.other_machine);
   else if (lines.empty())
-    lines.push_back(std::string("no phase is slower than in ") + comparison.file + " by more than " +
-                    tolerance);
+    lines.push_back("no phase is slower than in " + comparison.file + " by more than " +
+                    formatted("%.3g %%", comparison.tolerance_percent));
   addWorkLines(comparison, lines);
   return lines;
 }

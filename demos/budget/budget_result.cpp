@@ -2,26 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "demos/format/formatted.h"
 
 namespace carom::demos {
 namespace {
 
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 /// Three digits that count.
 std::string ms(double value) {
-  return text(value < 10.0 ? "%.3g ms" : value < 100.0 ? "%.1f ms" : "%.0f ms", value);
+  return formatted(value < 10.0 ? "%.3g ms" : value < 100.0 ? "%.1f ms" : "%.0f ms", value);
 }
 
 }  // namespace
 
 std::string percentileName(double percent) {
-  return text("p%.10g", percent);
+  return formatted("p%.10g", percent);
 }
 
 BudgetResult judged(const BudgetSubject& subject, const BudgetGate& gate, std::vector<Replay> replays,
@@ -41,10 +36,10 @@ BudgetResult judged(const BudgetSubject& subject, const BudgetGate& gate, std::v
 std::string noiseText(const TimeEvidence& evidence) {
   std::string noise;
   const double spread = spreadOf(evidence.replays_ms);
-  if (spread > kReplaysAgree) noise = "the replays differ by a factor of " + text("%.2g", spread);
+  if (spread > kReplaysAgree) noise = "the replays differ by a factor of " + formatted("%.2g", spread);
   if (evidence.outside_load > kQuietLoad)
     noise += (noise.empty() ? "" : " and ") +
-             ("others used " + text("%.0f %% of the CPU", 100.0 * evidence.outside_load));
+             ("others used " + formatted("%.0f %% of the CPU", 100.0 * evidence.outside_load));
   return noise;
 }
 
@@ -54,7 +49,7 @@ std::string verdictLine(const BudgetResult& result) {
                               percentileName(result.gate.percent) + " " + ms(e.least_ms) + ", budget " +
                               ms(e.limit_ms);
   const double difference = std::abs(e.least_ms - e.limit_ms);
-  const std::string share = ms(difference) + text(" (%.0f %%)", 100.0 * difference / e.limit_ms);
+  const std::string share = ms(difference) + formatted(" (%.0f %%)", 100.0 * difference / e.limit_ms);
   if (result.verdict == BudgetVerdict::kWithin) return figures + ", " + share + " to spare";
   if (result.verdict == BudgetVerdict::kOver) return figures + ", " + share + " too slow";
   if (e.least_ms <= e.limit_ms)

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "demos/format/formatted.h"
 
 namespace carom::demos {
 namespace {
 
 constexpr std::size_t kMostMoved = 3;
-
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 Json trackJson(const std::vector<Vec3>& track) {
   Json json = Json::array();
@@ -23,9 +18,9 @@ Json trackJson(const std::vector<Vec3>& track) {
 }
 
 std::string movedText(const MovedBody& body) {
-  std::string text = body.name + " by " + shortNumber(body.distance_m) + " m";
-  if (body.turn_degrees >= 0.05) text += " and " + shortNumber(body.turn_degrees) + " degrees";
-  if (body.since_s >= 0.0) text += " since " + shortNumber(body.since_s) + " s";
+  std::string text = body.name + " by " + formatted("%.3g", body.distance_m) + " m";
+  if (body.turn_degrees >= 0.05) text += " and " + formatted("%.3g", body.turn_degrees) + " degrees";
+  if (body.since_s >= 0.0) text += " since " + formatted("%.3g", body.since_s) + " s";
   return text;
 }
 
@@ -60,7 +55,8 @@ Json causeJson(const Cause& cause, CauseDetail detail) {
 
 std::vector<std::string> causeLines(const Cause& cause) {
   std::vector<std::string> lines;
-  if (cause.since_s >= 0.0) lines.push_back("the states differ since " + shortNumber(cause.since_s) + " s");
+  if (cause.since_s >= 0.0)
+    lines.push_back("the states differ since " + formatted("%.3g", cause.since_s) + " s");
   if (!cause.first_event.empty()) lines.push_back("first event that differs: at " + cause.first_event);
   if (!cause.moved.empty()) {
     std::string text = "moved: ";

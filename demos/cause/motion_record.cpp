@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "demos/cause/packed_text.h"
 #include "demos/format/content_hash.h"
+#include "demos/format/formatted.h"
 #include "demos/format/json.h"
 
 namespace carom::demos {
 namespace {
 
 constexpr int kFormat = 1;
-
-std::string numberText(double value, int digits = 9) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 Json factsJson(const Facts& facts) {
   Json json = Json::array();
@@ -102,8 +96,8 @@ void readPoses(const Json& json, const std::vector<std::vector<RoundedPose>*>& m
 std::string touchesText(const std::vector<RecordedTouch>& touches) {
   std::string text;
   for (const RecordedTouch& t : touches)
-    text +=
-        std::to_string(t.body_a) + ' ' + std::to_string(t.body_b) + ' ' + numberText(t.impulse_Ns, 3) + ' ';
+    text += std::to_string(t.body_a) + ' ' + std::to_string(t.body_b) + ' ' +
+            formatted("%.3g", t.impulse_Ns) + ' ';
   return text;
 }
 
@@ -144,9 +138,9 @@ std::vector<std::int32_t> readRuns(const std::string& text, std::size_t pixels) 
 std::string cameraText(const renderer::Camera& c) {
   std::string text;
   for (const Vec3* v : {&c.eye, &c.target})
-    for (const double x : *v) text += numberText(x) + ' ';
-  text += numberText(c.fov_degrees);
-  if (c.aperture_m > 0.0) text += ' ' + numberText(c.aperture_m) + ' ' + numberText(c.focus_m);
+    for (const double x : *v) text += formatted("%.9g", x) + ' ';
+  text += formatted("%.9g", c.fov_degrees);
+  if (c.aperture_m > 0.0) text += ' ' + formatted("%.9g", c.aperture_m) + ' ' + formatted("%.9g", c.focus_m);
   return text;
 }
 
@@ -192,8 +186,8 @@ std::string recordText(const MotionRecord& r, const Thinning& kept) {
   std::string strikes;
   for (std::size_t i = 0; i < std::min(r.strikes.size(), kept.strikes); ++i) {
     const RecordedStrike& s = r.strikes[i];
-    strikes += std::to_string(s.step) + ' ' + numberText(s.time_s) + ' ' + std::to_string(s.body_a) + ' ' +
-               std::to_string(s.body_b) + ' ' + numberText(s.impulse_Ns, 4) + ' ';
+    strikes += std::to_string(s.step) + ' ' + formatted("%.9g", s.time_s) + ' ' + std::to_string(s.body_a) +
+               ' ' + std::to_string(s.body_b) + ' ' + formatted("%.4g", s.impulse_Ns) + ' ';
   }
   Json shots = Json::array();
   for (const RecordedShot& s : r.shots) {

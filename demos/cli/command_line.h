@@ -1,6 +1,6 @@
 #pragma once
-// The command line: commands, options, help with an example for each. command_line.cpp is the only file that
-// names the option library. Tested through the program in tests/demos/program/program_test.cpp.
+// The command line: commands, options, help with an example for each. Only this folder names the option
+// library. Tested through the program in tests/demos/program/program_test.cpp.
 
 #include "demos/system/exit_code.h"
 

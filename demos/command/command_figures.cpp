@@ -1,10 +1,10 @@
 // `carom figures`: the paper's ten figures as PNG files, drawn from the engine.
 #include "demos/command/command.h"
 
-#include <cstdio>
 #include <iostream>
 
 #include "demos/figure/figures.h"
+#include "demos/format/formatted.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/build_info.h"
 #include "demos/system/interrupt.h"
@@ -17,8 +17,7 @@ ExitCode figures(const FiguresOptions& options) {
   const PageSize size{options.width, options.height};
   for (int number = 1; number <= kFigures; ++number) {
     throwIfInterrupted();
-    char name[32];
-    std::snprintf(name, sizeof name, "figure_%02d.png", number);
+    const std::string name = formatted("figure_%02d.png", number);
     const renderer::PngText text = {{"Software", "carom " + programVersion()}, {"Title", figureName(number)}};
     AtomicFile file(options.output / name);
     file.write(renderer::encodePng(drawFigure(number, size), text));

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/formatted.h"
 #include "demos/format/printable.h"
 #include "demos/format/progress.h"
 #include "demos/gallery/gallery_index.h"
@@ -28,8 +29,7 @@ std::int64_t bytesOf(const std::vector<GalleryEntry>& entries) {
 void printReport(const GalleryOutcome& outcome, const std::filesystem::path& index) {
   for (const GalleryFailure& failure : outcome.failures)
     std::cerr << printable(failure.name + ": " + failure.line) << '\n';
-  char size[32];
-  std::snprintf(size, sizeof size, "%.1f MB", static_cast<double>(bytesOf(outcome.entries)) / 1e6);
+  const std::string size = formatted("%.1f MB", static_cast<double>(bytesOf(outcome.entries)) / 1e6);
   std::cout << printable(index.string()) << "  " << outcome.entries.size()
             << (outcome.entries.size() == 1 ? " scene  " : " scenes  ") << size << "  ("
             << outcome.entries.size() - static_cast<std::size_t>(outcome.kept) << " made, " << outcome.kept

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/formatted.h"
 #include "demos/language/scene_choice.h"
 #include "demos/language/scene_file.h"
 #include "demos/overlay/overlay_frame.h"
@@ -171,7 +172,7 @@ renderer::Image drawContactFigure(const ContactFigure& figure, const PageSize& s
   writeCaption(canvas,
                {words.title,
                 {words.rule, "From a run of " + figure.scene_name + ": " +
-                                 numberText("t = %.4f s, ", figure.scene.world.time()) + "d = " +
+                                 formatted("t = %.4f s, ", figure.scene.world.time()) + "d = " +
                                  lengthText(closest.distance_m) + ", P = " + vectorText(figure.contact.p_W) +
                                  ", n = " + vectorText(figure.contact.n_W) + "."}},
                size);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/overlay_frame.h"
 #include "engine/contact/time_of_impact.h"
 #include "engine/foundation/contract.h"
@@ -153,8 +154,8 @@ renderer::Image drawDistanceFigure(const DistanceFigure& figure, const PageSize&
                 {"A rod thrown turning over a plate. d(t) dips without reaching zero, then passes zero " +
                      std::to_string(figure.roots_s.size()) + " times;",
                  "only the first root is a collision. The search for the time of impact finds it at " +
-                     numberText("t1 = %.5f s, ", figure.roots_s.front()) +
-                     numberText("the run collides at %.5f s.", figure.collision_s),
+                     formatted("t1 = %.5f s, ", figure.roots_s.front()) +
+                     formatted("the run collides at %.5f s.", figure.collision_s),
                  "Below zero d is the exact depth of penetration. The run's d(t) never gets there."}},
                size);
   return canvas.image();

@@ -3,6 +3,7 @@
 #include <array>
 #include <numbers>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/overlay_frame.h"
 #include "engine/foundation/elementary.h"
 
@@ -117,7 +118,7 @@ renderer::Image drawManifoldFigure(const ManifoldFigure& figure, const PageSize&
       canvas,
       {"Figure 8. Multi-point collision",
        {"The upper slab's face, clipped by the V-region of the face F below (green) and by the plane F' at " +
-            numberText("k = %.2f mm:", 1000.0 * figure.window.manifold),
+            formatted("k = %.2f mm:", 1000.0 * figure.window.manifold),
         "a contact polygon of " + std::to_string(figure.polygon.corners.size()) +
             " corners (orange), of which the solver gets the " + std::to_string(figure.manifold.count) +
             " points P (red), each with its gap."}},

@@ -1,7 +1,8 @@
 #include "demos/figure/figure_page.h"
 
 #include <array>
-#include <cstdio>
+
+#include "demos/format/formatted.h"
 
 namespace carom::demos {
 namespace {
@@ -53,9 +54,7 @@ void drawEdges(renderer::OverlayPainter& painter, std::span<const renderer::Pict
 }
 
 std::string decimalText(double value, int digits) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  const std::string shown = text.data();
+  const std::string shown = formatted("%.*f", digits, value);
   const bool zero = shown.find_first_not_of("-0.") == std::string::npos;
   return zero && shown[0] == '-' ? shown.substr(1) : shown;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/overlay_frame.h"
 #include "engine/foundation/contract.h"
 #include "engine/modes/support_polygon.h"
@@ -44,7 +45,7 @@ void findSupport(SupportFigure& figure, const StepView& view) {
 }
 
 std::string restText(const SupportFigure& figure) {
-  return numberText("at rest since t = %.2f s; ", figure.rest_s) + std::to_string(figure.points_W.size()) +
+  return formatted("at rest since t = %.2f s; ", figure.rest_s) + std::to_string(figure.points_W.size()) +
          " points of contact, a cover of " + std::to_string(figure.cover_W.size()) + " corners; " +
          (figure.outside_m == 0.0 ? std::string("the projection lies inside.")
                                   : "the projection misses it by " + lengthText(figure.outside_m) + ".");

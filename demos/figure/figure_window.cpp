@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/overlay_frame.h"
 #include "engine/closest_features/vclip.h"
 #include "engine/foundation/contract.h"
@@ -165,12 +166,12 @@ renderer::Image drawWindowFigure(const WindowFigure& figure, const PageSize& siz
   writeCaption(
       canvas,
       {"Figure 7. The collision window",
-       {numberText("ε₁ = %.3f mm, ", 1000.0 * w.floor) + numberText("ε₂ = %.3f mm: ", 1000.0 * w.ceiling) +
+       {formatted("ε₁ = %.3f mm, ", 1000.0 * w.floor) + formatted("ε₂ = %.3f mm: ", 1000.0 * w.ceiling) +
             "between them a collision is solved directly, below ε₁ no two bodies ever get.",
-        numberText("A cube's edge comes down on a plate at %.2g m/s: ", kFallSpeed_mps) +
-            numberText("the impulse of %.3g N s ", figure.impulse_Ns) +
-            numberText("acts at t = %.3f ms, ", 1000.0 * figure.impulse_s) +
-            numberText("d = %.3f mm.", 1000.0 * figure.impulse_gap_m)}},
+        formatted("A cube's edge comes down on a plate at %.2g m/s: ", kFallSpeed_mps) +
+            formatted("the impulse of %.3g N s ", figure.impulse_Ns) +
+            formatted("acts at t = %.3f ms, ", 1000.0 * figure.impulse_s) +
+            formatted("d = %.3f mm.", 1000.0 * figure.impulse_gap_m)}},
       size);
   return canvas.image();
 }

@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 
 #include <unistd.h>
 
+#include "demos/format/formatted.h"
 #include "demos/format/json.h"
 
 namespace carom::demos {
@@ -67,11 +67,9 @@ void Progress::done(int count) {
 
 std::string Progress::line(int count, double elapsed_s) const {
   const Pace pace = paceOf(count, plan_.total, elapsed_s);
-  char text[160];
-  std::snprintf(text, sizeof text, "%s %d/%d  %d %%  %.1f %s  eta %.0f s", plan_.unit.c_str(), count,
-                plan_.total, static_cast<int>(100.0 * count / plan_.total), pace.per_second,
-                plan_.unit == "frame" ? "fps" : "per s", std::ceil(pace.remaining_s));
-  return text;
+  return formatted("%s %d/%d  %d %%  %.1f %s  eta %.0f s", plan_.unit.c_str(), count, plan_.total,
+                   static_cast<int>(100.0 * count / plan_.total), pace.per_second,
+                   plan_.unit == "frame" ? "fps" : "per s", std::ceil(pace.remaining_s));
 }
 
 std::string Progress::json(int count, double elapsed_s) const {

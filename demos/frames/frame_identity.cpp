@@ -1,10 +1,10 @@
 #include "demos/frames/frame_identity.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 
 #include "demos/format/content_hash.h"
+#include "demos/format/formatted.h"
 #include "demos/system/build_info.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
@@ -42,23 +42,19 @@ renderer::DecodedPng readFrame(const std::filesystem::path& path) {
 }  // namespace
 
 renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record) {
-  char time[32];
-  std::snprintf(time, sizeof time, "%.17g", record.time_s);
   renderer::PngText text = {{"Software", "carom " + programVersion()},
                             {"Build", buildName()},
                             {"Renderer", manifest.gl.renderer + ", " + manifest.gl.version},
                             {"Scene", manifest.scene + " " + hexText(manifest.scene_hash)},
                             {"Camera", manifest.camera},
                             {"Frame", std::to_string(record.frame)},
-                            {"Time", time},
+                            {"Time", formatted("%.17g", record.time_s)},
                             {"State", hexText(record.state_hash)}};
   if (manifest.preset != renderer::Preset::kRealtime) text.emplace_back("Preset", nameOf(manifest.preset));
   if (manifest.style != renderer::Style::kDaylight) text.emplace_back("Style", nameOf(manifest.style));
   if (!manifest.light.empty()) text.emplace_back("Light", manifest.light);
-  if (manifest.shutter_degrees > 0.0) {
-    std::snprintf(time, sizeof time, "%.9g degrees", manifest.shutter_degrees);
-    text.emplace_back("Shutter", time);
-  }
+  if (manifest.shutter_degrees > 0.0)
+    text.emplace_back("Shutter", formatted("%.9g degrees", manifest.shutter_degrees));
   if (manifest.cutout) text.emplace_back("Background", "none");
   if (!manifest.overlays.empty()) text.emplace_back("Overlays", manifest.overlays);
   if (manifest.has_caption) text.emplace_back("Caption", "on");

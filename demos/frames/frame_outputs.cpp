@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "demos/format/formatted.h"
 #include "demos/format/nearest_name.h"
 #include "demos/system/exit_code.h"
 
@@ -16,12 +17,6 @@ using renderer::SurfaceImage;
 const std::vector<std::string>& outputNames() {
   static const std::vector<std::string> names{"depth", "normal", "id"};
   return names;
-}
-
-std::string exactText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
 }
 
 std::uint16_t depthSample(float depth_m, const OutputScale& scale) {
@@ -101,7 +96,7 @@ renderer::PngText outputText(FrameOutput output, const renderer::PngText& frame_
   text.emplace_back("Output", nameOf(output));
   switch (output) {
     case FrameOutput::kDepth:
-      text.emplace_back("Metres per unit", exactText(scale.metresPerUnit()));
+      text.emplace_back("Metres per unit", formatted("%.17g", scale.metresPerUnit()));
       text.emplace_back("Sky", std::to_string(kSkyDepth));
       break;
     case FrameOutput::kNormal:

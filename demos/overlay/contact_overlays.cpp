@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "demos/format/formatted.h"
 #include "engine/contact/contact_polygon.h"
 #include "engine/modes/support_polygon.h"
 
@@ -92,7 +93,7 @@ void paintImpulses(OverlayPainter& painter, const OverlayFrame& frame, const Pen
                   {{color}, width_px, 0.0, 0.6});
     painter.setLift(0.0);
     if (!shown.is_collision || named++ >= kMostNamedImpulses) continue;
-    painter.label(shown.p_W, numberText("%.3g N s", shown.impulse_W.norm()),
+    painter.label(shown.p_W, formatted("%.3g N s", shown.impulse_W.norm()),
                   {pen.text_px, {overlay_color::kRed}, Align::kLeft, true, 0.9});
   }
 }

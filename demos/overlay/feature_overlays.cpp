@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/v_region_shape.h"
 
 namespace carom::demos {
@@ -116,15 +117,9 @@ class DrawnFeatures {
 
 }  // namespace
 
-std::string numberText(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
 std::string lengthText(double length_m) {
   const double size = std::abs(length_m);
-  return size < 0.1 ? numberText("%.2f mm", 1000.0 * length_m) : numberText("%.3f m", length_m);
+  return size < 0.1 ? formatted("%.2f mm", 1000.0 * length_m) : formatted("%.3f m", length_m);
 }
 
 void paintRegions(OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen) {

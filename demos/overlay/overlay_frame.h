@@ -57,7 +57,5 @@ inline constexpr renderer::Color kWhite = {1.0f, 1.0f, 1.0f};
 
 /// "1.25 mm", "0.341 m": a length with three digits in the unit that suits it.
 std::string lengthText(double length_m);
-/// printf for the few numbers of a label.
-std::string numberText(const char* format, double value);
 
 }  // namespace carom::demos

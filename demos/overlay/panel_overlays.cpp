@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "demos/format/formatted.h"
 #include "demos/overlay/mode_colors.h"
 #include "engine/environment/gravity.h"
 #include "engine/motion/rigid_body.h"
@@ -37,8 +37,8 @@ std::array<int, kModes> modeCounts(const OverlayFrame& frame) {
 
 std::string energyText(double energy_J) {
   const double size = std::abs(energy_J);
-  if (size < 1e4) return numberText("%.4g J", energy_J);
-  return size < 1e7 ? numberText("%.2f kJ", 1e-3 * energy_J) : numberText("%.4g MJ", 1e-6 * energy_J);
+  if (size < 1e4) return formatted("%.4g J", energy_J);
+  return size < 1e7 ? formatted("%.2f kJ", 1e-3 * energy_J) : formatted("%.4g MJ", 1e-6 * energy_J);
 }
 
 }  // namespace
@@ -58,10 +58,8 @@ ShownEnergy shownEnergy(const World& world, std::span<const BodyState> states) {
 }
 
 Panel statisticsPanel(const OverlayFrame& frame) {
-  std::array<char, 160> text{};
   Panel rows;
-  std::snprintf(text.data(), text.size(), "t = %.3f s   frame %d", frame.time_s, frame.frame);
-  rows.push_back({text.data(), {}});
+  rows.push_back({formatted("t = %.3f s   frame %d", frame.time_s, frame.frame), {}});
   const std::array<int, kModes> counts = modeCounts(frame);
   std::string modes;
   for (std::size_t i = 0; i < kModes; ++i)
@@ -86,8 +84,8 @@ Panel timingsPanel(const OverlayFrame& frame) {
   Panel rows;
   for (std::size_t i = 0; i < kFramePhases; ++i)
     if (frame.cost.phase_ms[i] > 0.0)
-      rows.push_back({numberText("%.2f ms  ", frame.cost.phase_ms[i]) + kFramePhaseNames[i], {}});
-  rows.push_back({numberText("%.2f ms  in all", frame.cost.total_ms), {}});
+      rows.push_back({formatted("%.2f ms  ", frame.cost.phase_ms[i]) + kFramePhaseNames[i], {}});
+  rows.push_back({formatted("%.2f ms  in all", frame.cost.total_ms), {}});
   return rows;
 }
 

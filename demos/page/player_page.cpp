@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numbers>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/formatted.h"
 #include "demos/format/json.h"
 #include "demos/format/markup_text.h"
 #include "demos/overlay/mode_colors.h"
@@ -34,9 +34,7 @@ Json numbers(const Vec3& v) {
 /// "#rrggbb"
 std::string hexColor(const renderer::Color& color) {
   const auto byte = [](float channel) { return static_cast<int>(std::lround(255.0f * channel)) & 0xff; };
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
-  return text;
+  return formatted("#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
 }
 
 /// JSON has no infinity: null.

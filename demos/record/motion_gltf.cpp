@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <map>
 #include <numbers>
@@ -11,6 +10,7 @@
 
 #include <tiny_gltf.h>
 
+#include "demos/format/formatted.h"
 #include "demos/system/build_info.h"
 #include "demos/system/exit_code.h"
 #include "engine/foundation/contract.h"
@@ -108,9 +108,7 @@ class Accessors {
 /// "#rrggbb"
 std::string hexColor(const renderer::Color& color) {
   const auto byte = [](float channel) { return static_cast<int>(std::lround(255.0f * channel)); };
-  char text[32];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
-  return text;
+  return formatted("#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
 }
 
 /// Bodies of the same material and colour share one of the file's materials.

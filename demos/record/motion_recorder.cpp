@@ -6,6 +6,7 @@
 
 #include "demos/cause/source_prints.h"
 #include "demos/format/content_hash.h"
+#include "demos/format/formatted.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/build_info.h"
 
@@ -13,13 +14,11 @@ namespace carom::demos {
 namespace {
 
 std::string numberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+  return formatted("%.9g", value);
 }
 
 std::string vectorText(const Vec3& v) {
-  return numberText(v.x()) + ' ' + numberText(v.y()) + ' ' + numberText(v.z());
+  return formatted("%.9g %.9g %.9g", v.x(), v.y(), v.z());
 }
 
 std::string rotationText(const Quat& q) {
@@ -27,10 +26,9 @@ std::string rotationText(const Quat& q) {
 }
 
 std::string colorText(const renderer::Color& c) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<int>(255.0f * c.r + 0.5f) & 0xff,
-                static_cast<int>(255.0f * c.g + 0.5f) & 0xff, static_cast<int>(255.0f * c.b + 0.5f) & 0xff);
-  return text;
+  return formatted("#%02x%02x%02x", static_cast<int>(255.0f * c.r + 0.5f) & 0xff,
+                   static_cast<int>(255.0f * c.g + 0.5f) & 0xff,
+                   static_cast<int>(255.0f * c.b + 0.5f) & 0xff);
 }
 
 /// Of all that a solid's drawing and colliding depend on.

@@ -5,7 +5,6 @@
 #include "demos/render/render_job.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -15,26 +14,23 @@
 #include <unistd.h>
 
 #include "demos/format/content_hash.h"
+#include "demos/format/formatted.h"
 #include "demos/format/progress.h"
 #include "demos/frames/folder_claim.h"
-#include "demos/frames/frame_identity.h"
 #include "demos/frames/frame_names.h"
 #include "demos/frames/frame_outputs.h"
-#include "demos/frames/frame_selection.h"
 #include "demos/frames/frame_stream.h"
 #include "demos/frames/frame_writer.h"
 #include "demos/frames/manifest.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
-#include "demos/video/caption_painter.h"
 #include "demos/overlay/overlays.h"
 #include "demos/record/motion_recorder.h"
-#include "demos/record/recorded_scene.h"
 #include "demos/record/recording.h"
+#include "demos/render/frame_drawing.h"
 #include "demos/render/frame_workers.h"
-#include "demos/render/shutter.h"
+#include "demos/render/render_plan.h"
 #include "demos/scene/camera_path.h"
-#include "demos/scene/drawn_water.h"
 #include "demos/scene/scene_caption.h"
 #include "demos/scene/scene_world.h"
 #include "demos/system/atomic_file.h"
@@ -43,224 +39,10 @@
 #include "demos/system/pipe_writer.h"
 #include "demos/video/contact_sheet.h"
 #include "demos/video/moving_picture.h"
-#include "engine/foundation/contract.h"
 #include "renderer/frame/frame_renderer.h"
 
 namespace carom::demos {
 namespace {
-
-constexpr int kMostFrames = 10000000;
-
-/// What is to be drawn, settled before anything is made.
-struct Plan {
-  SceneChoice choice;
-  Scene scene;
-  NamedCamera camera;
-  renderer::Preset preset = renderer::Preset::kRealtime;
-  renderer::Style style = renderer::Style::kDaylight;
-  SceneLight light;
-  bool cutout = false;
-  Shutter shutter{0.0, 1};
-  std::vector<FrameOutput> outputs;
-  FrameClock clock;
-  double fps = 0.0;         ///< Of the frames as they are shown; the clock's are the scene's.
-  int frame_count = 0;      ///< Of the whole run.
-  std::vector<int> frames;  ///< Those chosen.
-};
-
-Shutter chosenShutter(const RenderOptions& options) {
-  const renderer::Preset preset = renderer::presetOf(options.preset);
-  const int exposures = renderer::qualityOf(preset, renderer::styleOf(options.style)).samples;
-  const Shutter shutter(options.shutter_degrees, exposures);
-  if (options.shutter_degrees == 0.0) return shutter;
-  const auto refuse = [](const std::string& with, const char* accepted) {
-    throw UsageError("--shutter with " + with + ": accepted: " + accepted);
-  };
-  if (!shutter.isOpen()) refuse("--preset " + options.preset, "--preset quality or cinematic");
-  if (!options.from.empty())
-    refuse("--from", "the scene itself, for a recording has no motion between frames");
-  if (!options.overlays.empty()) refuse("--overlay", "one of them");
-  if (options.at_s) refuse("--at", "--frames with one number");
-  return shutter;
-}
-
-Plan planned(const RenderOptions& options, const std::optional<RecordingReader>& recording) {
-  SceneChoice choice = options.choice;
-  if (recording) choice = recordedChoice({options.from, recording->header()}, choice, "render SCENE --from");
-  const Scene scene = chosenScene(choice);
-  const double scene_fps = recording ? recording->header().fps : options.fps / options.speed;
-  if (scene.duration_s * scene_fps > kMostFrames)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds more than " +
-                     std::to_string(kMostFrames) + " frames");
-  const FrameClock clock =
-      options.at_s ? FrameClock::still(*options.at_s, scene.rate_hz) : FrameClock({scene_fps, scene.rate_hz});
-  Plan plan{.choice = choice,
-            .scene = scene,
-            .camera = chosenCamera(scene, options.camera),
-            .preset = renderer::presetOf(options.preset),
-            .style = renderer::styleOf(options.style),
-            .light = chosenLight(scene.light, options.light, options.exposure),
-            .cutout = options.background == "none",
-            .shutter = chosenShutter(options),
-            .outputs = readOutputs(options.aov),
-            .clock = clock,
-            .fps = recording ? scene_fps * options.speed : options.fps,
-            .frame_count = clock.frameCount(scene.duration_s),
-            .frames = {}};
-  if (recording) {
-    requireSameScene({options.from, recording->header()}, plan.scene, plan.choice);
-    plan.frame_count = recording->header().frames;
-  }
-  if (plan.frame_count < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
-                     std::to_string(plan.fps) + " fps");
-  plan.frames = options.sheet.empty()
-                    ? shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard))
-                    : sheetFrames(readSheet(options.sheet), plan.frame_count);
-  return plan;
-}
-
-Manifest emptyManifest(const RenderOptions& options, const Plan& plan) {
-  Manifest manifest;
-  manifest.command = options.command_line;
-  manifest.scene = plan.scene.name;
-  manifest.scene_hash = sceneHash(plan.scene, plan.choice.mesh);
-  manifest.seed = plan.scene.seed;
-  manifest.width = options.width;
-  manifest.height = options.height;
-  manifest.fps = plan.fps;
-  manifest.speed = options.speed;
-  manifest.steps_per_second = plan.scene.rate_hz;
-  manifest.camera = plan.camera.name;
-  manifest.preset = plan.preset;
-  manifest.style = plan.style;
-  manifest.light = lightText(plan.light);
-  manifest.cutout = plan.cutout;
-  manifest.shutter_degrees = options.shutter_degrees;
-  manifest.frames_planned = static_cast<int>(plan.frames.size());
-  return manifest;
-}
-
-/// Milliseconds since the last call.
-class Stopwatch {
- public:
-  double lap_ms() {
-    const double now_s = steadySeconds();
-    const double lap = 1000.0 * (now_s - last_s_);
-    last_s_ = now_s;
-    return lap;
-  }
-
- private:
-  double last_s_ = steadySeconds();
-};
-
-/// What the frames of one run share.
-struct Run {
-  const Plan& plan;
-  const FrameNames* names;  ///< None: the frames get no files.
-  bool resume = false;
-  const SceneWorld& scene;
-  FrameSource& source;
-  const CameraPath& camera;
-  const SceneCaption* caption;  ///< None: no line is drawn.
-  const OutputScale& scale;
-  Overlays& overlays;
-  Manifest& manifest;
-  MotionRecorder* recorder;       ///< None: the frames get no record.
-  std::vector<FrameRecord> kept;  ///< Frames that an earlier run had drawn.
-};
-
-/// The frame's other outputs, without their pixels; in a stream they have no files either.
-std::vector<OutputToWrite> plannedOutputs(const Run& run, const FrameToWrite& frame) {
-  std::vector<OutputToWrite> outputs;
-  for (const FrameOutput output : run.plan.outputs) {
-    std::filesystem::path path;
-    if (run.names != nullptr) path = run.names->file(frame.record.frame, nameOf(output));
-    outputs.push_back(
-        {{}, path, outputText(output, frame.text, run.scale), {nameOf(output), path.filename().string(), 0}});
-  }
-  return outputs;
-}
-
-void drawOutputs(const Run& run, renderer::FrameRenderer& pictures, FrameToWrite& frame) {
-  for (std::size_t i = 0; i < frame.outputs.size(); ++i)
-    frame.outputs[i].raster = outputRaster(run.plan.outputs[i], pictures.surfaces(), run.scale);
-}
-
-bool keepFrame(const Run& run, FrameToWrite& frame) {
-  if (!run.resume) return false;
-  const FrameSize size{run.manifest.width, run.manifest.height};
-  const std::optional<std::uint64_t> pixels = wantedFrame(frame.path, frame.text, size);
-  if (!pixels) return false;
-  std::vector<OutputRecord> outputs;
-  for (const OutputToWrite& output : frame.outputs) {
-    const std::optional<std::uint64_t> samples = wantedOutput(output.path, output.text, size);
-    if (!samples) return false;
-    outputs.push_back(output.record);
-    outputs.back().pixel_hash = *samples;
-  }
-  frame.record.outputs = std::move(outputs);
-  frame.record.pixel_hash = *pixels;
-  frame.record.kept = true;
-  return true;
-}
-
-/// The frame without its pixels.
-FrameToWrite plannedFrame(const Run& run, const FrameJob& job) {
-  FrameToWrite next;
-  next.record.timings.physics_ms = job.physics_ms;
-  if (run.names != nullptr) next.path = run.names->file(job.frame);
-  next.record.frame = job.frame;
-  next.record.file = next.path.filename().string();
-  next.record.time_s = run.plan.clock.time(job.frame);
-  next.record.step = job.state.step;
-  next.record.state_hash = job.state.state_hash;
-  next.text = frameText(run.manifest, next.record);
-  next.outputs = plannedOutputs(run, next);
-  return next;
-}
-
-void drawFrame(const Run& run, renderer::FrameRenderer& pictures, const FrameJob& job, FrameToWrite& next) {
-  Stopwatch watch;
-  const renderer::Camera camera = run.camera.at(next.record.time_s, job.state.bodies);
-  const std::vector<renderer::WaterVolume> water = drawnWater(run.plan.scene, next.record.time_s);
-  if (job.moments.empty()) {
-    next.image = run.overlays.draw(pictures, job.state, job.frame, camera, water);
-  } else {
-    std::vector<std::vector<renderer::Instance>> moments;
-    for (const std::vector<BodyState>& bodies : job.moments)
-      moments.push_back(drawnInstances(run.scene, bodies));
-    next.image = pictures.draw(moments.back(), camera, {}, water, moments);
-  }
-  if (run.caption != nullptr)
-    next.image = withCaption(std::move(next.image), run.caption->at(next.record.time_s, job.state.bodies));
-  drawOutputs(run, pictures, next);
-  if (run.recorder != nullptr && run.recorder->wantsPixels(run.manifest.width, run.manifest.height))
-    run.recorder->addPixels(pictures.surfaces(), run.manifest.width, run.manifest.height);
-  next.record.timings.draw_ms = watch.lap_ms();
-}
-
-FrameJob nextJob(Run& run, int frame) {
-  throwIfInterrupted();
-  Stopwatch watch;
-  std::vector<std::vector<BodyState>> moments;
-  FrameState state;
-  if (run.plan.shutter.isOpen()) {
-    for (const int moment : run.plan.shutter.moments(frame)) {
-      state = run.source.at(moment);
-      moments.emplace_back(state.bodies.begin(), state.bodies.end());
-    }
-  } else {
-    state = run.overlays.advance(run.source, frame);
-  }
-  if (run.recorder != nullptr) {
-    const double time_s = run.plan.clock.time(frame);
-    run.recorder->addShot(run.names->file(frame).filename().string(), time_s, state,
-                          run.camera.at(time_s, state.bodies));
-  }
-  return {frame, state, watch.lap_ms(), std::move(moments)};
-}
 
 /// Where frames go: each is encoded, by whoever drew it, and then delivered in its turn.
 struct Sink {
@@ -274,7 +56,7 @@ struct Artists {
   std::optional<renderer::FrameRenderer>& here;
 };
 
-void drawHere(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer, Progress& progress) {
+void drawHere(RenderRun& run, renderer::FrameRenderer& pictures, FrameWriter& writer, Progress& progress) {
   int done = 0;
   for (const int frame : run.plan.frames) {
     const FrameJob job = nextJob(run, frame);
@@ -290,7 +72,7 @@ void drawHere(Run& run, renderer::FrameRenderer& pictures, FrameWriter& writer, 
 }
 
 /// What a worker does with a frame.
-DrawnFrame drawThere(const Run& run, renderer::FrameRenderer& pictures, const Sink& sink,
+DrawnFrame drawThere(const RenderRun& run, renderer::FrameRenderer& pictures, const Sink& sink,
                      const FrameJob& job) {
   FrameToWrite next = plannedFrame(run, job);
   if (keepFrame(run, next)) return {next.record, {}};
@@ -302,7 +84,7 @@ std::string countText(std::size_t frames) {
   return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
 }
 
-void tellStart(const Run& run) {
+void tellStart(const RenderRun& run) {
   const Scene& scene = run.plan.scene;
   std::cerr << scene.name << ": " << run.scene.names.size() << " bodies, "
             << countText(run.plan.frames.size()) << " at " << run.manifest.fps << " fps, " << scene.rate_hz
@@ -313,29 +95,25 @@ void tellStart(const Run& run) {
 }
 
 /// What one file that holds the whole run says of itself.
-renderer::PngText runText(const Run& run) {
+renderer::PngText runText(const RenderRun& run) {
   return {{"Software", "carom " + programVersion()},
           {"Source", run.manifest.command},
           {"Scene hash", hexText(run.manifest.scene_hash)}};
 }
 
 /// "12 frames  0.41 s  29.3 fps end to end", of a run whose frames went through a pipe.
-std::string pipedReport(const Run& run) {
-  char line[96];
-  const double count = run.manifest.frames_planned;
-  std::snprintf(line, sizeof line, "%s  %.2f s  %.1f fps end to end",
-                countText(run.plan.frames.size()).c_str(), run.manifest.wall_s, count / run.manifest.wall_s);
-  return line;
+std::string pipedReport(const RenderRun& run) {
+  return formatted("%s  %.2f s  %.1f fps end to end", countText(run.plan.frames.size()).c_str(),
+                   run.manifest.wall_s, run.manifest.frames_planned / run.manifest.wall_s);
 }
 
-std::string filesReport(const Run& run, const RunFacts& facts) {
+std::string filesReport(const RenderRun& run, const RunFacts& facts) {
   const Manifest& m = run.manifest;
   const FrameTimings total = totalTimings(m.frames);
   const double count = std::max<double>(1.0, static_cast<double>(m.frames.size()));
   const double drawn = std::max<double>(1.0, static_cast<double>(m.frames.size() - run.kept.size()));
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "%s  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms",
+  const std::string line =
+      formatted("%s  %.2f s  %.1f fps end to end  physics %.2f ms  draw %.2f ms  encode %.2f ms",
                 countText(m.frames.size()).c_str(), m.wall_s, count / m.wall_s, total.physics_ms / count,
                 total.draw_ms / drawn, total.encode_ms / drawn);
   std::ostringstream report;
@@ -356,7 +134,7 @@ void noteOlderFrames(const FrameNames& names, int count) {
 }
 
 /// What an earlier run that was killed left of the files that this one is to write, and of nobody else's.
-void removeLeftOvers(const Run& run, const std::string& manifest_name) {
+void removeLeftOvers(const RenderRun& run, const std::string& manifest_name) {
   std::set<std::string> names{manifest_name};
   for (const int frame : run.plan.frames) {
     names.insert(run.names->file(frame).filename().string());
@@ -368,7 +146,7 @@ void removeLeftOvers(const Run& run, const std::string& manifest_name) {
 
 /// The records of the frames that this process has drawn, as far as it got; `ended_early` says why no
 /// farther.
-std::vector<FrameRecord> drawnHere(Run& run, renderer::FrameRenderer& pictures, const Sink& sink,
+std::vector<FrameRecord> drawnHere(RenderRun& run, renderer::FrameRenderer& pictures, const Sink& sink,
                                    Progress& progress, std::exception_ptr& ended_early) {
   FrameWriter writer([&sink](FrameToWrite frame) -> std::optional<FrameRecord> {
     const DrawnFrame drawn = sink.encode(std::move(frame));
@@ -385,8 +163,8 @@ std::vector<FrameRecord> drawnHere(Run& run, renderer::FrameRenderer& pictures, 
 }
 
 /// The same of its workers. One that cannot write ends the run without a manifest, as this process would.
-std::vector<FrameRecord> drawnByWorkers(Run& run, FrameWorkers& workers, const Sink& sink, Progress& progress,
-                                        std::exception_ptr& ended_early) {
+std::vector<FrameRecord> drawnByWorkers(RenderRun& run, FrameWorkers& workers, const Sink& sink,
+                                        Progress& progress, std::exception_ptr& ended_early) {
   std::vector<FrameRecord> written;
   int done = 0;
   const auto keep = [&](const DrawnFrame& drawn) {
@@ -417,7 +195,7 @@ bool leavesNoManifest(const std::exception_ptr& ended_early) {
 
 /// Draws what is planned; a run that ends early still finishes the frames it has drawn and tells which they
 /// are in its manifest.
-void drawPlanned(Run& run, const Artists& artists, const Sink& sink, const Telling& telling,
+void drawPlanned(RenderRun& run, const Artists& artists, const Sink& sink, const Telling& telling,
                  const std::filesystem::path& manifest_file, double started_s) {
   std::exception_ptr ended_early;
   std::vector<FrameRecord>& frames = run.manifest.frames;
@@ -436,15 +214,9 @@ void drawPlanned(Run& run, const Artists& artists, const Sink& sink, const Telli
   if (run.recorder != nullptr) run.recorder->write(run.names->folder(), run.manifest.gl);
 }
 
-/// "still.manifest.json", which does not take the place of the manifest of frames in the same folder.
-std::string stillManifestName(const FrameNames& names) {
-  return names.file(0).stem().string() + ".manifest.json";
-}
-
-void renderFiles(Run& run, const Artists& artists, const RenderOptions& options, const Sink& sink,
+void renderFiles(RenderRun& run, const Artists& artists, const RenderOptions& options, const Sink& sink,
                  const RunFacts& facts, double started_s) {
-  const std::string manifest_name =
-      options.at_s ? stillManifestName(*run.names) : manifestName(options.frames, options.shard);
+  const std::string manifest_name = manifestNameOf(options, *run.names);
   if (run.resume) removeLeftOvers(run, manifest_name);
   try {
     drawPlanned(run, artists, sink, options.telling, run.names->folder() / manifest_name, started_s);
@@ -456,7 +228,7 @@ void renderFiles(Run& run, const Artists& artists, const RenderOptions& options,
   if (!options.telling.quiet) std::cout << filesReport(run, facts) << '\n';
 }
 
-void renderStream(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
+void renderStream(RenderRun& run, const Artists& artists, const RenderOptions& options, Sink sink,
                   double started_s) {
   PipeWriter out(STDOUT_FILENO, "standard output");
   sink.deliver = [&out](std::span<const std::uint8_t> bytes) { out.write(bytes); };
@@ -464,7 +236,7 @@ void renderStream(Run& run, const Artists& artists, const RenderOptions& options
   if (!options.telling.quiet) std::cerr << pipedReport(run) << '\n';
 }
 
-void renderMovingPicture(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
+void renderMovingPicture(RenderRun& run, const Artists& artists, const RenderOptions& options, Sink sink,
                          double started_s) {
   const std::unique_ptr<MovingPicture> picture =
       makeMovingPicture(options.moving, {options.width, options.height, run.manifest.fps},
@@ -475,7 +247,7 @@ void renderMovingPicture(Run& run, const Artists& artists, const RenderOptions& 
   if (!options.telling.quiet) std::cout << options.moving.string() << "  " << pipedReport(run) << '\n';
 }
 
-void renderSheet(Run& run, const Artists& artists, const RenderOptions& options, Sink sink,
+void renderSheet(RenderRun& run, const Artists& artists, const RenderOptions& options, Sink sink,
                  double started_s) {
   ContactSheet sheet(readSheet(options.sheet), options.width, options.height);
   std::size_t next = 0;
@@ -489,21 +261,6 @@ void renderSheet(Run& run, const Artists& artists, const RenderOptions& options,
   file.write(encodePng(sheet.image(), runText(run)));
   file.commit();
   if (!options.telling.quiet) std::cout << path << "  " << pipedReport(run) << '\n';
-}
-
-/// What the bytes of the run's frames and their names depend on, but for the number of a frame. A folder has
-/// one manifest and one kind of frames; a still is by itself.
-FolderClaim::Claim folderClaim(const RenderOptions& options, const Manifest& manifest,
-                               const FrameNames& names) {
-  ContentHash identity;
-  for (const auto& [key, value] : frameText(manifest, {})) identity.add(key).add(value);
-  for (const int number : {options.width, options.height, static_cast<int>(options.portable)})
-    identity.add(std::to_string(number));
-  for (const double number :
-       {manifest.fps, manifest.speed, manifest.steps_per_second, options.at_s.value_or(0.0)})
-    identity.add(&number, sizeof number);
-  const std::string name = std::filesystem::path(names.pattern()).filename().string();
-  return {names.folder(), options.at_s ? "still " + name : "frames", identity.add(name).value()};
 }
 
 /// How a frame is encoded for where it goes.
@@ -524,14 +281,6 @@ Sink sinkOf(const RenderOptions& options) {
           {}};
 }
 
-/// A stream holds one picture a frame: the colours, or one other output in their place.
-void requireStreamable(const RenderOptions& options, const std::vector<FrameOutput>& outputs) {
-  if (outputs.size() > 1)
-    throw UsageError("--aov " + options.aov + ": accepted with --stream: one of depth, normal and id");
-  if (!outputs.empty() && streamFormat(options.stream) == StreamFormat::kRgb24)
-    throw UsageError("--stream rgb24 has 8 bits a sample; accepted with --aov: png or ppm");
-}
-
 /// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
 /// have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
@@ -541,33 +290,10 @@ bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
 
 /// Overlays need the engine itself, and so does a still. A record holds pixels, which are drawn where it is
 /// kept.
-int workersOf(const RenderOptions& options, const Plan& plan, const Overlays& overlays) {
+int workersOf(const RenderOptions& options, const RenderPlan& plan, const Overlays& overlays) {
   const int frames = static_cast<int>(plan.frames.size());
   if (overlays.any() || options.at_s || hasRecord(options, overlays) || frames < 2) return 1;
   return std::min(frames, options.workers > 0 ? options.workers : usualWorkers(frames));
-}
-
-/// Streams of bare colours, moving pictures and sheets have no alpha, and overlays are drawn over a whole
-/// picture.
-void requireAlpha(const RenderOptions& options, const OverlayChoice& shown) {
-  const auto refuse = [](const std::string& with, const char* accepted) {
-    throw UsageError("--background none with " + with + ": accepted: " + accepted);
-  };
-  if (options.style != "daylight") refuse("--style " + options.style, "--style daylight");
-  if (shown.any()) refuse("--overlay", "none");
-  if (options.caption) refuse("--caption on", "--caption off");
-  if (!options.sheet.empty()) refuse("--sheet", "PNG frames");
-  if (!options.moving.empty()) refuse(options.moving.string(), "PNG frames");
-  if (!options.stream.empty() && options.stream != "png")
-    refuse("--stream " + options.stream, "--stream png");
-}
-
-/// None where the frames go into a stream, a moving picture or a sheet.
-std::optional<FrameNames> frameNames(const RenderOptions& options, const std::string& scene) {
-  if (!options.stream.empty() || !options.moving.empty() || !options.sheet.empty()) return std::nullopt;
-  const std::string& output = options.output;
-  if (options.at_s) return FrameNames::still(output.empty() ? "frames/" + scene + "/still.png" : output);
-  return FrameNames(output.empty() ? "frames/" + scene + "/frame_%04d.png" : output);
 }
 
 Json meshesJson(const std::vector<std::pair<std::string, MeshReport>>& meshes) {
@@ -587,7 +313,7 @@ ExitCode render(const RenderOptions& options) {
   std::optional<RecordingReader> recording;
   if (!options.from.empty()) recording.emplace(options.from);
   const OverlayChoice shown = readOverlays(options.overlays);
-  const Plan plan = planned(options, recording);
+  const RenderPlan plan = planned(options, recording);
   if (plan.cutout) requireAlpha(options, shown);
   if (!options.stream.empty()) requireStreamable(options, plan.outputs);
   const std::optional<FrameNames> names = frameNames(options, plan.scene.name);
@@ -631,18 +357,18 @@ ExitCode render(const RenderOptions& options) {
     source.emplace(made, fine_clock, facts, overlays.phases(), [&recorder](const World& world) {
       if (recorder) recorder->follow(world);
     });
-  Run run{plan,
-          names ? &*names : nullptr,
-          options.resume,
-          made,
-          *source,
-          camera,
-          manifest.has_caption ? &caption : nullptr,
-          scale,
-          overlays,
-          manifest,
-          recorder ? &*recorder : nullptr,
-          {}};
+  RenderRun run{plan,
+                names ? &*names : nullptr,
+                options.resume,
+                made,
+                *source,
+                camera,
+                manifest.has_caption ? &caption : nullptr,
+                scale,
+                overlays,
+                manifest,
+                recorder ? &*recorder : nullptr,
+                {}};
   const Sink sink = sinkOf(options);
 
   catchInterrupts();

@@ -1,9 +1,9 @@
 #include "demos/video/contact_sheet.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
+#include "demos/format/formatted.h"
 #include "demos/system/exit_code.h"
 #include "engine/foundation/contract.h"
 #include "renderer/drawing/canvas.h"
@@ -80,11 +80,9 @@ renderer::Image ContactSheet::image() const {
   const renderer::TextStyle style{.size_px = size_px, .ink = {{0.1f, 0.1f, 0.1f}}, .bold = true, .halo = 0.8};
   for (std::size_t i = 0; i < times_s_.size(); ++i) {
     const int place = static_cast<int>(i);
-    char time[32];
-    std::snprintf(time, sizeof time, "%.2f s", times_s_[i]);
     canvas.text({offset(place % sheet_.columns, width_) + 0.5 * size_px,
                  offset(place / sheet_.columns, height_) + size_px},
-                time, style);
+                formatted("%.2f s", times_s_[i]), style);
   }
   return canvas.image();
 }

@@ -1,3 +1,4 @@
+#include "demos/format/formatted.h"
 #include "demos/overlay/overlays.h"
 
 #include <fstream>
@@ -307,7 +308,7 @@ TEST_F(Block, StatisticsAreTheWorldsOwn) {
   const ShownEnergy energy = shownEnergy(run.made.world, run.state.bodies);
   EXPECT_NEAR(energy.kinetic_J, audit.kinetic_energy_J, 1e-9 * audit.kinetic_energy_J);
   EXPECT_NEAR(energy.potential_J, audit.potential_energy_J, 1e-9 * std::abs(audit.potential_energy_J));
-  EXPECT_NE(rows[3].text.find(numberText("= %.4g J kinetic", audit.kinetic_energy_J)), std::string::npos)
+  EXPECT_NE(rows[3].text.find(formatted("= %.4g J kinetic", audit.kinetic_energy_J)), std::string::npos)
       << rows[3].text;
   // The panel: white, with dark letters.
   const Pen pen(ShownOverlays::kHeight);
