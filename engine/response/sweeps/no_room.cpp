@@ -11,7 +11,8 @@ namespace carom {
 namespace {
 
 constexpr int kSweeps = 16;  // before impulses are taken to grow evenly; twice as many each time they do not
-constexpr std::size_t kMostVisits = 4000;  // of rows, the last time: a row of n bodies takes some n^2 sweeps
+constexpr std::size_t kMostRoomVisits =
+    4000;  // of rows, the last time: a row of n bodies takes some n^2 sweeps
 // A body that would have to give way so many times as fast as it is pushed is blocked: pressed by a wedge of
 // two degrees, for one.
 constexpr double kMostLeverage = 30.0;
@@ -151,7 +152,8 @@ std::vector<int> leavingNoRoom(std::span<const ContactRow> rows, std::span<const
     Swept swept = begin(rows, start, rubs);
     growthIn(kSweeps, swept);
     for (int sweeps = kSweeps;
-         sweeps == kSweeps || static_cast<std::size_t>(sweeps) * rows.size() <= kMostVisits; sweeps *= 2) {
+         sweeps == kSweeps || static_cast<std::size_t>(sweeps) * rows.size() <= kMostRoomVisits;
+         sweeps *= 2) {
       const std::vector<Vec3> growth = growthIn(sweeps, swept);
       if (prove(rows, growth, start)) return pushersOf(rows, growth, start);
     }

@@ -150,7 +150,7 @@ bool hasDriven(std::span<const ContactRow> rows, const std::vector<Body>& bodies
   });
 }
 
-void takeBack(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+void undoImpulses(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   for (ContactRow& row : rows) {
     row.impulse = -row.impulse;
     row.torque = -row.torque;
@@ -185,7 +185,7 @@ std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::sp
     if (!std::any_of(rows.begin(), rows.end(),
                      [&](const ContactRow& row) { return isStopped(row.a) || isStopped(row.b); }))
       continue;
-    takeBack(rows, contacts.bodies);
+    undoImpulses(rows, contacts.bodies);
     again.push_back(i);
   }
   return again;

@@ -88,6 +88,7 @@ const ShippedMesh kShipped[] = {
     {"gear-27.obj", surfaceVolume("gear-27.obj"), 28},
     {"link.obj", surfaceVolume("link.obj"), 12},
     {"ring.obj", surfaceVolume("ring.obj"), 16},
+    {"fine-ring.obj", surfaceVolume("fine-ring.obj"), 40},
     {"drum.obj", surfaceVolume("drum.obj"), 144},
     {"bolt.obj", surfaceVolume("bolt.obj"), 99},
     {"nut.obj", surfaceVolume("nut.obj"), 142},

@@ -18,8 +18,9 @@ namespace carom::demos {
 inline std::string openedPage(const std::string& address, const std::string& options) {
   const TemporaryFolder user;
   return endOfShell(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir=" +
-      (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null")
+             "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
+             "--user-data-dir=" +
+             (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null")
       .out;
 }
 
