@@ -94,8 +94,8 @@ def rockslide(count=220):
            "wood": {"staticFriction": 0.4, "density": 500, "surface": "wood"},
            "stone": {"staticFriction": 0.35, "restitution": 0.1, "density": 2400, "surface": "marble"}},
           bodies, {"main": {"keyframes": [
-              {"time": 0, "eye": [9.5, -10.5, 8.2], "target": [-6.0, 0, 6.6], "fovDegrees": 40},
-              {"time": 1.4, "eye": [10.5, -10.5, 6.6], "target": [-3.4, 0, 3.6], "fovDegrees": 40},
+              {"time": 0, "eye": [8.5, -10.5, 9.4], "target": [-7.2, 0, 6.3], "fovDegrees": 26},
+              {"time": 1.4, "eye": [10.5, -10.5, 6.6], "target": [-3.4, 0, 3.6], "fovDegrees": 34},
               {"time": 3.4, "eye": [11.6, -8.6, 4.9], "target": [2.4, 0, 0.7], "fovDegrees": 40}]}}, 5, FOLDER, 60, group="large",
           light={"direction": [0.9, -0.6, 0.8]},
           lookFor="Boulders part the stream; the huts ride on the front until it stops, while the tail still comes down.",
