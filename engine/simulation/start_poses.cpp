@@ -43,6 +43,7 @@ std::vector<Overlap> overlapsOf(const PairTable& table, const Depth& depthOf) {
     overlap = {pair.body_a, pair.body_b, depth, 0.5 * (pair.closest.p_A_W + pair.closest.p_B_W)};
   }
   std::vector<Overlap> overlaps;
+  overlaps.reserve(deepest.size());
   for (const auto& [bodies, overlap] : deepest) overlaps.push_back(overlap);
   std::stable_sort(overlaps.begin(), overlaps.end(),
                    [](const Overlap& x, const Overlap& y) { return x.depth_m > y.depth_m; });

@@ -295,7 +295,7 @@ void World::Impl::updateModes() {
   }
   std::vector<char> sliding(contacts.rows.size());
   crew.runStretches(sliding.size(), kFewRows, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) sliding[i] = slides(contacts.rows[i], contacts.bodies);
+    for (std::size_t i = begin; i < end; ++i) sliding[i] = slides(contacts.rows[i], contacts.bodies) ? 1 : 0;
   });
   for (std::size_t i = 0; i < sliding.size(); ++i) {
     if (!sliding[i]) continue;

@@ -582,10 +582,11 @@ void ContactCluster::keepPlannedForces() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (!bodies_[at(members_[i].body)].yields()) continue;
     const std::span<const int> pairs = table_.pairsOf(members_[i].body);
-    pressed_[i] = std::any_of(pairs.begin(), pairs.end(), [&](int pair) {
+    const bool is_pressed = std::any_of(pairs.begin(), pairs.end(), [&](int pair) {
       return std::ranges::any_of(table_.pairs()[at(pair)].remembered,
                                  [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
     });
+    pressed_[i] = is_pressed ? 1 : 0;
   }
   findBends();
 }

@@ -578,23 +578,30 @@ class EventLoop {
         keepPath(body, i, rest);
         continue;
       }
-      body.lifting = 0.0;  // its path is that of its momentum again
-      const bool flies = body.travel == Travel::kBallistic || member.expanded || !(rest > 0.0);
-      if (flies && !cluster_.pressed(i)) {
-        body.travel = Travel::kBallistic;
-        planner_.plan(member.body, body);
-        if (straight && cluster_.size() > 2) straighten(body, rest);
-      } else {
-        const Velocity& end = cluster_.end(i);
-        body.travel = Travel::kCarried;
-        drive(body, end, rest);
-        carryAlong(body,
-                   {0.5 * (body.momentum_velocity.linear + end.linear),
-                    0.5 * (body.momentum_velocity.angular + end.angular)},
-                   rest, !straight && cluster_.bends(i));
-      }
-      cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
+      followMomentum(i, rest, straight);
     }
+  }
+
+  // The path that its new momentum takes a member of the cluster.
+  void followMomentum(std::size_t i, double rest, bool straight) {
+    const ContactCluster::Member& member = cluster_.member(i);
+    Body& body = bodies_[at(member.body)];
+    body.lifting = 0.0;  // its path is that of its momentum again
+    const bool flies = body.travel == Travel::kBallistic || member.expanded || !(rest > 0.0);
+    if (flies && !cluster_.pressed(i)) {
+      body.travel = Travel::kBallistic;
+      planner_.plan(member.body, body);
+      if (straight && cluster_.size() > 2) straighten(body, rest);
+    } else {
+      const Velocity& end = cluster_.end(i);
+      body.travel = Travel::kCarried;
+      drive(body, end, rest);
+      carryAlong(body,
+                 {0.5 * (body.momentum_velocity.linear + end.linear),
+                  0.5 * (body.momentum_velocity.angular + end.angular)},
+                 rest, !straight && cluster_.bends(i));
+    }
+    cluster_.setPath(i, {body.path.velocity + 0.5 * rest * body.path.acceleration, body.path.spin});
   }
 
   // To `end`, by the tensor of the path's start.
