@@ -32,11 +32,7 @@ double pushOfB(const ContactRow& row, std::span<const ImpulseBody> bodies) {
 // The bodies without what the rows have given them.
 std::vector<ImpulseBody> before(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
   std::vector<ImpulseBody> without(bodies.begin(), bodies.end());
-  for (ContactRow row : rows) {
-    row.impulse = -row.impulse;
-    row.torque = -row.torque;
-    applyLoad(row, without);
-  }
+  for (const ContactRow& row : rows) takeBackLoad(row, without);
   return without;
 }
 

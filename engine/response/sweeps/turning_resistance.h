@@ -19,6 +19,20 @@ inline void applyLoad(const ContactRow& row, std::span<ImpulseBody> bodies) {
   applyToRow(row, row.impulse, bodies);
   if (row.resists_turning) applyTorqueToRow(row, row.torque, bodies);
 }
+/// Takes that from the bodies again; the row keeps it.
+inline void takeBackLoad(ContactRow row, std::span<ImpulseBody> bodies) {
+  row.impulse = -row.impulse;
+  row.torque = -row.torque;
+  applyLoad(row, bodies);
+}
+/// As if the rows had never given anything.
+inline void undoLoads(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+  for (ContactRow& row : rows) {
+    takeBackLoad(row, bodies);
+    row.impulse.setZero();
+    row.torque.setZero();
+  }
+}
 /// Of `prepareRow`: what the resistance needs to know of the bodies. Cuts levers so long (longer than the
 /// bodies) that the torque of a normal impulse could undo half of what that does to the separating speed:
 /// pressed apart by what presses them together, contacts would have no impulses to agree on.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <utility>
 
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/dissection.h"
@@ -26,6 +27,11 @@ constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean;
 // height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
 double lastingHeight(const ShapePair& pair, double step_s) {
   return pair.window.ceiling + pair.collision_speed_mps * step_s;
+}
+
+// So many landings of an island of a world of `rows` can be solved as events within a step's budget.
+int fewLandings(std::size_t rows) {
+  return sweepsInBudget(rows) / kVisitsOfAnEvent;
 }
 
 bool givesWay(const ShapePair& pair, const std::vector<Body>& bodies) {
@@ -100,20 +106,39 @@ class Assembly {
     });
   }
 
-  // Those that come down within the step on the paths that their bodies are likely to take.
+  // Those that come down within the step on the paths that their bodies are likely to take, where they may be
+  // a crowd.
   void foreseeLandings() {
-    findNear();
     const std::vector<int>& active = world_.table.active();
+    enum : char { kNo, kApproaches, kForeseen };
+    std::vector<char> landings(active.size(), kNo);
+    world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const ShapePair& pair = world_.table.pairs()[at(active[i])];
+        landings[i] = pair.landing ? kForeseen : comesDown(pair) ? kApproaches : kNo;
+      }
+    });
+    const auto none = std::count(landings.begin(), landings.end(), kNo);
+    if (static_cast<std::ptrdiff_t>(landings.size()) - none <= fewLandings(rememberedRows())) return;
+    findNear();
     world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       StepCounters made;
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
-        if (!pair.landing && comesDown(pair)) pair.landing = foreseenLanding(pair, made);
+        if (landings[i] == kApproaches && !isInDoubt(pair.body_a) && !isInDoubt(pair.body_b))
+          pair.landing = foreseenLanding(pair, made);
       }
       std::atomic_ref(counters_.distance_queries) += made.distance_queries;
       std::atomic_ref(counters_.states_walked) += made.states_walked;
       std::atomic_ref(counters_.newton_steps) += made.newton_steps;
     });
+  }
+
+  // At least as many as this step's pairs had in the last one.
+  std::size_t rememberedRows() const {
+    std::size_t rows = 0;
+    for (const int i : world_.table.active()) rows += world_.table.pairs()[at(i)].remembered.size();
+    return rows;
   }
 
   // Which bodies are near enough to others to be held by them.
@@ -138,7 +163,7 @@ class Assembly {
     const Body& body = world_.bodies[at(index)];
     Trajectory path = body.path;
     if (!moves(index) || body.contact_force.isZero(0.0)) return path;
-    const Vec3 acceleration = world_.settings.gravity + body.contact_force / body.inertia.mass_kg;
+    const Vec3 acceleration = body.acceleration + body.contact_force / body.inertia.mass_kg;
     path.velocity = body.velocity.linear + 0.5 * world_.settings.step_s * acceleration;
     path.acceleration.setZero();
     return path;
@@ -157,8 +182,7 @@ class Assembly {
     // So much nearer at most, with what gravity adds.
     const double nearer = step_s * (0.5 * step_s * world_.settings.gravity.norm() - parting);
     return nearer > step_s * pair.collision_speed_mps &&
-           pair.closest.distance_m - nearer < pair.window.landing && !isInDoubt(pair.body_a) &&
-           !isInDoubt(pair.body_b);
+           pair.closest.distance_m - nearer < pair.window.landing;
   }
 
   std::optional<Landing> foreseenLanding(const ShapePair& pair, StepCounters& made) const {
@@ -192,7 +216,7 @@ class Assembly {
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
-        const bool last = pair.landing || (isLasting(pair, world_.settings.step_s) && !isInternal(active[i]));
+        const bool last = pair.landing || lastsAsItLies(active[i]);
         lasts[i] = last ? 1 : 0;
         if (!last) pair.remembered.clear();
       }
@@ -211,16 +235,19 @@ class Assembly {
       rows += pair.remembered.size();
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
-    keepCrowded(landings, rows);
+    keepCrowded(std::move(landings), rows);
   }
 
   // The landings of the others are events; they last, or not, as they lie now.
-  void keepCrowded(std::span<const int> landings, std::size_t rows) {
+  void keepCrowded(std::vector<int> landings, std::size_t rows) {
     if (landings.empty()) return;
     crowdedLandings(landings, world_, rows, contacts_.room.joined);
+    std::sort(landings.begin(), landings.end());
     std::erase_if(lasting_, [&](const LastingPair& lasting) {
       ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
-      if (pair.landing || isLasting(pair, world_.settings.step_s)) return false;
+      if (pair.landing || !std::binary_search(landings.begin(), landings.end(), lasting.pair) ||
+          lastsAsItLies(lasting.pair))
+        return false;
       pair.remembered.clear();
       return true;
     });
@@ -229,6 +256,10 @@ class Assembly {
   PlacedPair placed(int index) const {
     const ShapePair& pair = world_.table.pairs()[at(index)];
     return {pair, pair.closest, world_.bodies[at(pair.body_a)].X_WB, world_.bodies[at(pair.body_b)].X_WB};
+  }
+
+  bool lastsAsItLies(int index) const {
+    return isLasting(world_.table.pairs()[at(index)], world_.settings.step_s) && !isInternal(index);
   }
 
   // Whether a pair's contact is one with an internal edge.
@@ -389,12 +420,8 @@ class Assembly {
       const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
       const bool is_met = meets(pair.body_a) || meets(pair.body_b);
       if (is_met && isOneOf(of_pair.pair, pairs)) {
-        for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
-          ContactRow given_back = contacts_.rows[i];
-          given_back.impulse = -given_back.impulse;
-          given_back.torque = -given_back.torque;
-          applyLoad(given_back, contacts_.bodies);
-        }
+        for (std::size_t i = of_pair.begin; i < of_pair.end; ++i)
+          takeBackLoad(contacts_.rows[i], contacts_.bodies);
         continue;
       }
       kept.pairs.push_back({of_pair.pair, pair.body_a, pair.body_b, of_pair.end - of_pair.begin});
@@ -486,7 +513,7 @@ class Assembly {
 Landing landingOn(const Trajectory& a, const Trajectory& b, const TimeOfImpact& found) {
   const double t = found.time_s;
   const auto mean = [&](const Trajectory& path) {
-    return Velocity{path.velocity + 0.5 * t * path.acceleration, path.angularVelocityAt(t)};
+    return Velocity{path.meanVelocity(path.start_s, t), path.angularVelocityAt(t)};
   };
   return {t, found.closest, a.at(t), b.at(t), mean(a), mean(b)};
 }
@@ -494,19 +521,19 @@ Landing landingOn(const Trajectory& a, const Trajectory& b, const TimeOfImpact& 
 std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld& world, std::size_t rows,
                                  Islands& islands) {
   const auto moves = [&](int body) { return world.bodies[at(body)].moves(); };
-  std::vector<int> island_of;  // the pairs
-  for (const int index : pairs) {
+  const auto islandOf = [&](int index) {
     const ShapePair& pair = world.table.pairs()[at(index)];
-    island_of.push_back(islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
-  }
-  const int most = sweepsInBudget(rows) / kVisitsOfAnEvent;
+    return at(islands.of(moves(pair.body_a) ? pair.body_a : pair.body_b));
+  };
+  std::vector<int> landings(world.bodies.size(), 0);  // by island
+  for (const int pair : pairs) ++landings[islandOf(pair)];
+  const int few = fewLandings(rows);
   std::vector<int> crowded;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (std::count(island_of.begin(), island_of.end(), island_of[k]) > most)
-      crowded.push_back(pairs[k]);
+  for (const int pair : pairs)
+    if (landings[islandOf(pair)] > few)
+      crowded.push_back(pair);
     else
-      world.table.pairs()[at(pairs[k])].landing.reset();
-  }
+      world.table.pairs()[at(pair)].landing.reset();
   return crowded;
 }
 

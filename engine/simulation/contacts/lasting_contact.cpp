@@ -150,16 +150,6 @@ bool hasDriven(std::span<const ContactRow> rows, const std::vector<Body>& bodies
   });
 }
 
-void undoImpulses(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
-  for (ContactRow& row : rows) {
-    row.impulse = -row.impulse;
-    row.torque = -row.torque;
-    applyLoad(row, bodies);
-    row.impulse.setZero();
-    row.torque.setZero();
-  }
-}
-
 // Kinematic bodies that leave others no room stop where they are, for the step. Returns the islands that are
 // to be solved anew.
 std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::span<const std::size_t> islands,
@@ -185,7 +175,7 @@ std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::sp
     if (!std::any_of(rows.begin(), rows.end(),
                      [&](const ContactRow& row) { return isStopped(row.a) || isStopped(row.b); }))
       continue;
-    undoImpulses(rows, contacts.bodies);
+    undoLoads(rows, contacts.bodies);
     again.push_back(i);
   }
   return again;

@@ -308,13 +308,7 @@ std::vector<int> ContactCluster::drivenWithoutRoom() const {
 
 // They stay where they are from now on, and the rows begin anew.
 void ContactCluster::stopDriven(std::span<const int> members) {
-  for (ContactRow& row : rows_) {
-    row.impulse = -row.impulse;
-    row.torque = -row.torque;
-    applyLoad(row, stageBodies());
-    row.impulse.setZero();
-    row.torque.setZero();
-  }
+  undoLoads(rows_, stageBodies());
   for (const int i : members) {
     Member& member = members_[at(i)];
     member.stops = true;

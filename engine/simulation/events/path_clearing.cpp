@@ -17,8 +17,6 @@ namespace {
 constexpr double kOverRelaxed = 1.3;
 // Of what a gap misses to the rest gap: so much is opened over the rest of the step.
 constexpr double kOpened = 0.5;
-// Of the collision speed: the fastest closing that is left to a wider place.
-constexpr double kWideShare = 0.5;
 // Of the rest gap: a place that misses less has been led apart.
 constexpr double kSlack = 0.05;
 // Radians: of what turns by less, the rows have seen the end of the arc to 1 %.
@@ -51,7 +49,7 @@ void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool
   place.p_A_W = found.closest.p_A_W;
   place.p_B_W = found.closest.p_B_W;
   place.wanted_mps =
-      std::clamp(kOpened * missing_m / rest_s, -kWideShare * pair.collision_speed_mps, tolerance::kGapSpeed);
+      std::clamp(kOpened * missing_m / rest_s, -kSlowShare * pair.collision_speed_mps, tolerance::kGapSpeed);
   place.slack_mps = kSlack * pair.window.rest / rest_s;
   const double fastest =
       std::max(bodies[at(pair.body_a)].path.fastestSpin(), bodies[at(pair.body_b)].path.fastestSpin());
