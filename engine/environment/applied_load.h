@@ -15,6 +15,8 @@ struct AppliedLoad {
   bool isZero() const { return force_W.isZero(0.0) && !bends(); }
   /// Whether more than a constant force in the world acts: then no parabola is the body's path.
   bool bends() const { return !torque_W.isZero(0.0) || !force_B.isZero(0.0) || !torque_B.isZero(0.0); }
+  /// Whether a part of it turns with the body.
+  bool turnsAlong() const { return !force_B.isZero(0.0) || !torque_B.isZero(0.0); }
   Vec3 force(const Quat& R_WB) const { return force_W + R_WB * force_B; }
   Vec3 torque(const Quat& R_WB) const { return torque_W + R_WB * torque_B; }
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "engine/foundation/elementary.h"
-#include "engine/motion/free_rotation.h"
 
 namespace carom {
 namespace {
@@ -49,6 +48,7 @@ int strokesFor(const Environment& environment, const EnvironmentBody& body, cons
   const double surface_speed = speed + turning * radius;
   const double way = (speed + 0.5 * gravity * dt_s) * dt_s;
   double most = 1.0;
+  if (body.load != nullptr && body.load->turnsAlong()) most = std::max(most, turning * dt_s / kTurn);
   const Air& air = environment.air;
   if (air.density_kgpm3 > 0.0) {
     const double rate =
@@ -115,13 +115,23 @@ void kick(const PushedBody& pushed, double t_s, double dt_s, ForceScratch& scrat
   state.angular_momentum += R_WB * momentum.tail<3>();
 }
 
-Vec3 spinBetween(const Inertia& inertia, const Pose& from, const State& to, const Velocity& velocity,
-                 double dt_s) {
-  const Vec3 omega_end = angularVelocity(inertia, to.X_WB.rotation, to.angular_momentum);
-  const double fastest = std::max(velocity.angular.norm(), omega_end.norm());
-  if (fastest * dt_s > kLargestTurn)
-    return torqueFreeSpin(inertia, from.rotation, 0.5 * (velocity.angular + omega_end), dt_s);
-  return rotationOf(to.X_WB.rotation * from.rotation.conjugate()) / dt_s;
+void findRotation(const PushedBody& pushed, const Pose& from, const Velocity& velocity, double dt_s,
+                  EnvironmentFlight& flight) {
+  const Inertia& inertia = *pushed.body.inertia;
+  const Quat& R = flight.X_end.rotation;
+  const Vec3 omega_end = angularVelocity(inertia, R, flight.angular_momentum_end);
+  const double turn = std::max(velocity.angular.norm(), omega_end.norm()) * dt_s;
+  if (!pushed.environment.isVacuum() && turn <= kLargestTurn) {
+    flight.spin = rotationOf(R * from.rotation.conjugate()) / dt_s;
+    return;
+  }
+  const Vec3 momentum = angularMomentum(inertia, from.rotation, velocity.angular);
+  const Vec3 omega =
+      angularVelocity(inertia, from.rotation, 0.5 * (momentum + flight.angular_momentum_end));
+  flight.spin = omega;
+  if (inertia.isIsotropic() || omega.isZero(0.0)) return;
+  flight.tumbling = FreeRotation(inertia, from.rotation, omega);
+  flight.spin = flight.tumbling.meanSpin(from.rotation, dt_s);
 }
 
 }  // namespace
@@ -137,8 +147,10 @@ EnvironmentFlight flyThroughEnvironment(const PushedBody& pushed, const Pose& X_
     kick(pushed, t_s + (i + 0.5) * k, k, scratch, state);
     drift(inertia, i + 1 < strokes ? k : 0.5 * k, state);
   }
-  return {state.X_WB, state.velocity, state.angular_momentum,
-          spinBetween(inertia, X_WB, state, velocity, dt_s), strokes};
+  EnvironmentFlight flight{state.X_WB, state.velocity, state.angular_momentum};
+  flight.strokes = strokes;
+  findRotation(pushed, X_WB, velocity, dt_s, flight);
+  return flight;
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 // tests/physics/water/floating_test.cpp.
 
 #include "engine/environment/body_forces.h"
+#include "engine/motion/free_rotation.h"
 
 namespace carom {
 
@@ -16,7 +17,12 @@ struct EnvironmentFlight {
   Pose X_end;
   Vec3 velocity_end = Vec3::Zero();          ///< m/s of the centre of mass.
   Vec3 angular_momentum_end = Vec3::Zero();  ///< World frame.
-  Vec3 spin = Vec3::Zero();  ///< The constant spin that leads to X_end; past two radians, near it.
+  /// The constant spin that leads to X_end in air and fluids, where that is within two radians.
+  Vec3 spin = Vec3::Zero();
+  /// Else, unless the inertia is isotropic: the free rotation with the mean of the angular momenta, which leads
+  /// near X_end. Half of what acts then acts before and half after it, which is Strang's splitting as well and
+  /// as free of drift. `spin` is its mean, as far as it has one.
+  FreeRotation tumbling = {};
   int strokes = 0;
 };
 

@@ -1,5 +1,7 @@
 // Constant forces and torques on bodies: flight, friction, spin, and the work that they do.
 
+#include <numbers>
+
 #include "tests/physics/small_world.h"
 #include "tests/support/world_energy.h"
 
@@ -63,6 +65,32 @@ TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {
     EXPECT_LT((state.angular_velocity - 3.0 * 2.0 / moment * axis).norm(), 1e-9);
     EXPECT_NEAR(energyOf(world) / world.audit().work_J, 1.0, 1e-9);
     EXPECT_LT(state.X_WB.rotation.angularDistance(rotationBy(0.5 * 9.0 * 2.0 / moment * axis) * R), 1e-9);
+  }
+}
+
+// A flat body that is spun up to turns a step, about its axis or tumbling: its angular momentum is the torque's
+// and its energy is what the torque has done.
+TEST(ConstantTorque, SpinsABodyUpThroughTurnsAStep) {
+  const Vec3 size(0.5, 0.3, 0.05);
+  for (const double tilt : {1e-6, 0.5}) {
+    World world({1.0 / 60.0, kNoGravity});
+    const Vec3 torque(0, 0, 200);
+    const int plate = addLoaded(world, Solid::box(size), {oracle::turned(Vec3::UnitX(), tilt), Vec3::Zero()},
+                                {.torque_W = torque});
+    ASSERT_TRUE(world.start().empty());
+    const Vec3 squared = size.cwiseAbs2();
+    const Vec3 moments = world.mass(plate) / 12.0 * (Vec3::Constant(squared.sum()) - squared);
+    double fastest = 0.0;
+    for (int i = 1; i <= 300; ++i) {
+      world.step();
+      const BodyState& state = world.states()[static_cast<std::size_t>(plate)];
+      const Mat3 R = state.X_WB.rotation.toRotationMatrix();
+      const Vec3 momentum = R * moments.cwiseProduct(R.transpose() * state.angular_velocity);
+      EXPECT_LT((momentum / (i / 60.0) - torque).norm(), 1e-9 * torque.norm());
+      EXPECT_NEAR(energyOf(world) / world.audit().work_J, 1.0, 1e-9);
+      fastest = std::max(fastest, state.angular_velocity.norm() / 60.0);
+    }
+    EXPECT_GT(fastest, 4.0 * std::numbers::pi);
   }
 }
 

@@ -20,6 +20,25 @@ ForceScratch& scratch() {
   return scratch;
 }
 
+// The integral of the angular velocity over the path, rad. A path that tumbles has the mean of the step's
+// angular momenta: half of what is given to them is given at its start and half at its end, and gives the
+// mean of the spins before and after.
+Vec3 turnedBy(const Body& body, double step_s, double end_s) {
+  const Trajectory& path = body.path;
+  const double dt = end_s - path.start_s;
+  if (body.travel != Travel::kBallistic) return dt * path.spin;
+  const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, body.momentum_velocity.angular);
+  const auto spinAt = [&](double t_s, const Vec3& L) {
+    return angularVelocity(body.inertia, path.at(t_s).rotation, L);
+  };
+  if (path.tumbling.empty())
+    return dt * spinAt(path.start_s + 0.5 * dt, momentum + (0.5 * dt) * body.torque);
+  const Vec3& on_path = path.tumbling.angularMomentum();
+  const double half_s = 0.5 * (step_s - path.start_s);
+  return (0.5 * half_s) * (body.momentum_velocity.angular + spinAt(path.start_s, on_path)) +
+         (0.5 * (dt - half_s)) * (spinAt(end_s, on_path) + spinAt(end_s, momentum + dt * body.torque));
+}
+
 }  // namespace
 
 FlightPlanner::FlightPlanner(const WorldSettings& settings)
@@ -91,19 +110,19 @@ void FlightPlanner::planPath(int index, Body& body) const {
   path.acceleration = (flight.velocity_end - start.linear) / dt;
   body.acceleration = path.acceleration - body.inertia.inverse_mass * body.contact_force;
   body.torque = (flight.angular_momentum_end - momentum) / dt - body.contact_torque;
-  Vec3 spin = flight.spin;
+  path.turnAt(flight.spin);
+  path.tumbling = flight.tumbling;
   if (body.locks.any()) {
     mean = body.locks.movingPart(mean);
     path.acceleration = body.locks.movingPart(path.acceleration);
     body.acceleration = body.locks.movingPart(body.acceleration);
     body.torque = body.locks.turningPart(body.torque);
-    spin = body.locks.turningPart(spin);
+    path.turnAt(body.locks.turningPart(flight.spin));
   }
   const double swing = 0.5 * dt * path.acceleration.norm();
   if (path.acceleration.norm() > kBraking * environment_.gravity.norm() && swing > mean.norm())
     path.acceleration *= mean.norm() / swing;
   path.velocity = mean - (0.5 * dt) * path.acceleration;
-  path.turnAt(spin);
 }
 
 void FlightPlanner::drive(int index, Body& body) const {
@@ -182,15 +201,24 @@ bool FlightPlanner::isWeightAll(int index, const Body& body) const {
   return isVacuum() && loads_[at(index)].isZero() && !body.locks.any();
 }
 
+// What the load is in the mean over the path, in the world. Without air and fluids it is all but gravity that
+// acts in flight; else it is taken halfway.
+AppliedLoad FlightPlanner::meanLoad(int index, const Body& body, double end_s) const {
+  if (isVacuum() && body.travel == Travel::kBallistic)
+    return {body.inertia.mass_kg * (body.acceleration - environment_.gravity), body.torque};
+  const AppliedLoad& load = loads_[at(index)];
+  const Quat R_WB = body.path.at(0.5 * (body.path.start_s + end_s)).rotation;
+  return {load.force(R_WB), load.torque(R_WB)};
+}
+
 double FlightPlanner::workOfLoad(int index, const Body& body, double end_s) const {
   const AppliedLoad& load = loads_[at(index)];
   if (load.isZero() || !body.moves()) return 0.0;
   const Trajectory& path = body.path;
   const Vec3 way = path.positionAt(end_s) - path.X_WB.position;
   if (!load.bends()) return load.force_W.dot(way);
-  const double dt = end_s - path.start_s;
-  const Quat R_WB = path.at(path.start_s + 0.5 * dt).rotation;
-  return load.force(R_WB).dot(way) + dt * load.torque(R_WB).dot(path.spin);
+  const AppliedLoad mean = meanLoad(index, body, end_s);
+  return mean.force_W.dot(way) + mean.torque_W.dot(turnedBy(body, step_s_, end_s));
 }
 
 bool FlightPlanner::restless(const Body& body) const {

@@ -65,6 +65,7 @@ class FlightPlanner {
   void planPath(int index, Body& body) const;
   bool isTouched(int index, const Body& body, double rest_of_step_s) const;
   Vec3 parabolaOf(int index, const Body& body) const;
+  AppliedLoad meanLoad(int index, const Body& body, double end_s) const;
   EnvironmentBody environmentBody(int index, const Body& body) const;
 
   Environment environment_;
