@@ -72,11 +72,15 @@ TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {
 // and its energy is what the torque has done.
 TEST(ConstantTorque, SpinsABodyUpThroughTurnsAStep) {
   const Vec3 size(0.5, 0.3, 0.05);
-  for (const double tilt : {1e-6, 0.5}) {
+  for (const auto& [tilt, is_locked] : {std::pair(1e-6, false), {0.5, false}, {0.5, true}}) {
     World world({1.0 / 60.0, kNoGravity});
     const Vec3 torque(0, 0, 200);
-    const int plate = addLoaded(world, Solid::box(size), {oracle::turned(Vec3::UnitX(), tilt), Vec3::Zero()},
-                                {.torque_W = torque});
+    BodyDescription d;
+    d.solid = world.addSolid(Solid::box(size));
+    d.X_WB.rotation = oracle::turned(Vec3::UnitX(), tilt);
+    d.load.torque_W = torque;
+    if (is_locked) d.locks.free_axes = Vec3(0, 1, 1);
+    const int plate = world.addBody(d);
     ASSERT_TRUE(world.start().empty());
     const Vec3 squared = size.cwiseAbs2();
     const Vec3 moments = world.mass(plate) / 12.0 * (Vec3::Constant(squared.sum()) - squared);

@@ -110,14 +110,13 @@ void FlightPlanner::planPath(int index, Body& body) const {
   path.acceleration = (flight.velocity_end - start.linear) / dt;
   body.acceleration = path.acceleration - body.inertia.inverse_mass * body.contact_force;
   body.torque = (flight.angular_momentum_end - momentum) / dt - body.contact_torque;
-  path.turnAt(flight.spin);
-  path.tumbling = flight.tumbling;
+  path.turnAt(body.locks.turningPart(flight.spin));
+  path.tumbling = flight.tumbling;  // of a body whose turning is locked there is none
   if (body.locks.any()) {
     mean = body.locks.movingPart(mean);
     path.acceleration = body.locks.movingPart(path.acceleration);
     body.acceleration = body.locks.movingPart(body.acceleration);
     body.torque = body.locks.turningPart(body.torque);
-    path.turnAt(body.locks.turningPart(flight.spin));
   }
   const double swing = 0.5 * dt * path.acceleration.norm();
   if (path.acceleration.norm() > kBraking * environment_.gravity.norm() && swing > mean.norm())
