@@ -641,7 +641,8 @@ class EventLoop {
       Body& body = bodies_[at(index)];
       if (!body.yields() || body.travel == Travel::kHeld || !cluster_.pathChanged(i)) continue;
       if (body.resting) wakeInStep(index);
-      if (!isTouched(i)) {
+      // What was asleep when momenta were taken may be touched now, and was not then.
+      if (std::find(changed_.begin(), changed_.end(), index) == changed_.end()) {
         bring(index, time_s);
         changed_.push_back(index);
       }
