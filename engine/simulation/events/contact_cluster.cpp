@@ -19,10 +19,7 @@
 namespace carom {
 namespace {
 
-// Rows visited in one solve of so few rows that pivoting takes them, at most. What lies between bodies a
-// thousand times as heavy converges slowly, and there that is waited for.
-constexpr long kFewRowsVisits = 4000;
-// Of the safe residual: the one to which few rows are solved while these visits last.
+// Of the safe residual: what sweeps over few rows leave over more of is solved at once, and to this.
 constexpr double kFewRowsShare = 1e-3;
 // Sweeps between two looks at which bodies the impulses have reached.
 constexpr int kSweepsARound = 4;
@@ -279,10 +276,6 @@ int ContactCluster::mostSweeps() const {
   return isCrowd() ? kCrowdSweeps : kMostSweeps;
 }
 
-long ContactCluster::fewRowsVisits() const {
-  return rows_.size() <= kMostPivotedRows ? kFewRowsVisits : 0;
-}
-
 void ContactCluster::solveSpreading(double careful_mps) {
   // Each round stops a member, or is the last.
   while (!sweepSpreading(careful_mps)) {
@@ -326,10 +319,8 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
   bool resumes = false;
   bool solved_at_once = false;
   bool reached = false;  // all whom the impulses reach have joined
-  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || visits < fewRowsVisits();) {
-    const double enough = visits < kCarefulVisits    ? std::min(careful_mps, safe)
-                          : visits < fewRowsVisits() ? kFewRowsShare * safe
-                                                     : safe;
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps();) {
+    const double enough = visits < kCarefulVisits ? std::min(careful_mps, safe) : safe;
     const int fine_sweeps =
         std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
     const bool fine = reached && !isCrowd();
@@ -344,17 +335,19 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
     visits += report.visits;
     visits_ += report.visits;
     const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
-    if (!grew && report.residual_mps <= enough) return true;
     reached = !grew;
-    const bool diverges = fine && !grew && report.residual_mps > safe;
-    if (!diverges || solved_at_once || rows_.size() > kMostPivotedRows) continue;
-    solved_at_once = true;
-    solveAtOnce(enough);
+    const bool leaves_much = report.residual_mps > kFewRowsShare * safe;
+    if (fine && !grew && leaves_much && !solved_at_once && rows_.size() <= kMostPivotedRows) {
+      solved_at_once = true;
+      solveAtOnce(kFewRowsShare * safe);
+    } else if (!grew && report.residual_mps <= enough) {
+      return true;
+    }
   }
   return false;
 }
 
-// Few rows that sweeps do not bring to rest: bodies of very different mass lie on each other.
+// Few rows that sweeps do not bring to rest: what lies between bodies a thousand times as heavy.
 void ContactCluster::solveAtOnce(double enough_mps) {
   if (stage_ == Stage::kPath) return pivotPaths();
   const SolverSettings settings{.sweeps = kFineSweeps, .residual_mps = enough_mps};

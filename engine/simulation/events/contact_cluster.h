@@ -128,8 +128,7 @@ class ContactCluster {
   double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
   double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.
   bool isCrowd() const;
-  int mostSweeps() const;      ///< Of one solve.
-  long fewRowsVisits() const;  ///< Of rows, for a solve of few.
+  int mostSweeps() const;  ///< Of one solve.
   void fixPath(std::size_t i);
   void startAgain();
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
