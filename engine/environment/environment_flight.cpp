@@ -126,8 +126,7 @@ void findRotation(const PushedBody& pushed, const Pose& from, const Velocity& ve
     return;
   }
   const Vec3 momentum = angularMomentum(inertia, from.rotation, velocity.angular);
-  const Vec3 omega =
-      angularVelocity(inertia, from.rotation, 0.5 * (momentum + flight.angular_momentum_end));
+  const Vec3 omega = angularVelocity(inertia, from.rotation, 0.5 * (momentum + flight.angular_momentum_end));
   flight.spin = omega;
   if (inertia.isIsotropic() || omega.isZero(0.0)) return;
   flight.tumbling = FreeRotation(inertia, from.rotation, omega);

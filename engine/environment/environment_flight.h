@@ -19,9 +19,9 @@ struct EnvironmentFlight {
   Vec3 angular_momentum_end = Vec3::Zero();  ///< World frame.
   /// The constant spin that leads to X_end in air and fluids, where that is within two radians.
   Vec3 spin = Vec3::Zero();
-  /// Else, unless the inertia is isotropic: the free rotation with the mean of the angular momenta, which leads
-  /// near X_end. Half of what acts then acts before and half after it, which is Strang's splitting as well and
-  /// as free of drift. `spin` is its mean, as far as it has one.
+  /// Else, unless the inertia is isotropic: the free rotation with the mean of the angular momenta, which
+  /// leads near X_end. Half of what acts then acts before and half after it, which is Strang's splitting as
+  /// well and as free of drift. `spin` is its mean, as far as it has one.
   FreeRotation tumbling = {};
   int strokes = 0;
 };

@@ -68,8 +68,8 @@ TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {
   }
 }
 
-// A flat body that is spun up to turns a step, about its axis or tumbling: its angular momentum is the torque's
-// and its energy is what the torque has done.
+// A flat body that is spun up to turns a step, about its axis or tumbling: its angular momentum is the
+// torque's and its energy is what the torque has done.
 TEST(ConstantTorque, SpinsABodyUpThroughTurnsAStep) {
   const Vec3 size(0.5, 0.3, 0.05);
   for (const auto& [tilt, is_locked] : {std::pair(1e-6, false), {0.5, false}, {0.5, true}}) {

@@ -31,8 +31,7 @@ Vec3 turnedBy(const Body& body, double step_s, double end_s) {
   const auto spinAt = [&](double t_s, const Vec3& L) {
     return angularVelocity(body.inertia, path.at(t_s).rotation, L);
   };
-  if (path.tumbling.empty())
-    return dt * spinAt(path.start_s + 0.5 * dt, momentum + (0.5 * dt) * body.torque);
+  if (path.tumbling.empty()) return dt * spinAt(path.start_s + 0.5 * dt, momentum + (0.5 * dt) * body.torque);
   const Vec3& on_path = path.tumbling.angularMomentum();
   const double half_s = 0.5 * (step_s - path.start_s);
   return (0.5 * half_s) * (body.momentum_velocity.angular + spinAt(path.start_s, on_path)) +
