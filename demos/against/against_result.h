@@ -1,10 +1,11 @@
 #pragma once
 // Two programs that took turns frame by frame: whether this one is slower or faster than the other, in which
 // phase, and the smallest difference that would have been seen. A verdict takes three things: an exact sign
-// test over all paired frames, an exact signed-rank test over the rounds of fresh processes, and a size above
-// what the layout of memory alone is known to do. Frames of a round share two processes, and where the pages
-// of a process come to lie makes some of them slower by a few percent throughout: so the median of a round
-// is one difference more, and the number of rounds decides what can be told.
+// test over all turns and their reverse (A B, B A), an exact signed-rank test over the rounds of fresh
+// processes, and a size above what the layout of memory alone is known to do. Frames of a round share two
+// processes, and where their data come to lie, and on which processor each runs, makes one of them slower by
+// a few percent throughout: so the median of a round is one difference more, and the number of rounds decides
+// what can be told.
 // Tested in tests/demos/against/against_result_test.cpp.
 
 #include <string>

@@ -161,15 +161,24 @@ std::vector<std::string> pacedWords(const BudgetOptions& options, const std::vec
   return words;
 }
 
+/// Times of the CPU are of one processor, for two of them are seldom equally quick: the next one after two
+/// rounds, so that on each of them either program starts first.
+std::optional<int> processorOf(const BudgetOptions& options, int round) {
+  const std::vector<int> all = usableProcessors();
+  if (options.clock != "cpu" || all.empty()) return {};
+  return all[static_cast<std::size_t>(round / 2) % all.size()];
+}
+
 /// Both processes afresh; in turns A B, B A.
 AgainstRound playedRound(const BudgetOptions& options, const std::vector<std::string>& other, int round,
                          Progress& progress, int& done) {
   AgainstRound played;
   // Who starts first changes from round to round as well.
+  const std::optional<int> processor = processorOf(options, round);
   std::optional<PacedProgram> a, b;
-  if (round % 2 == 0) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom");
-  b.emplace(pacedWords(options, other), other[0]);
-  if (!a) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom");
+  if (round % 2 == 0) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom", processor);
+  b.emplace(pacedWords(options, other), other[0], processor);
+  if (!a) a.emplace(pacedWords(options, {"/proc/self/exe"}), "carom", processor);
   const int frames = a->awaitReady();
   if (const int others = b->awaitReady(); others != frames)
     throw InputError("--against: " + other[0] + " has " + std::to_string(others) + " frames, not " +

@@ -185,6 +185,11 @@ std::string updateCommand(const CompareOptions& options, const std::string& how 
   return command + how;
 }
 
+std::string undoCommand(const CompareOptions& options) {
+  return "carom compare " + shellWord(options.actual.string()) + " " + shellWord(options.golden.string()) +
+         " --undo";
+}
+
 const Comparison* firstUnreadable(const std::vector<Comparison>& comparisons) {
   for (const Comparison& c : comparisons)
     if (c.verdict == Verdict::kUnreadable) return &c;
@@ -259,7 +264,8 @@ ExitCode compare(const CompareOptions& options) {
                            options.amplify,
                            isUpdate(options),
                            {options.accepted.begin(), options.accepted.end()},
-                           updateCommand(options, " --accept ")});
+                           updateCommand(options, " --accept "),
+                           undoCommand(options)});
   if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
   if (!options.junit.empty()) writeJunit(options, comparisons, gate);
   ComparisonOutcome outcome{comparisons, gate, report.string(), {}};

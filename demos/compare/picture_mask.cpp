@@ -44,7 +44,8 @@ bool isMarked(const renderer::Raster& image, std::size_t pixel) {
 
 }  // namespace
 
-PictureMask::PictureMask(const std::vector<std::string>& texts, RecordShelf& shelf) : shelf_(shelf) {
+PictureMask::PictureMask(const std::vector<std::string>& texts, RecordShelf& shelf)
+    : texts_(texts), shelf_(shelf) {
   for (const std::string& text : texts) {
     Rule rule;
     char rest = 0;
@@ -64,48 +65,56 @@ PictureMask::PictureMask(const std::vector<std::string>& texts, RecordShelf& she
 
 PictureMask::~PictureMask() = default;
 
-void PictureMask::apply(const ImagePair& pair, renderer::Raster& actual,
-                        const renderer::Raster& golden) const {
-  if (!any() || !renderer::comparable(actual, golden) || actual.channels != golden.channels) return;
-  const auto pixels = static_cast<std::size_t>(actual.width) * static_cast<std::size_t>(actual.height);
-  std::vector<bool> masked(pixels, false);
-  for (const Rule& rule : rules_) {
-    if (rule.image) {
-      if (rule.image->width != actual.width || rule.image->height != actual.height)
-        throw InputError("--mask png:" + rule.file + ": " + std::to_string(rule.image->width) + "x" +
-                         std::to_string(rule.image->height) + "; accepted: the size of " + pair.name + ", " +
-                         std::to_string(actual.width) + "x" + std::to_string(actual.height));
-      for (std::size_t i = 0; i < pixels; ++i) masked[i] = masked[i] || isMarked(*rule.image, i);
-    } else if (rule.body.empty()) {
-      for (int y = rule.y; y < std::min(rule.y + rule.height, actual.height); ++y)
-        for (int x = rule.x; x < std::min(rule.x + rule.width, actual.width); ++x)
-          masked[static_cast<std::size_t>(y * actual.width + x)] = true;
-    } else {
-      const std::lock_guard lock(reading_);
-      bool known = false;
-      for (const auto& path : {pair.actual, pair.golden}) {
-        const MotionRecord* record = shelf_.of(path);
-        const RecordedShot* shot = record != nullptr
-                                       ? record->shotOf(std::filesystem::path(pair.name).filename().string())
-                                       : nullptr;
-        if (shot == nullptr || shot->width != actual.width || shot->height != actual.height ||
-            shot->bodies.empty())
-          continue;
-        for (std::size_t b = 0; b < record->bodies.size(); ++b) {
-          if (record->bodies[b].name != rule.body) continue;
-          known = true;
-          markBody(*shot, static_cast<std::int32_t>(b), [&](std::size_t i) { masked[i] = true; });
-        }
-      }
-      if (!known)
-        throw InputError("--mask body:" + rule.body + ": no record beside " + pair.name +
-                         " knows it; accepted: a body of frames drawn with --states or --portable");
+void PictureMask::maskBody(const std::string& body, const ImagePair& pair, std::vector<bool>& masked,
+                           int width) const {
+  const std::lock_guard lock(reading_);
+  bool known = false;
+  for (const auto& path : {pair.actual, pair.golden}) {
+    const MotionRecord* record = shelf_.of(path);
+    const RecordedShot* shot =
+        record != nullptr ? record->shotOf(std::filesystem::path(pair.name).filename().string()) : nullptr;
+    if (shot == nullptr || shot->width != width || shot->bodies.size() != masked.size()) continue;
+    for (std::size_t b = 0; b < record->bodies.size(); ++b) {
+      if (record->bodies[b].name != body) continue;
+      known = true;
+      markBody(*shot, static_cast<std::int32_t>(b), [&](std::size_t i) { masked[i] = true; });
     }
   }
-  const auto channels = static_cast<std::size_t>(actual.channels);
-  for (std::size_t i = 0; i < pixels; ++i)
+  if (!known)
+    throw InputError("--mask body:" + body + ": no record beside " + pair.name +
+                     " knows it; accepted: a body of frames drawn with --states or --portable");
+}
+
+std::vector<bool> PictureMask::maskedPixels(const ImagePair& pair, int width, int height) const {
+  std::vector<bool> masked(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), false);
+  for (const Rule& rule : rules_) {
+    if (rule.image) {
+      if (rule.image->width != width || rule.image->height != height)
+        throw InputError("--mask png:" + rule.file + ": " + std::to_string(rule.image->width) + "x" +
+                         std::to_string(rule.image->height) + "; accepted: the size of " + pair.name + ", " +
+                         std::to_string(width) + "x" + std::to_string(height));
+      for (std::size_t i = 0; i < masked.size(); ++i) masked[i] = masked[i] || isMarked(*rule.image, i);
+    } else if (!rule.body.empty()) {
+      maskBody(rule.body, pair, masked, width);
+    } else {
+      for (int y = rule.y; y - rule.y < rule.height && y < height; ++y)
+        for (int x = rule.x; x - rule.x < rule.width && x < width; ++x)
+          masked[static_cast<std::size_t>(y * width + x)] = true;
+    }
+  }
+  return masked;
+}
+
+void PictureMask::apply(const ImagePair& pair, renderer::Raster& actual,
+                        const renderer::Raster& golden) const {
+  if (!any() || !renderer::comparable(actual, golden)) return;
+  const std::vector<bool> masked = maskedPixels(pair, actual.width, actual.height);
+  const renderer::Raster wanted = renderer::inCommonChannels(golden, actual);
+  if (actual.channels != wanted.channels) actual = renderer::inCommonChannels(actual, golden);
+  const auto channels = static_cast<std::size_t>(wanted.channels);
+  for (std::size_t i = 0; i < masked.size(); ++i)
     if (masked[i])
-      for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) actual.samples[c] = golden.samples[c];
+      for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) actual.samples[c] = wanted.samples[c];
 }
 
 }  // namespace carom::demos

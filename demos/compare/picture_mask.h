@@ -27,13 +27,21 @@ class PictureMask {
   PictureMask& operator=(const PictureMask&) = delete;
 
   bool any() const { return !rules_.empty(); }
-  /// Makes the masked pixels of `actual` those of `golden`, where the two are comparable. From any thread.
-  /// Throws InputError where a body is masked and the frame has no record, or where an image is of another
-  /// size.
+  /// As they were given.
+  const std::vector<std::string>& texts() const { return texts_; }
+  /// Whether each pixel is masked, row by row. REQUIRES a size that both images of the pair have. From any
+  /// thread. Throws InputError where a body is masked and the frame has no record, or where an image is of
+  /// another size.
+  std::vector<bool> maskedPixels(const ImagePair& pair, int width, int height) const;
+  /// Makes the masked pixels of `actual` those of `golden`, where the two are comparable; it then has the
+  /// channels in which they are compared. From any thread. Throws InputError as maskedPixels.
   void apply(const ImagePair& pair, renderer::Raster& actual, const renderer::Raster& golden) const;
 
  private:
   struct Rule;
+  void maskBody(const std::string& body, const ImagePair& pair, std::vector<bool>& masked, int width) const;
+
+  std::vector<std::string> texts_;
   std::vector<Rule> rules_;
   RecordShelf& shelf_;
   mutable std::mutex reading_;  // of the shelf

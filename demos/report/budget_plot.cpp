@@ -13,7 +13,9 @@
 namespace carom::demos {
 namespace {
 
-constexpr double kWidth = 960.0, kLeft = 56.0, kRight = 760.0, kTop = 46.0, kBottom = 340.0;
+constexpr double kWidth = 1040.0, kLeft = 56.0, kRight = 760.0, kTop = 46.0, kBottom = 340.0;
+constexpr double kLine = 18.0;    // from one line of text to the next
+constexpr double kLabels = 13.0;  // likewise, of labels that would else lie over each other
 constexpr std::size_t kSlowest = 5;
 /// One a phase; apart in grey and for every common kind of colour vision, in the order of the stack.
 constexpr std::array<const char*, kFramePhases> kColors = {"#1b4f72", "#2e86c1", "#85c1e9", "#b9770e",
@@ -50,7 +52,7 @@ std::string stackText(const BudgetPlot& plot, const Scale& scale) {
       forth += formatted("%.2f,%.2f ", scale.x(i), scale.y(below[i]));
     }
     text += formatted("<polygon fill=\"%s\" points=\"", kColors[p]) + forth + back + "\"/>\n";
-    const double y = kTop + 18.0 * static_cast<double>(kFramePhases - 1 - p);
+    const double y = kTop + kLine * static_cast<double>(kFramePhases - 1 - p);
     text += formatted(
         "<rect x=\"%.0f\" y=\"%.0f\" width=\"11\" height=\"11\" fill=\"%s\"/><text x=\"%.0f\" y=\"%.0f\">%s",
         kRight + 62.0, y, kColors[p], kRight + 79.0, y + 10.0, kFramePhaseNames[p]);
@@ -77,22 +79,21 @@ std::string axesText(const BudgetPlot& plot, const Scale& scale) {
 std::string linesText(const BudgetPlot& plot, const Scale& scale) {
   std::string text;
   const std::vector<double> totals = totals_ms(plot.frames);
-  for (const double percent : {50.0, 95.0, 99.0}) {
+  double label_y = 0.0;
+  for (const double percent : {99.0, 95.0, 50.0}) {
     if (static_cast<int>(totals.size()) < framesNeeded(percent)) continue;
     const double y = scale.y(percentile(totals, percent));
+    label_y = std::max(y + 4.0, label_y + kLabels);
     text += formatted(
         "<line class=\"tick\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.2f\" y2=\"%.2f\"/><text x=\"%.0f\" "
         "y=\"%.2f\">p%g</text>\n",
-        kRight, kRight + 8.0, y, y, kRight + 11.0, y + 4.0, percent);
+        kRight, kRight + 8.0, y, y, kRight + 11.0, label_y, percent);
   }
   if (!plot.other_ms.empty()) {
     text += "<polyline class=\"other\" points=\"";
     for (std::size_t i = 0; i < std::min(plot.other_ms.size(), plot.frames.size()); ++i)
       text += formatted("%.2f,%.2f ", scale.x(i), scale.y(plot.other_ms[i]));
     text += "\"/>\n";
-    text +=
-        formatted("<text x=\"%.0f\" y=\"%.0f\">line: ", kRight + 62.0, kTop + 18.0 * kFramePhases + 14.0) +
-        markupText(plot.other) + "</text>\n";
   }
   if (plot.budget_ms > 0.0 && plot.budget_ms <= scale.most_ms)
     text += formatted(
@@ -131,16 +132,19 @@ std::string plotSvg(const BudgetPlot& plot) {
   for (const double ms : plot.other_ms) scale.most_ms = std::max(scale.most_ms, 1.08 * ms);
   // A deadline far above the frames would press them flat: it is drawn where it can be seen beside them.
   if (plot.budget_ms <= 3.0 * scale.most_ms) scale.most_ms = std::max(scale.most_ms, 1.08 * plot.budget_ms);
-  const double height = kBottom + 36.0 + 18.0 * static_cast<double>(plot.notes.size());
+  std::vector<std::string> notes = plot.notes;
+  if (!plot.other_ms.empty()) notes.push_back("line: " + plot.other);
+  const double height = kBottom + 36.0 + kLine * static_cast<double>(notes.size());
   std::string text = formatted(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" role=\"img\">\n", kWidth, height);
   text += "<title>" + markupText(plot.title) + "</title>\n" + kStyle;
   text +=
       formatted("<text class=\"title\" x=\"%.0f\" y=\"22\">", kLeft) + markupText(plot.title) + "</text>\n";
   text += axesText(plot, scale) + stackText(plot, scale) + linesText(plot, scale);
-  for (std::size_t i = 0; i < plot.notes.size(); ++i)
-    text += formatted("<text x=\"%.0f\" y=\"%.0f\">", kLeft, kBottom + 40.0 + 18.0 * static_cast<double>(i)) +
-            markupText(plot.notes[i]) + "</text>\n";
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    text +=
+        formatted("<text x=\"%.0f\" y=\"%.0f\">", kLeft, kBottom + 40.0 + kLine * static_cast<double>(i)) +
+        markupText(notes[i]) + "</text>\n";
   return text + "</svg>\n";
 }
 

@@ -67,6 +67,7 @@ button:focus-visible, #stage:focus-visible, .filter:focus-within { outline: 2px 
 .pane { grid-area: 1 / 1; position: relative; overflow: hidden; background: var(--stage); border-radius: 6px; }
 .pane[hidden] { display: none; }
 .pane img { display: block; width: 100%; height: 100%; object-fit: contain; transform-origin: 0 0; }
+.pane img.over { position: absolute; inset: 0; pointer-events: none; } .pane img.over[hidden] { display: none; }
 .pane img.crisp { image-rendering: pixelated; }
 .label { position: absolute; left: 10px; top: 10px; padding: 1px 9px; border-radius: 99px; font-size: 12px;
   background: rgb(20 20 18 / .78); color: #fff; }
@@ -114,7 +115,8 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
   <nav aria-label="Pairs of images, worst first">
     <label class="filter" id="filter"><input type="checkbox" id="passing"> <span id="passing-text"></span></label>
     <ol id="list"></ol>
-    <p id="accept" hidden>accept the chosen with<br><code id="accept-command"></code></p>
+    <p id="accept" hidden>accept the chosen with<br><code id="accept-command"></code><br>
+      take it back with<br><code id="undo-command"></code></p>
   </nav>
   <section id="viewer">
     <h2 class="name" id="name"></h2>
@@ -132,11 +134,11 @@ kbd { padding: 0 5px; border: 1px solid var(--line); border-bottom-width: 2px; b
       <button id="blink" aria-pressed="false">Blink</button>
     </div>
     <figure id="stage" tabindex="0" aria-label="The images of this pair">
-      <div class="pane" data-of="golden"><img alt="golden" draggable="false"><div class="mark"></div>
+      <div class="pane" data-of="golden"><img alt="golden" draggable="false"><img class="over" alt="" draggable="false" hidden><div class="mark"></div>
         <span class="label">golden</span></div>
-      <div class="pane" data-of="actual"><img alt="actual" draggable="false"><div class="mark"></div>
+      <div class="pane" data-of="actual"><img alt="actual" draggable="false"><img class="over" alt="" draggable="false" hidden><div class="mark"></div>
         <span class="label">actual</span></div>
-      <div class="pane" data-of="difference"><img alt="difference" draggable="false"><div class="mark"></div>
+      <div class="pane" data-of="difference"><img alt="difference" draggable="false"><img class="over" alt="" draggable="false" hidden><div class="mark"></div>
         <span class="label">difference</span></div>
       <div id="split" hidden></div>
     </figure>
@@ -208,6 +210,7 @@ function fillAccept() {
   byId("accept").hidden = chosen.size === 0;
   const names = [...chosen].sort((a, b) => a - b).map(i => quoted(pairs[i].name));
   byId("accept-command").textContent = facts.accept + names.join(",");
+  byId("undo-command").textContent = facts.undo;
 }
 function fillList() {
   byId("list").replaceChildren(...listed().map(i => {
@@ -295,11 +298,16 @@ function transformOf(pair) {
   const offset = centre.map(c => 100 * Math.min(0, Math.max(1 - scale, 0.5 - scale * c)));
   return "translate(" + offset[0] + "%, " + offset[1] + "%) scale(" + scale + ")";
 }
-function placePane(pane, pair, source, many) {
-  const image = pane.querySelector("img"), mark = pane.querySelector(".mark");
+function placeImage(image, pair, source) {
   if (image.getAttribute("src") !== source) image.src = source;
   image.style.transform = transformOf(pair);
   image.classList.toggle("crisp", state.zoomed || pair.width < 640);
+}
+function placePane(pane, pair, source, many) {
+  const mark = pane.querySelector(".mark"), over = pane.querySelector(".over"), mask = imagesOf(state.pair).mask;
+  placeImage(pane.querySelector("img"), pair, source);
+  over.hidden = !mask;
+  if (mask) placeImage(over, pair, mask);
   pane.style.aspectRatio = pair.width + " / " + pair.height;
   pane.style.maxWidth = many ? "" : "calc(72vh * " + pair.width / pair.height + ")";
   mark.hidden = !pair.tile || state.zoomed || pair.passes;
@@ -354,7 +362,9 @@ function draw() {
   empty.textContent = pair.embedded ? "Images of different sizes have no difference image." :
     pair.verdict === "same" ? "Both images are the same." : pair.verdict === "unreadable" ?
     "No image can be shown." : "Not among the worst " + facts.embedded + " pairs, whose images this file holds.";
-  byId("note").textContent = images.note || "";
+  const masked = images.masked === 1 ? " 1 pixel, striped, is not looked at." :
+    images.masked ? " " + grouped(images.masked) + " pixels, striped, are not looked at." : "";
+  byId("note").textContent = (images.note || "") + masked;
   for (const button of byId("list").querySelectorAll("button"))
     button.setAttribute("aria-current", Number(button.dataset.pair) === state.pair);
   try { history.replaceState(null, "", "#" + state.pair + "/" + state.view); } catch (refused) { /* not vital */ }

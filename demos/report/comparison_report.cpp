@@ -1,6 +1,7 @@
 #include "demos/report/comparison_report.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "demos/cause/cause_json.h"
@@ -95,6 +96,30 @@ std::string noteOf(bool has_difference, bool stretched, const Range& range, cons
   return note;
 }
 
+/// Stripes on the masked pixels and nothing elsewhere; no image where there are none.
+std::optional<Raster> maskImage(const std::vector<bool>& masked, int width, int height) {
+  constexpr std::array<std::uint16_t, 4> kStripe = {255, 176, 0, 150}, kBetween = {28, 27, 25, 110};
+  constexpr int kStripeWidth = 3;  // pixels
+  if (std::find(masked.begin(), masked.end(), true) == masked.end()) return std::nullopt;
+  Raster image{width, height, 4, 8, std::vector<std::uint16_t>(4 * masked.size(), 0)};
+  for (std::size_t i = 0; i < masked.size(); ++i) {
+    if (!masked[i]) continue;
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const auto& color = (x + y) / kStripeWidth % 2 == 0 ? kStripe : kBetween;
+    std::copy(color.begin(), color.end(), image.samples.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  }
+  return image;
+}
+
+/// How many pixels of the pair are not looked at, and where these are.
+void addMask(const Comparison& c, const PictureMask& mask, const Raster& golden, Json& images) {
+  const std::vector<bool> masked = mask.maskedPixels(c.pair, golden.width, golden.height);
+  const std::optional<Raster> image = maskImage(masked, golden.width, golden.height);
+  if (!image) return;
+  images.set("mask", dataAddress(*image));
+  images.set("masked", static_cast<double>(std::count(masked.begin(), masked.end(), true)));
+}
+
 Json imagesOf(const Comparison& c, const ReportPlan& plan) {
   const std::optional<Raster> actual = readAgain(c.pair.actual, c.actual_shape);
   const std::optional<Raster> golden = readAgain(c.pair.golden, c.golden_shape);
@@ -107,7 +132,10 @@ Json imagesOf(const Comparison& c, const ReportPlan& plan) {
   if (has_difference) {
     const int tolerance = plan.gate.toleranceOf(actual->fullScale());
     Raster looked_at = *actual;
-    if (plan.gate.mask != nullptr) plan.gate.mask->apply(c.pair, looked_at, *golden);
+    if (plan.gate.mask != nullptr) {
+      plan.gate.mask->apply(c.pair, looked_at, *golden);
+      addMask(c, *plan.gate.mask, *golden, images);
+    }
     images.set("difference",
                dataAddress(renderer::differenceImage(looked_at, *golden, {tolerance, plan.amplify})));
   }
@@ -179,11 +207,14 @@ void writeComparisonReport(const std::filesystem::path& path, const std::vector<
   const auto fact = [](const char* term, const std::string& text) { return Json::array({term, text}); };
   Json about = Json::array(
       {fact("actual", plan.actual), fact("golden", plan.golden), fact("each channel", gateText(plan.gate))});
+  if (plan.gate.mask != nullptr)
+    for (const std::string& mask : plan.gate.mask->texts()) about.push(fact("masked", mask));
   writeData(file, "facts",
             Json::object({{"summary", tallyText(tallyOf(comparisons))},
                           {"about", std::move(about)},
                           {"embedded", plan.embedded},
                           {"accept", plan.accept_command},
+                          {"undo", plan.undo_command},
                           {"pairs", std::move(pairs)}}));
   file.write(kPageBottom);
   file.commit();

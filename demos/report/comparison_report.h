@@ -23,6 +23,7 @@ struct ReportPlan {
   bool updates = false;                 ///< The golden images are about to be replaced.
   std::set<std::string> accepted = {};  ///< Only those of these pairs; empty: all that do not pass.
   std::string accept_command = {};      ///< What the names of chosen pairs are to be put behind; empty: none.
+  std::string undo_command = {};        ///< What takes the last update back; empty: none.
 };
 
 /// Throws CannotWrite.

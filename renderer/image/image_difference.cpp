@@ -56,8 +56,7 @@ template <typename Use>
 auto withCommonChannels(const Raster& a, const Raster& b, Use&& use) {
   REQUIRE(comparable(a, b), a.width, a.height, a.bits, b.width, b.height, b.bits);
   if (a.channels == b.channels) return use(a, b);
-  const int channels = commonChannels(a.channels, b.channels);
-  return use(widened(a, channels), widened(b, channels));
+  return use(inCommonChannels(a, b), inCommonChannels(b, a));
 }
 
 struct TileSum {
@@ -157,6 +156,11 @@ std::array<std::uint8_t, 3> pictured(const std::uint16_t* p, const std::uint16_t
 
 bool comparable(const Raster& a, const Raster& b) {
   return a.width == b.width && a.height == b.height && a.bits == b.bits;
+}
+
+Raster inCommonChannels(const Raster& a, const Raster& b) {
+  const int channels = commonChannels(a.channels, b.channels);
+  return a.channels == channels ? a : widened(a, channels);
 }
 
 std::string shapeText(const RasterShape& shape) {

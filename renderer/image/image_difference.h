@@ -41,6 +41,10 @@ struct ImageDifference {
 /// against no alpha, can: the narrower one is widened.
 bool comparable(const Raster& a, const Raster& b);
 
+/// `a` with the channels that it and `b` are compared in: grey becomes three equal ones where either has
+/// colours, no alpha opaque where either has it.
+Raster inCommonChannels(const Raster& a, const Raster& b);
+
 /// "640x360 16-bit grey"
 std::string shapeText(const RasterShape& shape);
 

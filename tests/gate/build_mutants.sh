@@ -23,9 +23,9 @@ mutate() {
   cp "$build/demos/carom" "$out/$1"
   cp "$out/saved" "$copy/$2"
 }
-mutate light renderer/view/view.h "to_light = Vec3(0.50, -0.50, 0.85)" "to_light = Vec3(0.55, -0.50, 0.85)"
-mutate shader renderer/draw/shaders.h "kSkyLight = vec3(0.32," "kSkyLight = vec3(0.34,"
-mutate tone-map renderer/draw/shaders.h "inversesqrt(1.0 + light * light)" "inversesqrt(1.1 + light * light)"
+mutate light renderer/look/light.h "to_light = Vec3(0.50, -0.50, 0.85)" "to_light = Vec3(0.55, -0.50, 0.85)"
+mutate shader renderer/glsl/body_fragment.glsl "kSkyLight, 0.5 + 0.5 * n.z" "kSkyLight, 0.54 + 0.46 * n.z"
+mutate tone-map renderer/glsl/light.glsl "inversesqrt(1.0 + light * light)" "inversesqrt(1.1 + light * light)"
 mutate solver engine/foundation/tolerances.h "kSolverResidual = 1.0e-8" "kSolverResidual = 1.0e-6"
 # For work_seen.py: one sweep more a solve, one texel more a side of the shadow map, one band of a PNG more.
 mutate sweep engine/response/sweeps/contact_solver.cpp "if (hasConverged(report, settings, enough, rows.size())) break;" \

@@ -71,6 +71,41 @@ TEST(Against, APhaseThatTakesLongerIsNamedAndNoOther) {
   EXPECT_EQ(result(played(1, 0.8)).phases[static_cast<std::size_t>(FramePhase::kDraw)].speed, Speed::kFaster);
 }
 
+// A frame that follows one of the same program finds its data in the cache: in A B, B A that is the first of
+// each.
+TEST(Against, WhoFindsItsDataInTheCacheDoesNotHideWhatIsSlower) {
+  std::vector<AgainstRound> rounds = played(5, 1.03, FramePhase::kEncode);
+  for (std::size_t r = 0; r < rounds.size(); ++r)
+    for (std::size_t i = 0; i < rounds[r].now.size(); ++i) {
+      FrameCost& first = (i + r) % 2 == 0 ? rounds[r].now[i] : rounds[r].other[i];
+      for (double& phase_ms : first.phase_ms) phase_ms *= 0.8;
+      first.total_ms *= 0.8;
+    }
+  const AgainstResult r = result(rounds);
+  for (std::size_t p = 0; p < kFramePhases; ++p)
+    EXPECT_EQ(r.phases[p].speed,
+              p == static_cast<std::size_t>(FramePhase::kEncode) ? Speed::kSlower : Speed::kSame)
+        << r.phases[p].name << " " << r.phases[p].change << " " << r.phases[p].smallest;
+}
+
+// Ten frames take less and ten more to pack than the middle one, and now all take 3 % more, but for one that
+// has next to nothing to pack: the middle of them all is then another frame's, and takes as long as the one
+// before.
+TEST(Against, HowMuchOfAFrameAPhaseTakesIsAskedOfPairs) {
+  constexpr auto kEncode = static_cast<std::size_t>(FramePhase::kEncode);
+  std::vector<AgainstRound> rounds(kFewestRounds);
+  for (AgainstRound& round : rounds)
+    for (int i = 0; i < 20; ++i)
+      for (std::vector<FrameCost>* side : {&round.now, &round.other}) {
+        FrameCost cost;
+        cost.phase_ms[kEncode] = 0.5 + 0.025 * i;
+        if (side == &round.now) cost.phase_ms[kEncode] *= i == 10 ? 0.3 : 1.03;
+        cost.total_ms = 10.0 + cost.phase_ms[kEncode];
+        side->push_back(cost);
+      }
+  EXPECT_EQ(result(rounds).phases[kEncode].speed, Speed::kSlower);
+}
+
 TEST(Against, OfTheFewestRoundsAllMustAgree) {
   std::vector<AgainstRound> rounds = played(3);
   for (std::size_t r = 1; r < rounds.size(); ++r)

@@ -47,6 +47,23 @@ TEST_F(Masked, RectanglesBodiesAndImagesAreNotLookedAt) {
   EXPECT_EQ(left({"png:" + png.string()}), 199);
 }
 
+// Grey against colours, and no alpha against alpha, are compared; so masks hold there as well.
+TEST_F(Masked, ImagesOfOtherChannelsAreMasked) {
+  const PictureMask mask({"rect:2,3,4,5"}, shelf_);
+  const renderer::Raster rgb = flatRaster(20, 10, 50);
+  const renderer::Raster grey{20, 10, 1, 8, std::vector<std::uint16_t>(200, 90)};
+  renderer::Raster clear{20, 10, 4, 8, std::vector<std::uint16_t>(800, 90)};
+  const renderer::Raster rasters[] = {rgb, grey, clear};
+  for (const renderer::Raster& golden : rasters)
+    for (const renderer::Raster& given : rasters) {
+      if (given.channels == golden.channels) continue;
+      renderer::Raster actual = given;
+      mask.apply({"f.png", "a/f.png", "g/f.png", true, true}, actual, golden);
+      EXPECT_EQ(renderer::differenceOf(actual, golden, 2).pixels_different, 180)
+          << given.channels << " of " << golden.channels;
+    }
+}
+
 TEST_F(Masked, WhatCannotBeMaskedIsSaid) {
   for (const char* text : {"", "crate", "rect:1,2,3", "rect:1,2,0,4", "rect:1,2,3,4,5", "body:", "png:"})
     EXPECT_NE(thrownMessage<UsageError>([&] { left({text}); }).find("accepted: body:NAME"), std::string::npos)

@@ -29,14 +29,19 @@ double cpuSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Calls, and keeps the processor busy for the share of the time it took.
+/// Calls, and keeps the processor busy for the share of the time it took. What a call is kept too long, by
+/// one look at the clock at most, the next are kept less.
 template <typename Call>
 void slowly(const Call& call) {
+  thread_local double owed_s = 0.0;
   const double begin_s = cpuSeconds();
   call();
   const double end_s = cpuSeconds();
-  const double until_s = end_s + slowdown() * (end_s - begin_s);
-  while (cpuSeconds() < until_s) continue;
+  owed_s += slowdown() * (end_s - begin_s);
+  if (owed_s <= 0.0) return;
+  double now_s = end_s;
+  while (now_s - end_s < owed_s) now_s = cpuSeconds();
+  owed_s -= now_s - end_s;
 }
 
 }  // namespace

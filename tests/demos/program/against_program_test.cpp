@@ -1,6 +1,10 @@
 // `carom budget --against` from outside: equal programs, other states, programs that are none.
+#include <fstream>
+#include <set>
+
 #include <gtest/gtest.h>
 
+#include "demos/against/paced_program.h"
 #include "demos/format/json.h"
 #include "tests/demos/support/program_run.h"
 
@@ -44,6 +48,45 @@ TEST(BudgetAgainst, OtherStatesAreSaidWithTheirFrame) {
   ProgramEnd end = runCarom({"budget", file, "-q", "--size", "64x48", "--replays", "2", "--against", other});
   EXPECT_NE(end.err.find("has 15 frames, not 30"), std::string::npos) << end.err << end.out;
   EXPECT_EQ(end.code, 3);
+}
+
+/// What the lines of `script` print in each process of the other program, in the order of the rounds.
+std::vector<std::string> toldByOther(const std::string& script, const std::vector<std::string>& more) {
+  const TemporaryFolder folder;
+  const std::string told = (folder.path() / "told").string();
+  const std::filesystem::path other = folder.file(
+      "carom", "#!/bin/sh\n{ " + script + "; } >> '" + told + "'\nexec '" CAROM_BINARY "' \"$@\"\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  std::vector<std::string> words = {"budget",     "bouncing-ball", "-q",        "--size",      "16x16",
+                                    "--duration", "0.05",          "--against", other.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  const ProgramEnd end = runCarom(words);
+  EXPECT_TRUE(end.code == 0 || end.code == 7) << end.out << end.err;
+  std::vector<std::string> lines;
+  std::ifstream in(told);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(BudgetAgainst, CpuTimeIsThatOfOneProcessorAfterAnotherAndWallTimeOfAll) {
+  const std::vector<int> all = usableProcessors();
+  ASSERT_FALSE(all.empty());
+  const std::string script = "sed -n 's/Cpus_allowed_list:[[:space:]]*//p' /proc/self/status";
+  std::vector<std::string> expected;
+  for (int round = 0; round < 5; ++round)
+    expected.push_back(std::to_string(all[static_cast<std::size_t>(round / 2) % all.size()]));
+  EXPECT_EQ(toldByOther(script, {"--replays", "5", "--clock", "cpu"}), expected);
+  const std::string here = endOfShell(script).out;
+  EXPECT_EQ(toldByOther(script, {"--replays", "2", "--clock", "wall"}),
+            std::vector<std::string>(2, here.substr(0, here.find('\n'))));
+}
+
+// Two programs that are started with other words would else differ by where their data come to lie.
+TEST(BudgetAgainst, MemoryIsLaidOutAnewInEachRound) {
+  const std::vector<std::string> counts =
+      toldByOther("env | grep -c ^CAROM_PACED_ || true", {"--replays", "21"});
+  EXPECT_EQ(counts.size(), 21u);
+  EXPECT_GT(std::set<std::string>(counts.begin(), counts.end()).size(), 3u);
 }
 
 TEST(BudgetAgainst, WhatIsNoCaromEndsWithOneLine) {

@@ -13,15 +13,24 @@
 
 namespace carom::demos {
 
-/// The page as it is when it has been opened; nothing where it cannot be. `options` are Chromium's. A
-/// container's root has no sandbox, and its shared memory may be small.
-inline std::string openedPage(const std::string& address, const std::string& options) {
+/// What Chromium prints of the page as it is when it has been opened; nothing where it cannot be. `options`
+/// are Chromium's, `streams` the shell's. A container's root has no sandbox, and its shared memory may be
+/// small.
+inline std::string openedPage(const std::string& address, const std::string& options,
+                              const std::string& streams = "2>/dev/null") {
   const TemporaryFolder user;
   return endOfShell(
              "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
              "--user-data-dir=" +
-             (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' 2>/dev/null")
+             (user.path() / "user").string() + " " + options + " --dump-dom '" + address + "' " + streams)
       .out;
+}
+
+/// What the console tells while the page is opened: its errors, and what its scripts and its policy of
+/// contents refuse.
+inline std::string consoleOf(const std::filesystem::path& page) {
+  return openedPage("file://" + page.string(), "--enable-logging=stderr --virtual-time-budget=5000",
+                    "2>&1 >/dev/null | grep ':CONSOLE' || true");
 }
 
 /// Whether it opens an empty page: it may be installed where nothing lets it start.
@@ -31,14 +40,19 @@ inline bool hasChromium() {
 }
 inline constexpr char kNoChromium[] = "there is no chromium that opens a page (Debian: chromium)";
 
-/// What `script` pushes to `notes`, an array of texts, in a copy of the page that lies beside it; `script`
-/// may await. `options` are Chromium's.
+/// What `script` pushes to `notes`, an array of texts, in a copy of the page that lies beside it, and the
+/// error that ends it; `script` may await, an image by `loaded(image)`: virtual time goes on while one is
+/// decoded. `options` are Chromium's.
 inline std::vector<std::string> notesOf(const std::filesystem::path& page, const std::string& script,
                                         const std::string& options = "--virtual-time-budget=5000") {
   std::string html = readTextFile(page);
   html.replace(
       html.rfind("</body>"), 7,
-      "<script>(async () => { const notes = [];\n" + script +
+      "<script>(async () => { const notes = [];\n"
+      "const loaded = image => image.complete || new Promise(done => image.addEventListener('load', done));\n"
+      "try {" +
+          script +
+          "\n} catch (error) { notes.push(String(error)); }"
           "\ndocument.body.setAttribute(\"data-notes\", JSON.stringify(notes)); })();</script></body>");
   const std::filesystem::path visited = page.parent_path() / ("visited-" + page.filename().string());
   std::ofstream(visited) << html;
