@@ -187,10 +187,10 @@ double FlightPlanner::workOfLoad(int index, const Body& body, double end_s) cons
   if (load.isZero() || !body.moves()) return 0.0;
   const Trajectory& path = body.path;
   const Vec3 way = path.positionAt(end_s) - path.X_WB.position;
-  if (!load.bends()) return load.force_W.dot(way);
+  if (!load.bends()) return dot(load.force_W, way);
   const double dt = end_s - path.start_s;
   const Quat R_WB = path.at(path.start_s + 0.5 * dt).rotation;
-  return load.force(R_WB).dot(way) + dt * load.torque(R_WB).dot(path.spin);
+  return dot(load.force(R_WB), way) + dt * dot(load.torque(R_WB), path.spin);
 }
 
 bool FlightPlanner::restless(const Body& body) const {
