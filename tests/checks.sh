@@ -12,6 +12,7 @@
 # and, by name only, since they take longer:
 #
 #   certified   the engine's and the physics' tests, every answer of V-Clip certified
+#   processors  shipped scenes and some random worlds come to one state on aarch64, by Debian's cross compiler and qemu
 #   coverage    the share of the engine's lines that its tests run
 #
 # CAROM_CHECKS_END_S: how many seconds may have passed since CAROM_CHECKS_BEGAN (seconds of the epoch; now) when the last
@@ -24,7 +25,7 @@ source demos/packages.sh
 # What is cheap and tells most comes first; the hashes leave the sanitizers half of their build.
 stages=(format lint threads hashes sanitizers clang)
 # Seconds on two cores without a compiler cache.
-declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=700 [clang]=600 [certified]=1800 [coverage]=1500)
+declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=700 [clang]=600 [certified]=1800 [processors]=1800 [coverage]=1500)
 scene_s=0.5  # simulated, of each scene
 
 left_out=77  # what a stage returns that cannot be run here
@@ -164,6 +165,11 @@ clang() {
 certified() {
   build_engine debug engine_tests physics_tests &&
     say_unless_right ctest --test-dir "$(build_folder checks-debug)" --output-on-failure -j"$(nproc)" -L 'unit|physics'
+}
+
+processors() {
+  is_had aarch64-linux-gnu-g++ && is_had qemu-aarch64 && is_had mmdebstrap || return $left_out
+  SCENE_S=$scene_s SEEDS=20 bash tests/hash_table.sh gcc-O3 aarch64-O3
 }
 
 coverage() {

@@ -4,8 +4,10 @@
 # explorer with each, and prints a table of what equals the first cell's. hash_table.sh [CELL...]; without cells, those
 # that can be built here. Worlds run for WORLD_S seconds (1 and 0.25), SEEDS random ones (200).
 #
-# A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages; what is needed:
-#   apt-get install clang mmdebstrap qemu-user g++-{aarch64,i686,powerpc64le,s390x}-linux-gnu
+# A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages (13's for riscv64, which 12 has no
+# release for); what is needed:
+#   apt-get install clang mmdebstrap qemu-user g++-{aarch64,i686,powerpc64le,riscv64,s390x}-linux-gnu
+# WebAssembly has no cell: Debian packages neither assimp nor qhull for emscripten.
 # Exit 1: a cell differs; each difference is a line of build/hashes/CELL.differs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,25 +18,29 @@ work=${CAROM_BUILD:-build}/hashes
 mkdir -p "$work"
 work=$(realpath "$work")
 
-# cell: compiler | flags | Debian's architecture | qemu-user's
+# cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
 declare -A cells=(
   [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
   [clang-O3]="clang++|-O3" [clang-O2]="clang++|-O2" [clang-O0]="clang++|-O0" [clang-O3-avx2]="clang++|-O3 -mavx2 -mfma"
   [i686-O3]="i686-linux-gnu-g++|-O3 -msse2 -mfpmath=sse|i386|i386" [aarch64-O3]="aarch64-linux-gnu-g++|-O3|arm64|aarch64"
   [aarch64-O2]="aarch64-linux-gnu-g++|-O2|arm64|aarch64" [ppc64el-O3]="powerpc64le-linux-gnu-g++|-O3|ppc64el|ppc64le"
-  [s390x-O3]="s390x-linux-gnu-g++|-O3|s390x|s390x")
+  [s390x-O3]="s390x-linux-gnu-g++|-O3|s390x|s390x"
+  [riscv64-O3]="riscv64-linux-gnu-g++|-O3|riscv64|riscv64|trixie")
 order=(gcc-O3 gcc-O2 gcc-O0 gcc-O3-avx2 clang-O3 clang-O2 clang-O0 clang-O3-avx2 i686-O3 aarch64-O3 aarch64-O2 ppc64el-O3
-  s390x-O3)
+  s390x-O3 riscv64-O3)
 
 # field NAME NUMBER: of a cell's description.
 field() { cut -d'|' -f"$2" <<<"${cells[$1]}"; }
 
-# system_root ARCHITECTURE: the folder with that architecture's libraries, made where it is not there.
+# system_root CELL: the folder with that architecture's libraries, made where it is not there.
 system_root() {
-  local root=${CAROM_SYSTEM_ROOTS:-$work/roots}/$1
+  local architecture release root
+  architecture=$(field "$1" 3) release=$(field "$1" 5)
+  root=${CAROM_SYSTEM_ROOTS:-$work/roots}/$architecture
   if [ ! -d "$root/usr" ]; then
     mkdir -p "$(dirname "$root")"
-    mmdebstrap --quiet --variant=extract --architectures="$1" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev bookworm "$root" >&2
+    mmdebstrap --quiet --variant=extract --architectures="$architecture" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev \
+      "${release:-bookworm}" "$root" >&2
     # What names places from the root up means this one.
     sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
     find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
@@ -49,7 +55,7 @@ build() {
   local folder=$work/$1 debian root more=()
   debian=$(field "$1" 3)
   if [ -n "$debian" ]; then
-    root=$(system_root "$debian")
+    root=$(system_root "$1")
     more=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$(field "$1" 4)" -DCMAKE_SYSROOT="$root"
       -DCMAKE_FIND_ROOT_PATH="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
       -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
@@ -59,7 +65,7 @@ build() {
     unset PKG_CONFIG_SYSROOT_DIR PKG_CONFIG_LIBDIR
   fi
   { cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$(field "$1" 1)" \
-      -DCMAKE_CXX_FLAGS_RELEASE="$(field "$1" 2) -DNDEBUG" -DCAROM_RENDERER=OFF -DCAROM_BUILD_TESTS=OFF "${more[@]}" &&
+      -DCMAKE_CXX_FLAGS_RELEASE="$(field "$1" 2) -DNDEBUG" -DCAROM_RENDERER=OFF -DCAROM_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON "${more[@]}" &&
     cmake --build "$folder" --target carom -j"$JOBS"; } >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
 }
 
@@ -71,7 +77,7 @@ run_cell() {
   if [ -z "$debian" ]; then
     "$work/$cell/demos/carom" "$@"
   else
-    "qemu-$(field "$cell" 4)" -L "$(system_root "$debian")" "$work/$cell/demos/carom" "$@"
+    "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$work/$cell/demos/carom" "$@"
   fi
 }
 

@@ -108,8 +108,7 @@ std::string oneLine(std::string text) {
 
 }  // namespace
 
-ExitCode runCommandLine(int argc, char** argv) {
-  CommandLine line;
+std::optional<ExitCode> readCommandLine(CommandLine& line, int argc, char** argv) {
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -145,6 +144,12 @@ ExitCode runCommandLine(int argc, char** argv) {
     return ExitCode::kOk;
   }
   checkValues(line);
+  return std::nullopt;
+}
+
+ExitCode runCommandLine(int argc, char** argv) {
+  CommandLine line;
+  if (const std::optional<ExitCode> code = readCommandLine(line, argc, argv)) return *code;
   for (int i = 1; i < argc; ++i) line.budget_options.words.emplace_back(argv[i]);
   const RenderOptions& asked = line.render_options;
   line.render_options.caption =

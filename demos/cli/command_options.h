@@ -2,11 +2,13 @@
 // All commands with their options and the places their values go. Tested through the program in
 // tests/demos/program/program_test.cpp.
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "demos/command/command.h"
+#include "demos/system/exit_code.h"
 
 namespace carom::demos {
 
@@ -73,5 +75,9 @@ struct CommandLine {
 /// What is left to do when all is read: what one option says of another, and the ranges of numbers. Throws
 /// UsageError.
 void checkValues(CommandLine& line);
+
+/// Reads the words into `line`; gives a code where they only asked for a text (help, a version, a manual),
+/// which is then told on standard output. Throws UsageError.
+std::optional<ExitCode> readCommandLine(CommandLine& line, int argc, char** argv);
 
 }  // namespace carom::demos

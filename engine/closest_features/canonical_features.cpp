@@ -75,7 +75,8 @@ class SupportSet {
     add(top);
     for (std::size_t i = 0; i < vertices_.size(); ++i)
       for (const Spoke& spoke : polyhedron.spokes(vertices_[i]))
-        if (!contains(spoke.head) && n.dot(polyhedron.vertex(top) - polyhedron.vertex(spoke.head)) <= level_m)
+        if (!contains(spoke.head) &&
+            dot(n, polyhedron.vertex(top) - polyhedron.vertex(spoke.head)) <= level_m)
           add(spoke.head);
     std::sort(vertices_.begin(), vertices_.end());
     gatherEdges();
@@ -133,15 +134,15 @@ class SupportSet {
   bool isLevel(int f) const {
     if (f < 0) return false;
     const auto corners = polyhedron_->faceVertices(f);
-    return polyhedron_->plane(f).normal.dot(n_) > 0.0 &&
+    return dot(polyhedron_->plane(f).normal, n_) > 0.0 &&
            std::all_of(corners.begin(), corners.end(), [this](int v) { return contains(v); });
   }
 
-  Vec3 alongPlane(const Vec3& d) const { return d - n_.dot(d) * n_; }
+  Vec3 alongPlane(const Vec3& d) const { return d - dot(n_, d) * n_; }
   bool isOver(int e, const Vec3& p) const {
     const Edge& edge = polyhedron_->edge(e);
     const Vec3 from_tail = p - polyhedron_->vertex(edge.tail);
-    const double s = edge.direction.dot(from_tail);
+    const double s = dot(edge.direction, from_tail);
     return s > 0.0 && s < edge.length_m &&
            alongPlane(from_tail - s * edge.direction).squaredNorm() <= shift_m_ * shift_m_;
   }
@@ -226,8 +227,8 @@ bool takeLowestCrossing(const PolyhedronPair& pair, const SupportSets& sets, Cor
       const double squared = across.squaredNorm();
       if (squared < kNoCrossingSine * kNoCrossingSine) continue;
       const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - pair.a.vertex(e1.tail);
-      const double s1 = between.cross(d2).dot(across) / squared;
-      const double s2 = between.cross(e1.direction).dot(across) / squared;
+      const double s1 = dot(between.cross(d2), across) / squared;
+      const double s2 = dot(between.cross(e1.direction), across) / squared;
       if (!(s1 > 0.0 && s1 < e1.length_m && s2 > 0.0 && s2 < e2.length_m)) continue;
       lowest = key;
       answer.features = {edgeFeature(i), edgeFeature(j)};

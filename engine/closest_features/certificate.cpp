@@ -19,7 +19,7 @@ double outside(const ConvexPolyhedron& core, const Vec3& p) {
   if (core.vertexCount() == 1) return (p - core.vertex(0)).norm();
   if (core.faceCount() == 0) {
     const Edge& edge = core.edge(0);
-    const double s = std::clamp(edge.direction.dot(p - core.vertex(0)), 0.0, edge.length_m);
+    const double s = std::clamp(dot(edge.direction, p - core.vertex(0)), 0.0, edge.length_m);
     return (p - core.vertex(0) - s * edge.direction).norm();
   }
   double most = -kInfinity;
@@ -29,13 +29,13 @@ double outside(const ConvexPolyhedron& core, const Vec3& p) {
 
 double highest(const ConvexPolyhedron& core, const Vec3& n) {
   double most = -kInfinity;
-  for (const Vec3& v : core.vertices()) most = std::max(most, n.dot(v));
+  for (const Vec3& v : core.vertices()) most = std::max(most, dot(n, v));
   return most;
 }
 
 double distanceToSegment(const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
-  const double s = d.squaredNorm() > 0.0 ? std::clamp(-d.dot(a) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  const double s = d.squaredNorm() > 0.0 ? std::clamp(-dot(d, a) / d.squaredNorm(), 0.0, 1.0) : 0.0;
   return (a + s * d).norm();
 }
 
@@ -52,17 +52,17 @@ double distanceToTriangle(const std::array<Vec3, 3>& w) {
     const Vec3& from = w[k];
     const Vec3& to = w[(k + 1) % 3];
     nearest = std::min(nearest, distanceToSegment(from, to));
-    over = over && n.dot(from.cross(to)) > 0.0;
+    over = over && dot(n, from.cross(to)) > 0.0;
   }
-  return over ? std::min(nearest, std::abs(n.dot(w[0])) / twice_area) : nearest;
+  return over ? std::min(nearest, std::abs(dot(n, w[0])) / twice_area) : nearest;
 }
 
 // The solid angle under which the origin sees a triangle, positive from its inner side (van Oosterom and
 // Strackee 1983).
 double solidAngle(const std::array<Vec3, 3>& w) {
   const double l0 = w[0].norm(), l1 = w[1].norm(), l2 = w[2].norm();
-  return 2.0 * std::atan2(w[0].dot(w[1].cross(w[2])),
-                          l0 * l1 * l2 + w[0].dot(w[1]) * l2 + w[1].dot(w[2]) * l0 + w[2].dot(w[0]) * l1);
+  return 2.0 * std::atan2(dot(w[0], w[1].cross(w[2])),
+                          l0 * l1 * l2 + dot(w[0], w[1]) * l2 + dot(w[1], w[2]) * l0 + dot(w[2], w[0]) * l1);
 }
 
 // The depth that the polytope proves: the least distance of its triangles from the origin, or minus infinity
@@ -114,7 +114,7 @@ Certificate certify(const ClosestFeatures& answer, const ConvexPart& a, const Po
   const Vec3 core_a = R_WA.transpose() * (answer.p_A_W - X_WA.position) - a.radius_m * n_A;
   const Vec3 core_b = R_WB.transpose() * (answer.p_B_W - X_WB.position) + b.radius_m * n_B;
 
-  const double slab = n_A.dot(t_AB) - highest(b.core, -n_B) - highest(a.core, n_A) - a.radius_m - b.radius_m;
+  const double slab = dot(n_A, t_AB) - highest(b.core, -n_B) - highest(a.core, n_A) - a.radius_m - b.radius_m;
   Certificate certificate;
   certificate.error_m =
       std::max({std::abs(slab - answer.distance_m), outside(a.core, core_a), outside(b.core, core_b),

@@ -18,7 +18,7 @@ inline Vec3 relativeVelocity(const Velocity& a, const Vec3& center_a, const Velo
 /// u, m/s: a collision happens only when it is negative.
 inline double separatingSpeed(const Velocity& a, const Vec3& center_a, const Velocity& b,
                               const Vec3& center_b, const Vec3& p_W, const Vec3& n_W) {
-  return n_W.dot(relativeVelocity(a, center_a, b, center_b, p_W));
+  return dot(n_W, relativeVelocity(a, center_a, b, center_b, p_W));
 }
 
 /// How a part moves, and how far from its body's centre it reaches.

@@ -49,7 +49,7 @@ ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts
   // A polygon turned away from the contact's normal, or that lost the closest point beyond its rim, does not
   // hold that point's motion; the point itself does.
   const ContactPoint single = contactPoint(closest, parts.a, parts.X_WA, parts.b, parts.X_WB);
-  const bool holds_closest = manifold.count > 0 && polygon.n_W.dot(single.n_W) > 1.0 - kSameCosine &&
+  const bool holds_closest = manifold.count > 0 && dot(polygon.n_W, single.n_W) > 1.0 - kSameCosine &&
                              least <= closest.distance_m + kSameGap * window.floor;
   if (!holds_closest)
     append(manifold, {single.p_W, single.n_W, single.gap_m, contactId(closest.features, PointRole::kClosest),

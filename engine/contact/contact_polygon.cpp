@@ -61,7 +61,7 @@ FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3
   FacingFace best;
   const auto consider = [&](int f) {
     if (f < 0) return;
-    const double c = core.plane(f).normal.dot(direction);
+    const double c = dot(core.plane(f).normal, direction);
     if (c < least || c < best.cosine - kSameCosine) return;
     if (best.face < 0 || c > best.cosine + kSameCosine || f < best.face) best.face = f;
     best.cosine = std::max(best.cosine, c);
@@ -87,7 +87,7 @@ int edgeAcross(const ConvexPolyhedron& core, Feature feature, const Vec3& normal
   int best = -1;
   double least = kLyingSine;
   const auto consider = [&](int e) {
-    const double s = std::abs(core.edge(e).direction.dot(normal));
+    const double s = std::abs(dot(core.edge(e).direction, normal));
     if (s >= kLyingSine || s > least + kSameSine) return;
     if (best < 0 || s < least - kSameSine || e < best) best = e;
     least = std::min(least, s);
@@ -210,7 +210,7 @@ PlaneHeight heightOf(const Placed& part, int f) {
   const Vec3 m = part.R_CP * part.core.plane(f).normal;
   const Vec3 p = part.vertex(part.core.faceVertices(f)[0]);
   const Vec2 slope = -m.head<2>() / m.z();
-  return {p.z() - slope.dot(p.head<2>()), slope};
+  return {p.z() - dot(slope, p.head<2>()), slope};
 }
 
 void clipBySides(const Placed& clip, int f, bool seen_from_outside, Feature subject_face, double same_m,
@@ -222,7 +222,7 @@ void clipBySides(const Placed& clip, int f, bool seen_from_outside, Feature subj
     ClipLine side;
     side.into = (edge.left == f) == seen_from_outside ? left : Vec2(-left);
     side.offset_m =
-        side.into.dot((clip.R_CP.topRows<2>() * clip.core.vertex(edge.tail) + clip.t_CP.head<2>()));
+        dot(side.into, (clip.R_CP.topRows<2>() * clip.core.vertex(edge.tail) + clip.t_CP.head<2>()));
     clipBySide(polygon, side, clip.core, e, subject_face, same_m);
     if (polygon.corners.empty()) return;
   }
@@ -294,8 +294,8 @@ Line lineOf(const Placed& part, int e, const Vec3& along) {
   const Edge& edge = part.core.edge(e);
   const Vec3 tail = part.vertex(edge.tail);
   const Vec3 head = part.vertex(edge.head);
-  const double t_tail = along.dot(tail);
-  const double t_head = along.dot(head);
+  const double t_tail = dot(along, tail);
+  const double t_head = dot(along, head);
   if (t_tail <= t_head) return {edge.tail, edge.head, tail, head, t_tail, t_head};
   return {edge.head, edge.tail, head, tail, t_head, t_tail};
 }
@@ -333,7 +333,7 @@ bool withinReach(const Line& a, const Line& b, const FeaturePair& edges, double 
   if (!low_in && !high_in) return false;
   // |w + s dw| = reach: one root lies between an end within reach and one beyond.
   const double q = dw.squaredNorm();
-  const double p = w.dot(dw);
+  const double p = dot(w, dw);
   const double root = std::sqrt(std::max(0.0, p * p - q * (w.squaredNorm() - reach_m * reach_m)));
   const double s = (-p + (low_in ? root : -root)) / q;
   StretchEnd& cut = low_in ? high : low;
@@ -348,7 +348,7 @@ void sharedStretch(const PlacedPair& pair, int e_a, int e_b, ContactPolygon& pol
   const Vec3 d_a = a.R_CP * a.core.edge(e_a).direction;
   const Vec3 d_b = b.R_CP * b.core.edge(e_b).direction;
   if (d_a.cross(d_b).norm() > kLyingSine) return;
-  const Vec3 along = (d_a.dot(d_b) < 0.0 ? Vec3(d_a - d_b) : Vec3(d_a + d_b)).normalized();
+  const Vec3 along = (dot(d_a, d_b) < 0.0 ? Vec3(d_a - d_b) : Vec3(d_a + d_b)).normalized();
   const Line line_a = lineOf(a, e_a, along);
   const Line line_b = lineOf(b, e_b, along);
   StretchEnd low =

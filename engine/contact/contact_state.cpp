@@ -16,10 +16,10 @@ Vec3 edgeEdgeNormal(const ClosestFeatures& closest, const ConvexPart& a, const P
   const double sine = product.norm();
   if (sine < kNoProductSine) return closest.n_W;
   const Vec3 n = product / sine;
-  if (base.left < 0) return n.dot(closest.n_W) < 0.0 ? Vec3(-n) : n;
+  if (base.left < 0) return dot(n, closest.n_W) < 0.0 ? Vec3(-n) : n;
   // Less than 90 degrees to both faces at the base edge: outwards (fig. 5).
   const Vec3 outward = X_WA.rotation * (a.core.plane(base.left).normal + a.core.plane(base.right).normal);
-  return n.dot(outward) < 0.0 ? Vec3(-n) : n;
+  return dot(n, outward) < 0.0 ? Vec3(-n) : n;
 }
 
 }  // namespace

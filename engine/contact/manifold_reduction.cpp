@@ -170,7 +170,7 @@ bool toUnitFrame(FlatCorners& corners, const FlatCorner& p, const FlatCorner& q)
   double low = 0.0, high = 0.0;
   for (FlatCorner& c : corners) {
     const Vec2 r = (c.p - p.p) / length;
-    c.p = Vec2(axis.dot(r), cross(axis, r));
+    c.p = Vec2(dot(axis, r), cross(axis, r));
     low = std::min(low, c.p.y());
     high = std::max(high, c.p.y());
   }
@@ -247,7 +247,7 @@ void flatten(const ContactPolygon& polygon, double same_gap_m, FlatCorners& corn
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     const PolygonCorner& c = polygon.corners[i];
     const Vec3 r = c.p_W - base;
-    corners.push_back({Vec2(t.t1.dot(r), t.t2.dot(r)), symmetricKey(c.features), static_cast<int>(i),
+    corners.push_back({Vec2(dot(t.t1, r), dot(t.t2, r)), symmetricKey(c.features), static_cast<int>(i),
                        c.gap_m <= least + same_gap_m});
   }
 }

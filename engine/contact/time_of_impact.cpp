@@ -64,7 +64,7 @@ class Look {
   double separatingSpeedAt(double t, const ClosestFeatures& c) const {
     const Velocity va{a_.path->velocityAt(t), a_.path->angularVelocityAt(t)};
     const Velocity vb{b_.path->velocityAt(t), b_.path->angularVelocityAt(t)};
-    return c.n_W.dot(vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
+    return dot(c.n_W, vb.at(c.p_B_W - b_.path->positionAt(t)) - va.at(c.p_A_W - a_.path->positionAt(t)));
   }
 
   // Follows a fast approach from the time and the features of `found` along the paths, Newton's step after
@@ -224,7 +224,7 @@ class Look {
     const Vec3 w = acrossEdges(edges, poseOf(a_, begin), poseOf(b_, begin));
     edges.sine = w.norm();
     if (edges.sine < kSharpCrossingSine) return {nullptr, c.n_W};
-    if (w.dot(c.n_W) < 0.0) edges.edge_A = -edges.edge_A;
+    if (dot(w, c.n_W) < 0.0) edges.edge_A = -edges.edge_A;
     const Direction across{.across = &edges};
     edges.gap_m = gapAlong(across, begin);
     return across;
@@ -237,7 +237,7 @@ class Look {
     const Vec3 n = directionAt(direction, X_WA, X_WB);
     support_a_ = a_.part->core.support(X_WA.rotation.conjugate() * n, support_a_);
     support_b_ = b_.part->core.support(X_WB.rotation.conjugate() * -n, support_b_);
-    return n.dot(X_WB * b_.part->core.vertex(support_b_) - X_WA * a_.part->core.vertex(support_a_)) -
+    return dot(n, X_WB * b_.part->core.vertex(support_b_) - X_WA * a_.part->core.vertex(support_a_)) -
            a_.part->radius_m - b_.part->radius_m;
   }
 
@@ -268,13 +268,13 @@ class Look {
       const Vec3 e_a = X_WA.rotation * direction.across->edge_A;
       const Vec3 e_b = X_WB.rotation * direction.across->edge_B;
       const Vec3 w_rate = va.angular.cross(e_a).cross(e_b) + e_a.cross(vb.angular.cross(e_b));
-      const Vec3 n_rate = (w_rate - n.dot(w_rate) * n) / e_a.cross(e_b).norm();
-      return n.dot(vb.at(v_B - X_WB.position) - va.at(v_A - X_WA.position)) + n_rate.dot(v_B - v_A);
+      const Vec3 n_rate = (w_rate - dot(n, w_rate) * n) / e_a.cross(e_b).norm();
+      return dot(n, vb.at(v_B - X_WB.position) - va.at(v_A - X_WA.position)) + dot(n_rate, v_B - v_A);
     }
     // In a frame that turns, its body's plane passes the other's vertex.
     const Vec3& at_a = direction.frame == &a_ ? v_B : v_A;
     const Vec3& at_b = direction.frame == &b_ ? v_A : v_B;
-    return n.dot(vb.at(at_b - X_WB.position) - va.at(at_a - X_WA.position));
+    return dot(n, vb.at(at_b - X_WB.position) - va.at(at_a - X_WA.position));
   }
 
   // M, for an interval from `begin`. What a frame turns by itself stands still in it; for the other's
@@ -283,7 +283,7 @@ class Look {
     const double turning_a = a_.path->turningAcceleration() * a_.reach_m;
     const double turning_b = b_.path->turningAcceleration() * b_.reach_m;
     const Vec3 acceleration = b_.path->acceleration - a_.path->acceleration;
-    if (direction.frame == nullptr) return std::abs(direction.n_F.dot(acceleration)) + turning_a + turning_b;
+    if (direction.frame == nullptr) return std::abs(dot(direction.n_F, acceleration)) + turning_a + turning_b;
     const Trajectory& frame = *direction.frame->path;
     const MovingPart& other = direction.frame == &a_ ? b_ : a_;
     const double fastest =
@@ -301,7 +301,7 @@ class Look {
 
   // A speed that no two points of the parts separate slower than along n, but for the curvature.
   double slowestSpeed(double t, const Vec3& n) const {
-    return n.dot(b_.path->velocityAt(t) - a_.path->velocityAt(t)) -
+    return dot(n, b_.path->velocityAt(t) - a_.path->velocityAt(t)) -
            turningSpeed(*a_.path, t, n) * a_.reach_m - turningSpeed(*b_.path, t, n) * b_.reach_m;
   }
 

@@ -22,7 +22,7 @@ struct FluidPlanes {
   std::size_t count = 0;
 
   void add(const Vec3& normal_W, double offset_W, const Pose& X_WB) {
-    planes[count++] = {X_WB.rotation.conjugate() * normal_W, offset_W - normal_W.dot(X_WB.position)};
+    planes[count++] = {X_WB.rotation.conjugate() * normal_W, offset_W - dot(normal_W, X_WB.position)};
   }
 };
 
@@ -30,7 +30,7 @@ FluidPlanes planesOf(const Fluid& fluid, double gravity_mps2, const Pose& X_WB, 
   FluidPlanes planes;
   const SurfacePoint surface = surfaceAt(fluid, gravity_mps2, X_WB.position.head<2>(), t_s);
   const Vec3 up = Vec3(-surface.slope.x(), -surface.slope.y(), 1.0).normalized();
-  planes.add(up, up.dot(Vec3(X_WB.position.x(), X_WB.position.y(), surface.height_m)), X_WB);
+  planes.add(up, dot(up, Vec3(X_WB.position.x(), X_WB.position.y(), surface.height_m)), X_WB);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (std::isfinite(fluid.min[axis])) planes.add(-Vec3::Unit(axis), -fluid.min[axis], X_WB);
     if (axis < 2 && std::isfinite(fluid.max[axis])) planes.add(Vec3::Unit(axis), fluid.max[axis], X_WB);
@@ -322,7 +322,7 @@ double buoyancyPotential(const Environment& environment, const SolidSurface& sur
     if (!(wet.volume_m3 > 0.0)) continue;
     const SurfacePoint top = surfaceAt(fluid, gravity, X_WB.position.head<2>(), t_s);
     const Vec3 above(X_WB.position.x(), X_WB.position.y(), top.height_m);
-    energy += fluid.density_kgpm3 * wet.volume_m3 * environment.gravity.dot(X_WB * wet.centroid() - above);
+    energy += fluid.density_kgpm3 * wet.volume_m3 * dot(environment.gravity, X_WB * wet.centroid() - above);
   }
   return energy;
 }

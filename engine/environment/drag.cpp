@@ -22,7 +22,7 @@ template <typename Visit>
 void forPoints(std::span<const Vec3> facet, const Vec3& normal, Visit visit) {
   for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
     const std::array<Vec3, 3> corner{facet[0], facet[i], facet[i + 1]};
-    const double area = 0.5 * normal.dot((corner[1] - corner[0]).cross(corner[2] - corner[0]));
+    const double area = 0.5 * dot(normal, (corner[1] - corner[0]).cross(corner[2] - corner[0]));
     const Vec3 sum = corner[0] + corner[1] + corner[2];
     visit(sum / 3.0, kMiddleWeight * area);
     for (const TrianglePoints& points : kDegreeFive)
@@ -53,16 +53,16 @@ struct Lead {
   Vec3 middle = Vec3::Zero();
   Vec3 slope = Vec3::Zero();
 
-  double at(const Vec3& p) const { return 1.0 + slope.dot(p - middle); }
+  double at(const Vec3& p) const { return 1.0 + dot(slope, p - middle); }
 };
 
 Lead leadOf(std::span<const Vec3> facet, const Vec3& normal, const Vec6& velocity) {
   Lead lead{areaOf(facet, normal).centroid, Vec3::Zero()};
   const Vec3 u = velocityAt(velocity, lead.middle);
-  const Vec3 along = u - normal.dot(u) * normal;
+  const Vec3 along = u - dot(normal, u) * normal;
   double reach = 0.0, speed = u.norm();  // of the fastest point: what only turns has no leading edge
   for (const Vec3& corner : facet) {
-    reach = std::max(reach, std::abs(along.dot(corner - lead.middle)));
+    reach = std::max(reach, std::abs(dot(along, corner - lead.middle)));
     speed = std::max(speed, velocityAt(velocity, corner).norm());
   }
   if (reach > 0.0) lead.slope = along.norm() / (speed * reach) * along;
@@ -85,9 +85,9 @@ void addPressure(std::span<const Vec3> facet, const Vec3& normal, double pressur
                  CutScratch& scratch, StreamDrag& drag) {
   const Vec3 v = drag.velocity.head<3>();
   const Vec3 turning = normal.cross(drag.velocity.tail<3>());  // n . (omega x r) = r . (n x omega)
-  const double ahead = normal.dot(v);
+  const double ahead = dot(normal, v);
   bool some = false, all = true;
-  for (const Vec3& p : facet) (ahead + turning.dot(p) > 0.0 ? some : all) = ahead + turning.dot(p) > 0.0;
+  for (const Vec3& p : facet) (ahead + dot(turning, p) > 0.0 ? some : all) = ahead + dot(turning, p) > 0.0;
   if (!some) return;
   std::span<const Vec3> windward = facet;
   if (!all) {
@@ -99,7 +99,7 @@ void addPressure(std::span<const Vec3> facet, const Vec3& normal, double pressur
   Vec3 first = Vec3::Zero();
   Mat3 second = Mat3::Zero();
   forHeldPoints(windward, normal, hold, scratch, [&](const Vec3& p, double weight) {
-    const double share = weight * pressure * (ahead + turning.dot(p)) * lead.at(p);
+    const double share = weight * pressure * (ahead + dot(turning, p)) * lead.at(p);
     const Vec3 arm = p.cross(normal);
     sum += share;
     first += share * arm;

@@ -22,7 +22,7 @@ Pace paceOf(const Wave& wave, double gravity_mps2) {
 }
 
 double phaseAt(const Wave& wave, const Pace& pace, const Vec2& p, double t_s) {
-  return pace.wavenumber * wave.direction.dot(p) - pace.frequency * t_s + wave.phase;
+  return pace.wavenumber * dot(wave.direction, p) - pace.frequency * t_s + wave.phase;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ inline Vec3 gravityImpulsePerMass(const Vec3& gravity, double dt_s) {
 
 /// -m g . x: zero at the world's origin.
 inline double gravityPotential(const Inertia& inertia, const Vec3& gravity, const Vec3& p_W) {
-  return -inertia.mass_kg * gravity.dot(p_W);
+  return -inertia.mass_kg * dot(gravity, p_W);
 }
 
 }  // namespace carom

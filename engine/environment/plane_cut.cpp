@@ -12,7 +12,7 @@ Plane opposite(const Plane& plane) {
 // A border piece with its plane at `height` over the apex.
 void addCone(VolumeMoments& sum, const PolygonArea& piece, const Vec3& apex, const Vec3& normal,
              const Vec3& on_plane) {
-  const double height = normal.dot(on_plane - apex);
+  const double height = dot(normal, on_plane - apex);
   sum.volume_m3 += height * piece.area_m2 / 3.0;
   sum.first_m4 += (height * piece.area_m2 / 4.0) * (piece.centroid - apex);
 }
@@ -73,7 +73,7 @@ PolygonArea areaOf(std::span<const Vec3> polygon, const Vec3& normal) {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vec3 b = polygon[i] - polygon[0];
     const Vec3 c = polygon[i + 1] - polygon[0];
-    const double triangle = 0.5 * normal.dot(b.cross(c));
+    const double triangle = 0.5 * dot(normal, b.cross(c));
     sum.area_m2 += triangle;
     first += (triangle / 3.0) * (b + c);
   }

@@ -61,10 +61,10 @@ Angles cuttingAngles(const CylinderPiece& piece, double r, const Vec3& n) {
   angles.fill(piece.half);
   angles[0] = -piece.half;
   std::size_t count = 1;
-  const double along_m = n.dot(piece.m), along_c = n.dot(piece.c);
+  const double along_m = dot(n, piece.m), along_c = dot(n, piece.c);
   const double reach = r * std::sqrt(along_m * along_m + along_c * along_c);
   const double middle = angleOf(along_c, along_m);
-  const double low = n.dot(piece.a), high = n.dot(piece.a + piece.length * piece.u);
+  const double low = dot(n, piece.a), high = dot(n, piece.a + piece.length * piece.u);
   for (double height : {low, high}) {
     if (!(std::abs(height) < reach)) continue;
     const double cosine = -height / reach;
@@ -83,7 +83,7 @@ struct Stretch {
   double from = 0.0, to = 0.0;
 };
 Stretch stretchBelow(const CylinderPiece& piece, const Vec3& n, double height) {
-  const double rise = n.dot(piece.u);
+  const double rise = dot(n, piece.u);
   if (height <= 0.0 && height + piece.length * rise <= 0.0) return {0.0, piece.length};
   if (height >= 0.0 && height + piece.length * rise >= 0.0) return {};
   const double crossing = std::clamp(-height / rise, 0.0, piece.length);
@@ -99,10 +99,10 @@ void addCylinder(VolumeMoments& sum, const CylinderPiece& piece, double r, const
       for (const auto& [node, weight] : kGauss) {
         const SineCosine at = sineCosine(angles[i] + width * (k + node) / parts);
         const Vec3 e = at.cosine * piece.m + at.sine * piece.c;
-        const Stretch wet = stretchBelow(piece, n, n.dot(piece.a) + r * n.dot(e));
+        const Stretch wet = stretchBelow(piece, n, dot(n, piece.a) + r * dot(n, e));
         const double length = wet.to - wet.from;
         if (!(length > 0.0)) continue;
-        const double share = weight * width / parts * r * (piece.a.dot(e) + r);  // (x . e) r dt
+        const double share = weight * width / parts * r * (dot(piece.a, e) + r);  // (x . e) r dt
         sum.volume_m3 += share * length / 3.0;
         sum.first_m4 +=
             share / 4.0 *
@@ -119,7 +119,7 @@ void addFace(VolumeMoments& sum, const ConvexPart& part, int f, const Plane& pla
   scratch.polygon.clear();
   for (int v : part.core.faceVertices(f))
     scratch.polygon.push_back(part.core.vertex(v) + part.radius_m * normal - apex);
-  const double height = normal.dot(scratch.polygon[0]);
+  const double height = dot(normal, scratch.polygon[0]);
   clipPolygon(scratch.polygon, {plane.normal, 0.0}, scratch.next);
   const PolygonArea piece = areaOf(scratch.next, normal);
   sum.volume_m3 += height * piece.area_m2 / 3.0;
@@ -128,7 +128,7 @@ void addFace(VolumeMoments& sum, const ConvexPart& part, int f, const Plane& pla
 
 // Points p + r w of the sphere at a vertex, w over the outward directions there that lie below the plane.
 void addSphere(VolumeMoments& sum, const Vec3& p, double r, const SphereIntegrals& w) {
-  const double heights = p.dot(w.first) + r * w.area;  // the integral of x . w
+  const double heights = dot(p, w.first) + r * w.area;  // the integral of x . w
   sum.volume_m3 += r * r / 3.0 * heights;
   sum.first_m4 += r * r / 4.0 * (heights * p + r * (w.second * p + r * w.first));
 }
@@ -145,7 +145,7 @@ void addVertex(VolumeMoments& sum, const ConvexPart& part, int v, const Plane& p
       piece.addArc(spoke.direction, core.plane(edge.left).normal, core.plane(edge.right).normal);
   }
   const Vec3 p = core.vertex(v) - apex;
-  addSphere(sum, p, part.radius_m, piece.below(plane.normal, -plane.normal.dot(p) / part.radius_m));
+  addSphere(sum, p, part.radius_m, piece.below(plane.normal, -dot(plane.normal, p) / part.radius_m));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 // Signed area of the spherical triangle a, b, c (Van Oosterom and Strackee 1983).
 double triangleArea(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return 2.0 * angleOf(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+  return 2.0 * angleOf(dot(a, b.cross(c)), 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
 struct BorderSums {
@@ -67,7 +67,7 @@ void appendRoots(double a, double b, double c, double low, double high, std::vec
 }  // namespace
 
 void SpherePiece::addArc(const Vec3& d, const Vec3& corner, const Vec3& other) {
-  const bool forwards = d.dot(other.cross(corner)) >= 0.0;
+  const bool forwards = dot(d, other.cross(corner)) >= 0.0;
   const double angle = 2.0 * angleOf((corner - other).norm(), (corner + other).norm());
   arcs_.push_back({d, forwards ? corner : other, angle});
 }
@@ -82,7 +82,7 @@ void SpherePiece::addHemisphere(const Vec3& d) {
 }
 
 bool SpherePiece::contains(const Vec3& x) const {
-  return std::all_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) { return arc.d.dot(x) <= 0.0; });
+  return std::all_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) { return dot(arc.d, x) <= 0.0; });
 }
 
 SphereIntegrals SpherePiece::below(const Vec3& n, double c) {
@@ -95,11 +95,11 @@ SphereIntegrals SpherePiece::below(const Vec3& n, double c) {
   for (const Arc& arc : arcs_) {
     const Vec3 t = arc.from.cross(arc.d);
     angles_.assign({0.0, arc.angle});
-    if (!whole) appendRoots(n.dot(arc.from), n.dot(t), c, 0.0, arc.angle, angles_);
+    if (!whole) appendRoots(dot(n, arc.from), dot(n, t), c, 0.0, arc.angle, angles_);
     std::sort(angles_.begin(), angles_.end());
     for (std::size_t i = 0; i + 1 < angles_.size(); ++i) {
       const SineCosine middle = sineCosine(0.5 * (angles_[i] + angles_[i + 1]));
-      if (!whole && n.dot(middle.cosine * arc.from + middle.sine * t) > c) continue;
+      if (!whole && dot(n, middle.cosine * arc.from + middle.sine * t) > c) continue;
       const SineCosine at = sineCosine(angles_[i]);
       border.addGreatArc(arc.d, at.cosine * arc.from + at.sine * t, at.cosine * t - at.sine * arc.from,
                          angles_[i + 1] - angles_[i], apex);
@@ -113,7 +113,7 @@ SphereIntegrals SpherePiece::below(const Vec3& n, double c) {
   const double s = std::sqrt((1.0 - c) * (1.0 + c));
   angles_.assign({-std::numbers::pi, std::numbers::pi});
   for (const Arc& arc : arcs_)
-    appendRoots(s * arc.d.dot(e.t1), s * arc.d.dot(e.t2), -c * arc.d.dot(n), -std::numbers::pi,
+    appendRoots(s * dot(arc.d, e.t1), s * dot(arc.d, e.t2), -c * dot(arc.d, n), -std::numbers::pi,
                 std::numbers::pi, angles_);
   std::sort(angles_.begin(), angles_.end());
   for (std::size_t i = 0; i + 1 < angles_.size(); ++i) {

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "engine/foundation/dot.h"
+
 namespace carom {
 
 using Vec2 = Eigen::Vector2d;

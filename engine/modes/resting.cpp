@@ -69,7 +69,7 @@ bool stopsTurning(const ImpulseBody& body, double radius_m, double moment) {
   if (body.inverse_mass == 0.0 || v.linear.norm() > omega * radius_m) return false;
   if (body.has_locks) return false;  // what holds it is not known by its contacts alone
   const double twice_energy =
-      v.linear.squaredNorm() / body.inverse_mass + v.angular.dot(body.inverse_tensor.inverse() * v.angular);
+      v.linear.squaredNorm() / body.inverse_mass + dot(v.angular, body.inverse_tensor.inverse() * v.angular);
   return twice_energy <= omega * moment;
 }
 

@@ -16,7 +16,7 @@ double cross(const Vec2& a, const Vec2& b) {
 double distanceToSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a;
   const double squared = d.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+  const double t = squared > 0.0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0;
   return (p - a - t * d).norm();
 }
 
@@ -64,7 +64,7 @@ double supportMiss(const Vec3& center_W, const Vec3& weight_N, std::span<const B
   Vec3 level = Vec3::Zero();
   int supports = 0;
   for (const BodyContact& c : contacts) {
-    if (c.n_W.dot(down) < -kUpwards) {
+    if (dot(c.n_W, down) < -kUpwards) {
       level += c.p_W;
       ++supports;
     } else {
@@ -72,17 +72,19 @@ double supportMiss(const Vec3& center_W, const Vec3& weight_N, std::span<const B
       moment += (c.p_W - center_W).cross(c.force_N);
     }
   }
-  const double pressing = force.dot(down);
+  const double pressing = dot(force, down);
   if (supports == 0 || !(pressing > 0.0)) return std::numeric_limits<double>::infinity();
   level /= supports;
   // The line of action runs along the force through centre + (F x M)/F^2; follow it to the supports' level.
   const Vec3 on_line = center_W + force.cross(moment) / force.squaredNorm();
-  const Vec3 foot = on_line + force * ((level - on_line).dot(down) / pressing);
+  const Vec3 foot = on_line + force * (dot(level - on_line, down) / pressing);
   const TangentBasis plane = tangentBasis(down);
-  const auto project = [&](const Vec3& p) { return Vec2(plane.t1.dot(p - level), plane.t2.dot(p - level)); };
+  const auto project = [&](const Vec3& p) {
+    return Vec2(dot(plane.t1, p - level), dot(plane.t2, p - level));
+  };
   std::vector<Vec2> points;
   for (const BodyContact& c : contacts)
-    if (c.n_W.dot(down) < -kUpwards) points.push_back(project(c.p_W));
+    if (dot(c.n_W, down) < -kUpwards) points.push_back(project(c.p_W));
   return distanceOutside(convexCover(std::move(points)), project(foot));
 }
 

@@ -14,7 +14,7 @@ constexpr double kLongHalf = 2.0;  // Half a swing that lasts so many times the 
 
 // Of motions about the same centre: positive where they go the same way; with itself, a squared speed.
 double similarity(const Velocity& v, const Velocity& w, double radius_m) {
-  return v.linear.dot(w.linear) + radius_m * radius_m * v.angular.dot(w.angular);
+  return dot(v.linear, w.linear) + radius_m * radius_m * dot(v.angular, w.angular);
 }
 
 }  // namespace

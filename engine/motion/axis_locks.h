@@ -22,7 +22,7 @@ struct AxisLocks {
   Vec3 turningPart(const Vec3& v_W) const {
     if (turning == Turning::kFree) return v_W;
     if (turning == Turning::kLocked) return Vec3::Zero();
-    return axis_W.dot(v_W) * axis_W;
+    return dot(axis_W, v_W) * axis_W;
   }
 };
 
@@ -34,7 +34,7 @@ inline Inertia lockedInertia(const Inertia& inertia, const AxisLocks& locks, con
   if (locks.turning == AxisLocks::Turning::kLocked) locked.inverse_tensor_B.setZero();
   if (locks.turning != AxisLocks::Turning::kOneAxis) return locked;
   const Vec3 axis_B = R_WB.conjugate() * locks.axis_W;
-  const double moment = axis_B.dot(inertia.tensor_B * axis_B);
+  const double moment = dot(axis_B, inertia.tensor_B * axis_B);
   locked.tensor_B = moment * Mat3::Identity();
   locked.inverse_tensor_B = axis_B * axis_B.transpose() / moment;
   locked.principal_axes_B.setIdentity();

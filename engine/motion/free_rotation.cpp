@@ -106,7 +106,7 @@ FreeRotation::FreeRotation(const Inertia& inertia, const Quat& R_WB, const Vec3&
   const Vec3 momentum_W = carom::angularMomentum(inertia, R_WB, direction);
   momentum_ = unit * momentum_W;
   // I_smallest omega^2 <= omega . I omega, at all times.
-  fastest_spin_ = unit * std::sqrt(direction.dot(momentum_W) / inertia.principal_moments[0]);
+  fastest_spin_ = unit * std::sqrt(dot(direction, momentum_W) / inertia.principal_moments[0]);
   const double length = momentum_W.norm(), momentum = unit * length;
   const Vec3 inverse = inertia.principal_moments.cwiseInverse();
   const Quat R_WP = R_WB * Quat(inertia.principal_axes_B);

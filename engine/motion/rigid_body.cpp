@@ -44,7 +44,7 @@ Vec3 angularVelocity(const Inertia& inertia, const Quat& R_WB, const Vec3& angul
 
 double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& velocity) {
   return 0.5 * inertia.mass_kg * velocity.linear.squaredNorm() +
-         0.5 * velocity.angular.dot(angularMomentum(inertia, R_WB, velocity.angular));
+         0.5 * dot(velocity.angular, angularMomentum(inertia, R_WB, velocity.angular));
 }
 
 Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J) {

@@ -25,7 +25,7 @@ double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>
                        std::span<const ImpulseBody> bodies) {
   double gain = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    gain += rows[i].impulse.dot(before[i] + rowVelocity(rows[i], bodies));
+    gain += dot(rows[i].impulse, before[i] + rowVelocity(rows[i], bodies));
   return gain;
 }
 

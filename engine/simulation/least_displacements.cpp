@@ -35,12 +35,6 @@ constexpr int kRowVisits = 30000000;
 
 using Forces = std::vector<double>;
 
-double dot(const Forces& x, const Forces& y) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += x[k] * y[k];
-  return sum;
-}
-
 // Against `direction`, to zero at most.
 void follow(const Forces& direction, double length, Forces& force) {
   for (std::size_t k = 0; k < force.size(); ++k) force[k] = std::max(0.0, force[k] - length * direction[k]);
@@ -126,7 +120,7 @@ void Dual::multiply(const Forces& force, Forces& result) {
     Vec3 parted = Vec3::Zero();
     if (o.a >= 0) parted -= moved_[at(o.a)];
     if (o.b >= 0) parted += moved_[at(o.b)];
-    result[k] = o.n_W.dot(parted) + compliance_ * force[k];
+    result[k] = dot(o.n_W, parted) + compliance_ * force[k];
   }
 }
 

@@ -75,7 +75,7 @@ PartingPlanes partingPlanes(const ShapePair& pair, const StartingBodies& start) 
   X_WB.position += apart;
   FeaturePair tracked;
   const ClosestFeatures closest = closestFeatures(a, X_WA, b, X_WB, tracked);
-  return {closest.n_W, closest.distance_m - closest.n_W.dot(apart)};
+  return {closest.n_W, closest.distance_m - dot(closest.n_W, apart)};
 }
 
 /// Gaps that pairs of shapes are to have instead of the rest gap.

@@ -57,7 +57,7 @@ Spread measureSpread(std::span<const Vec3> points) {
   const auto [c, width] = farthest([&](const Vec3& p) { return (p - origin).cross(along).norm(); });
   if (!(width > 0.0)) return {size, 0.0, 0.0};
   const Vec3 normal = along.cross(c - origin).normalized();
-  const auto [d, thickness] = farthest([&](const Vec3& p) { return std::abs(normal.dot(p - origin)); });
+  const auto [d, thickness] = farthest([&](const Vec3& p) { return std::abs(dot(normal, p - origin)); });
   return {size, width, thickness};
 }
 
@@ -210,7 +210,7 @@ std::vector<Vec3> orderFaces(std::vector<Facet>& facets, std::span<const Vec3> p
   for (Facet& facet : facets) {
     std::vector<int>& loop = facet.loop;
     for (int& corner : loop) corner = index_of[static_cast<std::size_t>(corner)];
-    if (areaOf(loop, vertices).dot(vertices[static_cast<std::size_t>(loop[0])] - center) < 0.0)
+    if (dot(areaOf(loop, vertices), vertices[static_cast<std::size_t>(loop[0])] - center) < 0.0)
       std::reverse(loop.begin(), loop.end());
     std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   }

@@ -35,7 +35,7 @@ Plane fitPlane(const std::vector<Vec3>& vertices, const std::vector<int>& loop) 
   const double twice_area = normal.norm();
   if (!(twice_area > 0.0)) throw InputError("a face has no area");
   normal /= twice_area;
-  return {normal, normal.dot(center)};
+  return {normal, dot(normal, center)};
 }
 
 // How far all faces are from a point; not positive outside.
@@ -158,7 +158,7 @@ void ConvexPolyhedron::buildSides() {
   for (int f = 0; f < faceCount(); ++f)
     for (int e : faceEdges(f)) {
       const Vec3& into = intoFace(e, f);
-      face_sides_.push_back({into, into.dot(vertex(edge(e).tail))});
+      face_sides_.push_back({into, dot(into, vertex(edge(e).tail))});
     }
 }
 
@@ -254,7 +254,7 @@ int ConvexPolyhedron::support(const Vec3& direction, int start) const {
     next = -1;
     double steepest = level;
     for (const Spoke& spoke : spokes(here))
-      if (const double slope = spoke.direction.dot(direction); slope > steepest) {
+      if (const double slope = dot(spoke.direction, direction); slope > steepest) {
         steepest = slope;
         next = spoke.head;
       }
@@ -264,20 +264,21 @@ int ConvexPolyhedron::support(const Vec3& direction, int start) const {
 
 // In the middle of coplanar faces all edges are level, on the far side too.
 bool ConvexPolyhedron::facesAway(int v, const Vec3& direction) const {
-  return std::ranges::none_of(
-      spokes(v), [&](const Spoke& spoke) { return plane(faceBeside(spoke, v)).normal.dot(direction) > 0.0; });
+  return std::ranges::none_of(spokes(v), [&](const Spoke& spoke) {
+    return dot(plane(faceBeside(spoke, v)).normal, direction) > 0.0;
+  });
 }
 
 int ConvexPolyhedron::farthestVertex(const Vec3& direction) const {
   const auto farthest =
-      std::ranges::max_element(vertices_, {}, [&](const Vec3& v) { return v.dot(direction); });
+      std::ranges::max_element(vertices_, {}, [&](const Vec3& v) { return dot(v, direction); });
   return static_cast<int>(farthest - vertices_.begin());
 }
 
 bool ConvexPolyhedron::isFlat(int v) const {
   const Vec3& first = plane(faceBeside(spokes(v)[0], v)).normal;
   return std::ranges::all_of(spokes(v), [&](const Spoke& spoke) {
-    return plane(faceBeside(spoke, v)).normal.dot(first) > kLevelCosine;
+    return dot(plane(faceBeside(spoke, v)).normal, first) > kLevelCosine;
   });
 }
 
@@ -290,7 +291,7 @@ double ConvexPolyhedron::radiusAbout(const Vec3& p) const {
 ConvexPolyhedron ConvexPolyhedron::translated(const Vec3& shift) const {
   ConvexPolyhedron result = *this;
   for (Vec3& v : result.vertices_) v += shift;
-  for (Plane& p : result.planes_) p.offset += p.normal.dot(shift);
+  for (Plane& p : result.planes_) p.offset += dot(p.normal, shift);
   result.center_ += shift;
   result.reach_m_ = result.center_.lpNorm<Eigen::Infinity>() + radius_m_;
   if (!result.planes_.empty()) result.buildSides();

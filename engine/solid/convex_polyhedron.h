@@ -32,7 +32,7 @@ struct Edge {
 struct Plane {
   Vec3 normal = Vec3::Zero();
   double offset = 0.0;
-  double signedDistance(const Vec3& p) const { return normal.dot(p) - offset; }
+  double signedDistance(const Vec3& p) const { return dot(normal, p) - offset; }
 };
 
 /// An edge seen from one of its vertices.

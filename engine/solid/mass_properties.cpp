@@ -44,7 +44,7 @@ Moments coreMoments(const ConvexPolyhedron& core, const Vec3& origin) {
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
       const Vec3 b = core.vertex(loop[i]) - origin;
       const Vec3 c = core.vertex(loop[i + 1]) - origin;
-      const double det = a.dot(b.cross(c));
+      const double det = dot(a, b.cross(c));
       const Vec3 s = a + b + c;
       sum.volume += det / 6.0;
       sum.first += det / 24.0 * s;
@@ -69,7 +69,7 @@ Moments slabMoments(const ConvexPolyhedron& core, int f, double r) {
     const Vec3 b = core.vertex(loop[i]) - base;
     const Vec3 c = core.vertex(loop[i + 1]) - base;
     const Vec3 s = b + c;
-    const double triangle = 0.5 * n.dot(b.cross(c));
+    const double triangle = 0.5 * dot(n, b.cross(c));
     area += triangle;
     first += triangle / 3.0 * s;
     second += triangle / 12.0 * (b * b.transpose() + c * c.transpose() + s * s.transpose());

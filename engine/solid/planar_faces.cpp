@@ -34,7 +34,7 @@ struct BentFace {
     }
     mean /= static_cast<double>(heights.size());
     tilt = tilt.cwiseQuotient(spread);
-    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] -= mean + tilt.dot(flat[i]);
+    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] -= mean + dot(tilt, flat[i]);
   }
 };
 
@@ -55,7 +55,7 @@ BentFace bentFace(std::span<const Vec3> vertices, const std::vector<int>& loop) 
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (int v : loop) {
     const Vec3 p = vertices[at(v)] - mean;
-    face.flat.emplace_back(p.dot(basis.t1), p.dot(basis.t2));
+    face.flat.emplace_back(dot(p, basis.t1), dot(p, basis.t2));
     xx += face.flat.back().x() * face.flat.back().x();
     xy += face.flat.back().x() * face.flat.back().y();
     yy += face.flat.back().y() * face.flat.back().y();
@@ -67,7 +67,7 @@ BentFace bentFace(std::span<const Vec3> vertices, const std::vector<int>& loop) 
   if (half_difference < 0.0) axis = Vec2(xy, root - half_difference);
   axis = root > 0.0 ? Vec2(axis / axis.norm()) : Vec2(1.0, 0.0);
   for (Vec2& p : face.flat) {
-    p = Vec2(axis.dot(p), axis.x() * p.y() - axis.y() * p.x());
+    p = Vec2(dot(axis, p), axis.x() * p.y() - axis.y() * p.x());
     face.spread += p.cwiseProduct(p);
   }
   return face;
@@ -89,7 +89,7 @@ void bendsOf(std::span<const BentFace> faces, std::span<const Vec3> moves, Heigh
   std::size_t k = 0;
   for (const BentFace& face : faces) {
     const std::size_t first = k;
-    for (int v : *face.loop) bends[k++] = face.normal.dot(moves[at(v)]);
+    for (int v : *face.loop) bends[k++] = dot(face.normal, moves[at(v)]);
     face.removePlane(std::span(bends).subspan(first, k - first));
   }
 }
@@ -100,12 +100,6 @@ void movesOf(std::span<const BentFace> faces, const Heights& pushes, std::vector
   std::size_t k = 0;
   for (const BentFace& face : faces)
     for (int v : *face.loop) moves[at(v)] += pushes[k++] * face.normal;
-}
-
-double dot(const Heights& a, const Heights& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
 }
 
 /// The shortest displacements with B moves = bends: moves = B^T y with B B^T y = bends, by conjugate
@@ -142,7 +136,7 @@ Heights currentBends(std::span<const BentFace> faces, std::span<const Vec3> vert
   for (const BentFace& face : faces) {
     const Vec3 mean = meanOf(vertices, *face.loop);
     const std::size_t first = bends.size();
-    for (int v : *face.loop) bends.push_back(face.normal.dot(vertices[at(v)] - mean));
+    for (int v : *face.loop) bends.push_back(dot(face.normal, vertices[at(v)] - mean));
     // Twice: what the rounding of the heights leaves of a plane would not be in the range of B.
     const std::span<double> own = std::span(bends).subspan(first);
     face.removePlane(own);

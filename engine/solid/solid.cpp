@@ -20,8 +20,8 @@ double extentAlong(const std::vector<ConvexPart>& parts, const Vec3& direction) 
   double high = -std::numeric_limits<double>::infinity();
   double low = std::numeric_limits<double>::infinity();
   for (const ConvexPart& part : parts) {
-    high = std::max(high, direction.dot(part.core.vertex(part.core.support(direction))) + part.radius_m);
-    low = std::min(low, direction.dot(part.core.vertex(part.core.support(-direction))) - part.radius_m);
+    high = std::max(high, dot(direction, part.core.vertex(part.core.support(direction))) + part.radius_m);
+    low = std::min(low, dot(direction, part.core.vertex(part.core.support(-direction))) - part.radius_m);
   }
   return high - low;
 }

@@ -141,8 +141,8 @@ int findShells(const std::vector<int>& mates, ClosedSurface& made) {
 }
 
 double sixVolumes(const SurfaceMesh& mesh, const Triangle& t, const Vec3& origin) {
-  return (mesh.vertices[at(t[0])] - origin)
-      .dot((mesh.vertices[at(t[1])] - origin).cross(mesh.vertices[at(t[2])] - origin));
+  return dot(mesh.vertices[at(t[0])] - origin,
+             (mesh.vertices[at(t[1])] - origin).cross(mesh.vertices[at(t[2])] - origin));
 }
 
 /// The triangles of one shell, with the box around them.
@@ -164,7 +164,7 @@ double windingAbout(const SurfaceMesh& mesh, const Shell& shell, const Vec3& p) 
                c = mesh.vertices[at(corners[2])] - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     angle +=
-        2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+        2.0 * std::atan2(dot(a, b.cross(c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return angle / (4.0 * std::numbers::pi);
 }
@@ -265,7 +265,7 @@ MassProperties surfaceMass(const SurfaceMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     const Vec3 a = mesh.vertices[at(t[0])] - origin, b = mesh.vertices[at(t[1])] - origin,
                c = mesh.vertices[at(t[2])] - origin;
-    const double det = a.dot(b.cross(c));
+    const double det = dot(a, b.cross(c));
     const Vec3 s = a + b + c;
     mass.mass += det / 6.0;
     first += det / 24.0 * s;

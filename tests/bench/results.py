@@ -26,6 +26,7 @@ TABLES = {
     "resting": ("Sixty in flight over many at rest", "bash tests/bench/resting.sh 1000 8000", False),
     "frames": ("Frames a second, end to end", "bash tests/bench/frames.sh", False),
     "stress-small": ("Contact, the small suite", "bash tests/bench/stress.sh --small", False),
+    "hashes": ("One state hash: compilers, levels and processors", "bash tests/hash_table.sh", True),
     "piles-all": ("Piles, with the large ones", "bash tests/bench/pile.sh --all", True),
     "physics-all": ("Closed forms, with the long rows", "bash tests/bench/physics.sh --all", True),
     "stress": ("Contact, the long suite", "bash tests/bench/stress.sh", True),

@@ -22,7 +22,7 @@ constexpr std::uintmax_t kLargest = 200000;
 // Of twenty inputs.
 constexpr Kind kTurns[20] = {Kind::kScene,     Kind::kScene, Kind::kScene,     Kind::kScene,
                              Kind::kScene,     Kind::kScene, Kind::kScene,     Kind::kScene,
-                             Kind::kScene,     Kind::kScene, Kind::kRecording, Kind::kRecording,
+                             Kind::kScene,     Kind::kWords, Kind::kRecording, Kind::kRecording,
                              Kind::kRecording, Kind::kMesh,  Kind::kMesh,      Kind::kMesh,
                              Kind::kPng,       Kind::kPng,   Kind::kQueries,   Kind::kQueries};
 
@@ -74,10 +74,28 @@ std::vector<Input> queryFiles(const fs::path& meshes) {
   return {{Kind::kQueries, "queries.jsonl", lines}};
 }
 
+/// Command lines, a word a line.
+std::vector<Input> commandLines() {
+  std::vector<Input> lines;
+  for (const char* words :
+       {"render\nsliding\n-o\nout/frame_%04d.png\n--size\n320x180\n--fps\n2\n--camera\nclose\n--frames\n0-5",
+        "render\n--from\nrun.carom\n--overlay\ncontacts,paths\n--aov\ndepth,body\n--shard\n1/"
+        "3\n--workers\n2\n--at\n0.5,1",
+        "simulate\nresting\n--duration\n1.5\n--seed\n7\n--set\nbodies[0].mass=2\n--csv\nout.csv\n--"
+        "threads\n2\n-q",
+        "export\nrun.carom\n--csv\nout.csv\n--npy\nout.npy", "check\nmy.json\n--mesh\ngem.obj\n--hull",
+        "distance\na.obj\nb.obj\n--pose-a\n0,0,1\n--pose-b\n1,2,3,0.5,0.5,0.5,0.5\n--cold",
+        "compare\na\nb\n--tolerance\n3\n--allow-pixels\n5\n--mask\nm.png\n--report\nnone\n--junit\nj.xml",
+        "budget\nsliding\n--budget\n5ms\n--percentile\n95\n--replays\n3\n--clock\ncpu",
+        "regress\nout\n--jobs\n2", "help\nrender", "--version", "doctor\n--gl\negl"})
+    lines.push_back({Kind::kWords, "words.txt", words});
+  return lines;
+}
+
 }  // namespace
 
 const char* nameOf(Kind kind) {
-  constexpr const char* kNames[kKinds] = {"scene", "recording", "mesh", "png", "queries"};
+  constexpr const char* kNames[kKinds] = {"scene", "recording", "mesh", "png", "queries", "words"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -97,6 +115,7 @@ Corpus::Corpus(const fs::path& models) {
         {Kind::kRecording, "run.carom",
          recordingOf(source / "assets/scenes" / (scene + std::string(".json")), 4)});
   sound_[static_cast<int>(Kind::kQueries)] = queryFiles(source / "assets/meshes");
+  sound_[static_cast<int>(Kind::kWords)] = commandLines();
   if (!models.empty()) models_ = filesBelow(models);
   for (const fs::path& file : models_) add(Kind::kMesh, file);
   for (const std::vector<Input>& of_kind : sound_)
@@ -115,7 +134,7 @@ Input Corpus::mutated(std::uint64_t index, std::uint64_t seed) const {
   const std::string& other = sound[random.below(sound.size())].bytes;
   if (kind == Kind::kRecording)
     input.bytes = mutatedRecording(input.bytes, other, random);
-  else if (kind == Kind::kPng || (kind == Kind::kMesh && random.oneIn(2)))
+  else if (kind == Kind::kPng || kind == Kind::kWords || (kind == Kind::kMesh && random.oneIn(2)))
     input.bytes = mutatedBytes(input.bytes, other, random);
   else
     input.bytes = mutatedText(input.bytes, other, random);

@@ -8,8 +8,8 @@
 
 namespace carom::fuzz {
 
-enum class Kind { kScene, kRecording, kMesh, kPng, kQueries };
-inline constexpr int kKinds = 5;
+enum class Kind { kScene, kRecording, kMesh, kPng, kQueries, kWords };
+inline constexpr int kKinds = 6;
 const char* nameOf(Kind kind);
 
 struct Input {
@@ -28,6 +28,7 @@ class Corpus {
   Input unchanged(std::size_t index) const;
   /// The input of that number, the same for the same seed and files.
   Input mutated(std::uint64_t index, std::uint64_t seed) const;
+  const std::vector<Input>& sound(Kind kind) const { return sound_[static_cast<int>(kind)]; }
 
  private:
   std::vector<std::filesystem::path> models_;

@@ -202,10 +202,11 @@ std::string mutatedBytes(std::string bytes, const std::string& other, Random& ra
 }
 
 std::string mutatedRecording(std::string bytes, const std::string& other, Random& random) {
-  if (random.oneIn(2)) {  // the header's text, and its size with it
+  constexpr std::size_t begin = kRecordingStart + kBlockHead;
+  if (bytes.size() > begin && random.oneIn(2)) {  // the header's text, and its size with it
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data() + kRecordingStart + 1, sizeof size);
-    const std::size_t begin = kRecordingStart + kBlockHead;
+    size = static_cast<std::uint32_t>(std::min<std::size_t>(size, bytes.size() - begin));
     std::string header = bytes.substr(begin, size);
     mutateText(header, header, random);
     const auto length = static_cast<std::uint32_t>(header.size());

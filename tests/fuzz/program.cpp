@@ -33,6 +33,8 @@ std::vector<Words> commandsFor(const Input& input, const std::string& file) {
       return {{"compare", file, file, "-q", "--report", "none"}};
     case Kind::kQueries:
       return {{"distance", "--batch", file}};
+    case Kind::kWords:  // They may name any file to be written.
+      return {};
   }
   return {};
 }
@@ -57,6 +59,7 @@ std::vector<Words> commandsFor(const Input& input, const std::string& file) {
 std::string wrongWithProgram(const fs::path& program, const Input& input, const fs::path& file,
                              std::uint64_t turn) {
   const std::vector<Words> commands = commandsFor(input, file.string());
+  if (commands.empty()) return "";
   const Words& words = commands[turn % commands.size()];
   const fs::path said = file.string() + ".said";
   const pid_t id = ::fork();

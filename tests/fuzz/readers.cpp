@@ -1,8 +1,11 @@
 #include "tests/fuzz/readers.h"
 
 #include <exception>
+#include <iostream>
 #include <sstream>
+#include <vector>
 
+#include "demos/cli/command_options.h"
 #include "demos/command/distance_query.h"
 #include "demos/language/scene_file.h"
 #include "demos/record/recording.h"
@@ -64,6 +67,26 @@ std::string wrongWithLines(const std::string& text) {
   return "";
 }
 
+/// A line is a word of the command line, which is read and not carried out.
+void readWords(const std::string& text) {
+  std::vector<std::string> words{"carom"};
+  std::istringstream lines(text);
+  for (std::string word; std::getline(lines, word);) words.push_back(word.c_str());  // None holds a 0.
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  std::ostringstream told;
+  std::streambuf* const before = std::cout.rdbuf(told.rdbuf());
+  try {
+    demos::CommandLine line;
+    demos::readCommandLine(line, static_cast<int>(words.size()), argv.data());
+  } catch (...) {
+    std::cout.rdbuf(before);
+    throw;
+  }
+  std::cout.rdbuf(before);
+}
+
 }  // namespace
 
 std::string wrongWith(const Input& input, const fs::path& file) {
@@ -83,6 +106,9 @@ std::string wrongWith(const Input& input, const fs::path& file) {
         break;
       case Kind::kQueries:
         return wrongWithLines(input.bytes);
+      case Kind::kWords:
+        readWords(input.bytes);
+        break;
     }
   } catch (...) {
     return wrongWith(std::current_exception());

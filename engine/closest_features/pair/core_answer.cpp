@@ -4,7 +4,7 @@ namespace carom {
 namespace {
 
 inline Vec3 acrossEdge(const Vec3& direction, const Vec3& w) {
-  return w - direction.dot(w) * direction;
+  return w - dot(direction, w) * direction;
 }
 
 inline Across ofLength(const Vec3& w) {
@@ -27,7 +27,7 @@ Across acrossOf(const PolyhedronPair& pair, const FeatureDistance& d) {
   const Vec3 along_b = pair.directionToA(pair.b.edge(b.index).direction);
   const Vec3 common = along_a.cross(along_b);
   const double sine = common.norm();
-  if (sine > kCrossingSine) return {common.dot(between) > 0.0 ? common : -common, sine, true};
+  if (sine > kCrossingSine) return {dot(common, between) > 0.0 ? common : -common, sine, true};
   return ofLength(acrossEdge(along_b, acrossEdge(along_a, between)));
 }
 

@@ -26,7 +26,7 @@ struct Segment {
     if (s >= length_m) return {vertexFeature(head_index), head};
     return {edgeFeature(index), tail + s * direction, std::min(s, length_m - s)};
   }
-  FeaturePoint nearest(const Vec3& p) const { return at(direction.dot(p - tail)); }
+  FeaturePoint nearest(const Vec3& p) const { return at(dot(direction, p - tail)); }
 };
 
 Segment segmentOf(const ConvexPolyhedron& a, int e) {
@@ -73,7 +73,7 @@ FeatureDistance edgeEdge(const Segment& e1, const Segment& e2) {
   const Vec3 n = e1.direction.cross(e2.direction);
   const double sine_squared = n.squaredNorm();
   if (sine_squared == 0.0) return closestAtAnEnd(e1, e2);
-  const double s1 = (e2.tail - e1.tail).cross(e2.direction).dot(n) / sine_squared;
+  const double s1 = dot((e2.tail - e1.tail).cross(e2.direction), n) / sine_squared;
   FeaturePoint on1 = e1.at(s1);
   const FeaturePoint on2 = e2.nearest(on1.p);
   if (on2.feature.kind == FeatureKind::kVertex) on1 = e1.nearest(on2.p);

@@ -4,7 +4,7 @@ namespace carom {
 
 bool pointsInward(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& direction) {
   if (polyhedron.faceCount() == 0) return false;
-  const auto sinksBelow = [&](int face) { return polyhedron.plane(face).normal.dot(direction) <= 0.0; };
+  const auto sinksBelow = [&](int face) { return dot(polyhedron.plane(face).normal, direction) <= 0.0; };
   switch (feature.kind) {
     case FeatureKind::kFace:
       return sinksBelow(feature.index);

@@ -25,13 +25,13 @@ inline WayOff steepestWayOff(const ConvexPolyhedron& polyhedron, Feature feature
   WayOff steepest;
   if (feature.kind == FeatureKind::kVertex) {
     for (const Spoke& spoke : polyhedron.spokes(feature.index))
-      if (const double slope = spoke.direction.dot(direction); slope > steepest.slope)
+      if (const double slope = dot(spoke.direction, direction); slope > steepest.slope)
         steepest = {slope, edgeFeature(spoke.edge)};
   } else if (feature.kind == FeatureKind::kEdge) {
     const Edge& edge = polyhedron.edge(feature.index);
     if (edge.left < 0) return steepest;
-    const double left = edge.into_left.dot(direction);
-    const double right = edge.into_right.dot(direction);
+    const double left = dot(edge.into_left, direction);
+    const double right = dot(edge.into_right, direction);
     steepest = left > right ? WayOff{left, faceFeature(edge.left)} : WayOff{right, faceFeature(edge.right)};
   }
   return steepest;

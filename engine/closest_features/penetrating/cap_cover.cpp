@@ -15,7 +15,7 @@ int uphill(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
   int highest = v;
   double steepest = kLevelSlope;
   for (const Spoke& spoke : polyhedron.spokes(v))
-    if (const double slope = spoke.direction.dot(direction); slope > steepest) {
+    if (const double slope = dot(spoke.direction, direction); slope > steepest) {
       steepest = slope;
       highest = spoke.head;
     }
@@ -47,7 +47,7 @@ CapCover::Outcome CapCover::cover() {
   if (!wanted_.holds(normal_)) return Outcome::kUndecided;
   connect(count_ - 1, 0);
   around_ = static_cast<int>(count_);
-  turn_ = normal_.dot(caps_[0].crossing.cross(caps_[1].crossing)) > 0.0 ? -1.0 : 1.0;
+  turn_ = dot(normal_, caps_[0].crossing.cross(caps_[1].crossing)) > 0.0 ? -1.0 : 1.0;
   while (open_count_ > 0) {
     const std::size_t i = open_[--open_count_];
     if (!caps_[i].is_open) continue;
@@ -63,7 +63,7 @@ CapCover::Outcome CapCover::coverCrossing(std::size_t i) {
   const std::size_t added = count_++;
   Cap& cap = caps_[added];
   if (!findHigher(cap, caps_[i])) return Outcome::kLower;
-  const double along = normal_.dot(cap.w);
+  const double along = dot(normal_, cap.w);
   const bool leaves_out_both =
       along <= depth_m_ && -along < depth_m_ - noise_m_;  // the normal and its opposite
   if (!leaves_out_both) return Outcome::kUndecided;
@@ -97,7 +97,7 @@ bool CapCover::findHigher(Cap& cap, const Cap& from) {
     cap.a = a = higher_a;
     cap.b = b = higher_b;
     place(cap);
-    found = n.dot(cap.w) > depth_m_ + noise_m_;
+    found = dot(n, cap.w) > depth_m_ + noise_m_;
     if (found && count_ < kFewCaps) return true;
   }
 }
@@ -109,7 +109,7 @@ void CapCover::place(Cap& cap) const {
 
 void CapCover::setCrossing(std::size_t i, const Vec3& n) {
   caps_[i].crossing = n;
-  caps_[i].is_open = !(n.dot(wanted_.point) < outside_m_);
+  caps_[i].is_open = !(dot(n, wanted_.point) < outside_m_);
   if (caps_[i].is_open) open_[open_count_++] = i;
 }
 

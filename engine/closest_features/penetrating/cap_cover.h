@@ -30,7 +30,7 @@ struct DirectionCap {
   Vec3 point = Vec3::Zero();
   double level_m = 0.0;
 
-  bool holds(const Vec3& n) const { return n.dot(point) > level_m; }
+  bool holds(const Vec3& n) const { return dot(n, point) > level_m; }
   bool isEmpty() const { return level_m >= 0.0 && level_m * level_m >= point.squaredNorm(); }
 };
 
@@ -78,7 +78,7 @@ class CapCover {
 
   static constexpr std::size_t kMostCaps = kMostCorners + 16;
 
-  bool holds(const Cap& cap, const Vec3& n) const { return n.dot(cap.w) >= depth_m_ - noise_m_; }
+  bool holds(const Cap& cap, const Vec3& n) const { return dot(n, cap.w) >= depth_m_ - noise_m_; }
   void setCrossing(std::size_t i, const Vec3& n);
   void connect(std::size_t cap, std::size_t next);
   bool cross(std::size_t i);

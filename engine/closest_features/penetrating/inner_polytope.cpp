@@ -27,7 +27,7 @@ constexpr int kFewLow = 4;
 struct LevelEdges {
   LevelEdges(const ConvexPolyhedron& polyhedron, int v, const Vec3& n) {
     for (const Spoke& spoke : polyhedron.spokes(v)) {
-      const double slope = std::abs(spoke.direction.dot(n));
+      const double slope = std::abs(dot(spoke.direction, n));
       if (slope < slopes[0]) {
         slopes[1] = slopes[0];
         edges[1] = edges[0];
@@ -46,7 +46,7 @@ struct LevelEdges {
 double distanceToSegment(const Vec3& from, const Vec3& to) {
   const Vec3 side = to - from;
   const double squared = side.squaredNorm();
-  const double s = squared > 0.0 ? std::clamp(-side.dot(from) / squared, 0.0, 1.0) : 0.0;
+  const double s = squared > 0.0 ? std::clamp(-dot(side, from) / squared, 0.0, 1.0) : 0.0;
   return (from + s * side).norm();
 }
 
@@ -172,8 +172,8 @@ bool InnerPolytope::build(const PolyhedronPair& pair) {
   const double breadth = normal.norm();
   if (!(breadth > kThinnestStart * length)) return false;
   const Vec3 up = normal / breadth;
-  const Corner c3 = farthest({up}, [&](const Vec3& w) { return std::abs(up.dot(w - c0.w)); });
-  const double rise = up.dot(c3.w - c0.w);
+  const Corner c3 = farthest({up}, [&](const Vec3& w) { return std::abs(dot(up, w - c0.w)); });
+  const double rise = dot(up, c3.w - c0.w);
   if (!(std::abs(rise) > kThinnestStart * length)) return false;
   corners_ = {c0, c1, c2, c3};
   if (rise > 0.0) std::swap(corners_[1], corners_[2]);  // 0, 1, 2 counter-clockwise seen from opposite 3
@@ -206,7 +206,7 @@ bool InnerPolytope::raise(const PolyhedronPair& pair, From from) {
     }
     const Triangle& t = triangles_[at(lowest)];
     const Corner support = supportAlong(pair, t.normal, corners_[at(t.corners[0])]);
-    const double height = t.normal.dot(support.w);
+    const double height = dot(t.normal, support.w);
     if (height < depth) {
       depth = height;
       deepest = support;
@@ -266,7 +266,7 @@ void InnerPolytope::equalFacets(const PolyhedronPair& pair, MinimumTranslations&
     if (triangles_[i].measured != query_) measure(pair, static_cast<int>(i));
     const Triangle& t = triangles_[i];
     const bool known = std::any_of(facets.begin(), facets.end(), [&](const MinimumTranslation& facet) {
-      return facet.normal.dot(t.normal) > kSameDirection;
+      return dot(facet.normal, t.normal) > kSameDirection;
     });
     if (known || t.height_m > noise_m_ - best.gap_m) continue;
     best_.gap_m = -kInfinity;
@@ -289,7 +289,7 @@ void InnerPolytope::placeWitnesses(const PolyhedronPair& pair, MinimumTranslatio
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& next = w[(k + 1) % 3];
-      share[k] = answer.normal.dot((w[(k + 2) % 3] - next).cross(foot - next));
+      share[k] = dot(answer.normal, (w[(k + 2) % 3] - next).cross(foot - next));
       sum += share[k];
     }
     const double inside = std::min({share[0], share[1], share[2]}) / sum;
@@ -356,7 +356,7 @@ void InnerPolytope::findHorizon(const PolyhedronPair& pair, const Vec3& w, int s
       Triangle& neighbour = triangles_[at(n)];
       if (neighbour.removed) continue;
       if (neighbour.measured != query_) measure(pair, n);
-      if (neighbour.normal.dot(w) > neighbour.height_m - 0.25 * noise_m_) {
+      if (dot(neighbour.normal, w) > neighbour.height_m - 0.25 * noise_m_) {
         neighbour.removed = true;
         visible_.push_back(n);
       }
@@ -409,7 +409,7 @@ void InnerPolytope::measure(const PolyhedronPair& pair, int triangle) {
   double distance_m;
   if (twice_area > kSliver * (side1.squaredNorm() + side2.squaredNorm())) {
     t.normal = across / twice_area;
-    t.height_m = std::min({t.normal.dot(w0), t.normal.dot(w1), t.normal.dot(w2)});
+    t.height_m = std::min({dot(t.normal, w0), dot(t.normal, w1), dot(t.normal, w2)});
     distance_m = t.height_m;
   } else {
     t.normal = Vec3::Zero();

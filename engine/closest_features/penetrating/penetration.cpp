@@ -44,12 +44,12 @@ bool makesMinkowskiFace(const ConvexPolyhedron& a, const Edge& e1, const EdgeOfB
   double left2 = 0.0;
   double right1 = 0.0;
   if (e2.has_faces) {
-    left2 = e2.arc_left.dot(e1.direction);
-    if (left2 * e2.arc_right.dot(e1.direction) >= 0.0) return false;
+    left2 = dot(e2.arc_left, e1.direction);
+    if (left2 * dot(e2.arc_right, e1.direction) >= 0.0) return false;
   }
   if (e1.left >= 0) {
-    right1 = a.plane(e1.right).normal.dot(e2.direction);
-    if (right1 * a.plane(e1.left).normal.dot(e2.direction) >= 0.0) return false;
+    right1 = dot(a.plane(e1.right).normal, e2.direction);
+    if (right1 * dot(a.plane(e1.left).normal, e2.direction) >= 0.0) return false;
   }
   // Both arcs cross the other's great circle; the same hemisphere makes it a crossing and not its antipode.
   return !e2.has_faces || e1.left < 0 || left2 * right1 > 0.0;
@@ -70,7 +70,7 @@ void tryEdges(const PolyhedronPair& pair, MinimumTranslation& best) {
       if (!makesMinkowskiFace(pair.a, e1, e2)) continue;
       const Vec3 outward = outwardHint(pair, e1, e2);
       const auto across = commonPerpendicular(e1.direction, e2.direction);
-      if (!across || across->towards(outward).dot(e2.tail - pair.a.vertex(e1.tail)) <= best.gap_m) continue;
+      if (!across || dot(across->towards(outward), e2.tail - pair.a.vertex(e1.tail)) <= best.gap_m) continue;
       // Of edges that are almost parallel the signs above may be rounding, and other vertices reach farther.
       if (const auto gap = gapAcrossEdges(pair, i1, i2, outward)) keepLarger(best, *gap);
     }
@@ -86,7 +86,7 @@ int faceTowards(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction
     const Edge& edge = polyhedron.edge(spoke.edge);
     const int face = edge.tail == v ? edge.left : edge.right;
     if (face < 0) continue;
-    if (const double facing = polyhedron.plane(face).normal.dot(direction); facing > most) {
+    if (const double facing = dot(polyhedron.plane(face).normal, direction); facing > most) {
       most = facing;
       best = face;
     }
@@ -117,7 +117,7 @@ std::optional<CommonPerpendicular> commonPerpendicular(const Vec3& d1, const Vec
   if (sine < kNoAxisSine) return std::nullopt;
   const double inverse = 1.0 / sine;
   Vec3 n = inverse * cross;
-  if (sine < kSmallSine) n = (n - n.dot(d1) * d1).normalized();
+  if (sine < kSmallSine) n = (n - dot(n, d1) * d1).normalized();
   return CommonPerpendicular{n, inverse};
 }
 
@@ -135,7 +135,7 @@ std::optional<MinimumTranslation> gapAcrossEdges(const PolyhedronPair& pair, int
   const Vec3 between = pair.toA(pair.b.vertex(e2.tail)) - tail1;
   const Vec3 foot = tail1 + across->footAlong(between, d2) * e1.direction;
   const bool supporting = (va == e1.tail || va == e1.head) && (vb == e2.tail || vb == e2.head);
-  const double gap = supporting ? n.dot(between) : n.dot(pair.toA(pair.b.vertex(vb)) - pair.a.vertex(va));
+  const double gap = supporting ? dot(n, between) : dot(n, pair.toA(pair.b.vertex(vb)) - pair.a.vertex(va));
   return MinimumTranslation{gap, n, {edgeFeature(edge_a), edgeFeature(edge_b)}, foot, foot + gap * n};
 }
 

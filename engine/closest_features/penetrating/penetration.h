@@ -37,12 +37,12 @@ struct CommonPerpendicular {
   double inverse_sine;  ///< Of the angle between the two directions.
 
   Vec3 towards(const Vec3& outward) const {
-    return direction.dot(outward) < 0.0 ? Vec3(-direction) : direction;
+    return dot(direction, outward) < 0.0 ? Vec3(-direction) : direction;
   }
   /// Of two lines along d1 and d2, how far along d1 the foot is from a point of the first, with `between`
   /// from there to a point of the second, metres.
   double footAlong(const Vec3& between, const Vec3& d2) const {
-    return between.cross(d2).dot(direction) * inverse_sine;
+    return dot(between.cross(d2), direction) * inverse_sine;
   }
 };
 

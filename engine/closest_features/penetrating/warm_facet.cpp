@@ -104,7 +104,7 @@ class Descent {
     if (!supports(pair_.a, a, n) || !supports(pair_.b, b, -pair_.directionToB(n))) return std::nullopt;
     const Vec3& tail = pair_.a.vertex(a.tail);
     const Vec3 between = pair_.toA(pair_.b.vertex(b.tail)) - tail;
-    const double gap = n.dot(between);
+    const double gap = dot(n, between);
     const Vec3 foot = tail + across->footAlong(between, along_b) * a.direction;
     return MinimumTranslation{gap, n, {edgeFeature(edge_a), edgeFeature(edge_b)}, foot, foot + gap * n};
   }
@@ -113,10 +113,10 @@ class Descent {
   // (both of a flat edge are level on the far side too).
   static bool supports(const ConvexPolyhedron& body, const Edge& edge, const Vec3& direction) {
     if (edge.left < 0) return true;
-    const double left = edge.into_left.dot(direction), right = edge.into_right.dot(direction);
+    const double left = dot(edge.into_left, direction), right = dot(edge.into_right, direction);
     if (std::max(left, right) > kLevelSlope) return false;
     const bool flat = std::min(left, right) >= -kLevelSlope;
-    return !flat || direction.dot(body.plane(edge.left).normal + body.plane(edge.right).normal) > 0.0;
+    return !flat || dot(direction, body.plane(edge.left).normal + body.plane(edge.right).normal) > 0.0;
   }
 
   // Some facet at M's corner in a direction, between vertices climbed to from these.
@@ -145,13 +145,13 @@ class Descent {
     const Vec3& along_a = edge_a.direction;
     const Vec3 along_b = pair_.directionToA(edge_b.direction);
     const Vec3 beside_b = along_b.cross(facet.normal);
-    const double sine_signed = beside_b.dot(along_a);
+    const double sine_signed = dot(beside_b, along_a);
     const double sine = std::abs(sine_signed);
     const Vec3 from_tail_a = std::copysign(1.0, sine_signed) * beside_b;
     const Vec3 from_tail_b = std::copysign(1.0, sine_signed) * along_a.cross(facet.normal);
     const Vec3 from_tails = foot - pair_.a.vertex(edge_a.tail) + pair_.toA(pair_.b.vertex(edge_b.tail));
-    const double in_a = from_tail_a.dot(from_tails);
-    const double in_b = from_tail_b.dot(from_tails);
+    const double in_a = dot(from_tail_a, from_tails);
+    const double in_b = dot(from_tail_b, from_tails);
     const double to_head_a = sine * edge_a.length_m - in_a;
     const double to_head_b = sine * edge_b.length_m - in_b;
     sides.add({{b.index, edge_a.tail, false}, from_tail_a, in_a, edge_a.tail, edge_b.tail});
@@ -185,7 +185,7 @@ class Descent {
   std::optional<MinimumTranslation> facetAcross(const MinimumTranslation& facet, const Side& side) const {
     const Edge& edge = (side.edge_of_a ? pair_.a : pair_.b).edge(side.edge);
     if (edge.left < 0) return std::nullopt;
-    const bool to_left = arcEnd(side, true).dot(side.inwards) < arcEnd(side, false).dot(side.inwards);
+    const bool to_left = dot(arcEnd(side, true), side.inwards) < dot(arcEnd(side, false), side.inwards);
     return facetAlong(facet.normal, side, to_left, side.edge_of_a ? facet.features.b : facet.features.a);
   }
 
@@ -193,15 +193,15 @@ class Descent {
   // that.
   std::optional<MinimumTranslation> facetBelow(const CapCover::Lower& lower) const {
     const Vec3 w = pair_.a.vertex(lower.a) - pair_.toA(pair_.b.vertex(lower.b));
-    const Vec3 away = lower.direction.dot(w) * lower.direction - w;
+    const Vec3 away = dot(lower.direction, w) * lower.direction - w;
     double first = std::numeric_limits<double>::infinity();
     Arc arc{-1, -1, false};
     const auto findFirst = [&](const ConvexPolyhedron& body, int v, const Vec3& from, const Vec3& to,
                                int other, bool of_a) {
       for (const Spoke& spoke : body.spokes(v)) {
-        const double rise = to.dot(spoke.direction);
+        const double rise = dot(to, spoke.direction);
         if (!(rise > 0.0)) continue;
-        const double at = std::max(0.0, -from.dot(spoke.direction)) / rise;
+        const double at = std::max(0.0, -dot(from, spoke.direction)) / rise;
         if (at >= first) continue;
         first = at;
         arc = {spoke.edge, other, of_a};
@@ -212,8 +212,8 @@ class Descent {
               false);
     if (arc.edge < 0 || (arc.edge_of_a ? pair_.a : pair_.b).edge(arc.edge).left < 0) return std::nullopt;
     const Vec3 start = (lower.direction + first * away).normalized();
-    const Vec3 down = start.dot(w) * start - w;
-    const bool to_left = down.dot(arcEnd(arc, true)) > down.dot(arcEnd(arc, false));
+    const Vec3 down = dot(start, w) * start - w;
+    const bool to_left = dot(down, arcEnd(arc, true)) > dot(down, arcEnd(arc, false));
     return facetAlong(start, arc, to_left, {});
   }
 
@@ -249,9 +249,9 @@ class Descent {
     double first = 1.0;
     for (const Spoke& spoke : other.spokes(arc.vertex)) {
       if (edgeFeature(spoke.edge) == level) continue;
-      const double at_end = to.dot(spoke.direction);
+      const double at_end = dot(to, spoke.direction);
       if (!(at_end > 0.0)) continue;
-      const double at_start = std::min(0.0, from.dot(spoke.direction));
+      const double at_start = std::min(0.0, dot(from, spoke.direction));
       const double share = at_start / (at_start - at_end);
       if (share >= first) continue;
       first = share;
@@ -281,13 +281,13 @@ class Descent {
   // rims of their caps cross, the angle t from the normal across each side, with tan(t / 2) = inside / depth.
   static bool coversAlone(const MinimumTranslation& facet, const Sides& sides, const DirectionCap& cap) {
     const double depth = -facet.gap_m;
-    const double along = facet.normal.dot(cap.point);
+    const double along = dot(facet.normal, cap.point);
     if (!(along > cap.level_m)) return false;
     const double outside = cap.level_m - kCapMargin * (std::abs(along) + std::abs(cap.level_m));
     const double low = depth * depth * (along - outside), high = along + outside;
     return std::all_of(sides.used().begin(), sides.used().end(), [&](const Side& side) {
       const double inside = side.inside_m;
-      return low - inside * (inside * high + 2.0 * depth * side.inwards.dot(cap.point)) < 0.0;
+      return low - inside * (inside * high + 2.0 * depth * dot(side.inwards, cap.point)) < 0.0;
     });
   }
 

@@ -56,7 +56,7 @@ struct LevelNeighbours {
   LevelNeighbours(const ConvexPolyhedron& polyhedron, Feature feature, const Vec3& n, double level_sine) {
     const auto visitVertex = [&](int v) {
       for (const Spoke& spoke : polyhedron.spokes(v)) {
-        if (std::abs(spoke.direction.dot(n)) > level_sine) continue;
+        if (std::abs(dot(spoke.direction, n)) > level_sine) continue;
         add(edgeFeature(spoke.edge));
         const Edge& edge = polyhedron.edge(spoke.edge);
         for (int f : {edge.left, edge.right})

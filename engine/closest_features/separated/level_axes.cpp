@@ -18,7 +18,7 @@ void forEachLevelFace(const ConvexPolyhedron& polyhedron, int v, const Vec3& n, 
     const int face = edge.tail == v ? edge.left : edge.right;
     if (face < 0) continue;
     const Vec3& normal = polyhedron.plane(face).normal;
-    if (normal.dot(n) > 0.0 && normal.cross(n).squaredNorm() <= sine * sine) visit(face);
+    if (dot(normal, n) > 0.0 && normal.cross(n).squaredNorm() <= sine * sine) visit(face);
   }
 }
 
@@ -29,7 +29,7 @@ void forEachLevelEdge(const ConvexPolyhedron& polyhedron, Feature feature, const
   if (feature.kind == FeatureKind::kFace) return;
   if (feature.kind == FeatureKind::kEdge) return visit(feature.index);
   for (const Spoke& spoke : polyhedron.spokes(feature.index))
-    if (std::abs(spoke.direction.dot(n)) <= sine) visit(spoke.edge);
+    if (std::abs(dot(spoke.direction, n)) <= sine) visit(spoke.edge);
 }
 
 // The side through which a way along a face leaves it.
@@ -38,7 +38,7 @@ int exitSide(const ConvexPolyhedron& polyhedron, int face, const Vec3& from, con
   int exit = -1;
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const double sinking = -sides[i].normal.dot(along);
+    const double sinking = -dot(sides[i].normal, along);
     if (sinking <= 0.0) continue;
     if (const double t = sides[i].signedDistance(from) / sinking; t < first) {
       first = t;
@@ -64,7 +64,7 @@ int vertexOf(const ConvexPolyhedron& polyhedron, Feature feature) {
 double slabAlong(const PolyhedronPair& pair, const FeaturePair& start, const Vec3& n) {
   const Vec3& far_a = pair.a.vertex(pair.a.support(n, vertexOf(pair.a, start.a)));
   const int vb = pair.b.support(-pair.directionToB(n), vertexOf(pair.b, start.b));
-  return n.dot(pair.toA(pair.b.vertex(vb)) - far_a);
+  return dot(n, pair.toA(pair.b.vertex(vb)) - far_a);
 }
 
 void gatherLevelAxes(const PolyhedronPair& pair, const CoreAnswer& answer, double noise_m,

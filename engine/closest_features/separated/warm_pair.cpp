@@ -15,7 +15,7 @@ constexpr double kBeside = 0.95;
 double steepestSpoke(const ConvexPolyhedron& polyhedron, int v, const Vec3& direction) {
   double steepest = -std::numeric_limits<double>::infinity();
   for (const Spoke& spoke : polyhedron.spokes(v))
-    steepest = std::max(steepest, spoke.direction.dot(direction));
+    steepest = std::max(steepest, dot(spoke.direction, direction));
   return steepest;
 }
 
@@ -27,7 +27,7 @@ bool isOf(const ConvexPolyhedron& polyhedron, Feature feature) {
 }
 
 double steeperSide(const Edge& edge, const Vec3& direction) {
-  return std::max(edge.into_left.dot(direction), edge.into_right.dot(direction));
+  return std::max(dot(edge.into_left, direction), dot(edge.into_right, direction));
 }
 
 class WarmPair {
@@ -84,7 +84,7 @@ class WarmPair {
     const auto clears = [squared](const PlacedPolyhedron& body, Feature feature, const Vec3& out) {
       if (feature.kind == FeatureKind::kFace) return true;
       const InnerBall& ball = body.polyhedron.innerBall();
-      const double height = body.directionBack(out).dot(pointOf(body.polyhedron, feature) - ball.center);
+      const double height = dot(body.directionBack(out), pointOf(body.polyhedron, feature) - ball.center);
       return height >= 0.0 && height * height >= ball.radius_m * ball.radius_m * squared;
     };
     return !clears(b_, features.b, -w) || !clears(a_, features.a, w);
@@ -118,12 +118,12 @@ class WarmPair {
     const Vec3 tail1 = a_.point(a_.polyhedron.vertex(a.tail));
     const Vec3 between = b_.point(b_.polyhedron.vertex(b.tail)) - tail1;
     const double inverse = 1.0 / sine_squared;
-    const double s1 = between.cross(d2).dot(across) * inverse;
-    const double s2 = between.cross(d1).dot(across) * inverse;
+    const double s1 = dot(between.cross(d2), across) * inverse;
+    const double s2 = dot(between.cross(d1), across) * inverse;
     const double inside = std::min(std::min(s1, a.length_m - s1), std::min(s2, b.length_m - s2));
     if (!(inside > noise_m_)) return false;
     const double sine = std::sqrt(sine_squared);
-    const double along = between.dot(across);
+    const double along = dot(between, across);
     const Vec3 w = along > 0.0 ? across : -across;
     const double steepest =
         std::max(steeperSide(a, a_.directionBack(w)), steeperSide(b, -b_.directionBack(w)));
@@ -180,11 +180,11 @@ class WarmPair {
     if (a.kind == kEdge && b.kind == kEdge) {
       const Vec3 across = a_.direction(a_.polyhedron.edge(a.index).direction)
                               .cross(b_.direction(b_.polyhedron.edge(b.index).direction));
-      return across.dot(between) < 0.0 ? Vec3(-across) : across;
+      return dot(across, between) < 0.0 ? Vec3(-across) : across;
     }
     const Vec3 along = a.kind == kEdge ? a_.direction(a_.polyhedron.edge(a.index).direction)
                                        : b_.direction(b_.polyhedron.edge(b.index).direction);
-    return between - along.dot(between) * along;
+    return between - dot(along, between) * along;
   }
 
   Vec3 between(int v1, int v2) const {
@@ -217,7 +217,7 @@ class WarmPair {
   FeaturePair fromEdgeVertex(int e, int v) const {
     const Edge& edge = a_.polyhedron.edge(e);
     const Vec3 from_tail = a_.pointBack(b_.point(b_.polyhedron.vertex(v))) - a_.polyhedron.vertex(edge.tail);
-    const double s = edge.direction.dot(from_tail);
+    const double s = dot(edge.direction, from_tail);
     if (!(s > noise_m_)) return {vertexFeature(edge.tail), vertexFeature(v)};
     if (!(edge.length_m - s > noise_m_)) return {vertexFeature(edge.head), vertexFeature(v)};
     return upFrom({edgeFeature(e), vertexFeature(v)}, a_.direction(from_tail - s * edge.direction));
@@ -233,23 +233,23 @@ class WarmPair {
     const double sine_squared = across.squaredNorm();
     if (sine_squared < kCrossingSine * kCrossingSine) return here;
     const Vec3 tails = between(a.tail, b.tail);
-    const double s1 = tails.cross(d2).dot(across) / sine_squared;
-    const double s2 = tails.cross(d1).dot(across) / sine_squared;
+    const double s1 = dot(tails.cross(d2), across) / sine_squared;
+    const double s2 = dot(tails.cross(d1), across) / sine_squared;
     const double beyond1 = std::max(-s1, s1 - a.length_m);
     const double beyond2 = std::max(-s2, s2 - b.length_m);
     if (std::max(beyond1, beyond2) > -noise_m_) {
       if (beyond1 > beyond2) return {vertexFeature(s1 < 0.5 * a.length_m ? a.tail : a.head), here.b};
       return {here.a, vertexFeature(s2 < 0.5 * b.length_m ? b.tail : b.head)};
     }
-    const Vec3 w = tails.dot(across) > 0.0 ? across : -across;
+    const Vec3 w = dot(tails, across) > 0.0 ? across : -across;
     const FeaturePair next = upFrom(here, w);
     // A face and an edge: the edge's end that is lower over the face.
     if (next.a.kind == FeatureKind::kFace) {
-      const double rises = a_.direction(a_.polyhedron.plane(next.a.index).normal).dot(d2);
+      const double rises = dot(a_.direction(a_.polyhedron.plane(next.a.index).normal), d2);
       return {next.a, vertexFeature(rises > 0.0 ? b.tail : b.head)};
     }
     if (next.b.kind == FeatureKind::kFace) {
-      const double rises = b_.direction(b_.polyhedron.plane(next.b.index).normal).dot(d1);
+      const double rises = dot(b_.direction(b_.polyhedron.plane(next.b.index).normal), d1);
       return {vertexFeature(rises > 0.0 ? a.tail : a.head), next.b};
     }
     return next;
@@ -278,10 +278,10 @@ class WarmPair {
     const Edge& edge = a.polyhedron.edge(e);
     if (edge.left < 0) return false;
     const Vec3 from_tail = a.pointBack(p) - a.polyhedron.vertex(edge.tail);
-    const double s = edge.direction.dot(from_tail);
+    const double s = dot(edge.direction, from_tail);
     if (!(std::min(s, edge.length_m - s) > noise_m_)) return false;
     w_A = from_tail - s * edge.direction;
-    w_A -= edge.direction.dot(w_A) * edge.direction;  // of a short way rounding would leave a slope
+    w_A -= dot(edge.direction, w_A) * edge.direction;  // of a short way rounding would leave a slope
     return true;
   }
 
@@ -346,8 +346,8 @@ bool certifiedInside(const PolyhedronPair& pair, const CoreAnswer& answer, doubl
   if (a.kind != FeatureKind::kEdge || b.kind != FeatureKind::kEdge) return false;
   const Edge& e1 = pair.a.edge(a.index);
   const Edge& e2 = pair.b.edge(b.index);
-  const double s1 = e1.direction.dot(answer.p_a - pair.a.vertex(e1.tail));
-  const double s2 = e2.direction.dot(pair.toB(answer.p_b) - pair.b.vertex(e2.tail));
+  const double s1 = dot(e1.direction, answer.p_a - pair.a.vertex(e1.tail));
+  const double s2 = dot(e2.direction, pair.toB(answer.p_b) - pair.b.vertex(e2.tail));
   return std::min(std::min(s1, e1.length_m - s1), std::min(s2, e2.length_m - s2)) > noise_m;
 }
 

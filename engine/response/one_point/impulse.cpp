@@ -33,9 +33,9 @@ bool isUnanswered(const ImpulseBody& a, const ImpulseBody& b, double response) {
 
 double frictionlessImpulse(const ImpulseBody& a, const ImpulseBody& b, const Vec3& r_a, const Vec3& r_b,
                            const Vec3& n, double restitution) {
-  const double u = n.dot(b.velocity.at(r_b) - a.velocity.at(r_a));
+  const double u = dot(n, b.velocity.at(r_b) - a.velocity.at(r_a));
   if (u >= 0.0) return 0.0;
-  return -(1.0 + restitution) * u / n.dot(collisionMatrix(a, b, r_a, r_b) * n);
+  return -(1.0 + restitution) * u / dot(n, collisionMatrix(a, b, r_a, r_b) * n);
 }
 
 }  // namespace carom

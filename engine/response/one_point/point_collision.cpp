@@ -44,8 +44,8 @@ class Course {
   // Goes along `xi` for at most `longest` of normal impulse, but not beyond the end of the phase. Where xi is
   // the mean of one that changes, its double integral, which gives the work, is that of `xi_of_work`.
   void advance(const Vec3& xi, const Vec3& xi_of_work, double longest) {
-    const double rate = c_->response.row(0).dot(xi);
-    const double rate_of_work = c_->response.row(0).dot(xi_of_work);
+    const double rate = dot(c_->response.row(0).transpose(), xi);
+    const double rate_of_work = dot(c_->response.row(0).transpose(), xi_of_work);
     const bool compresses = phase_ == Phase::kCompression;
     bool turns_back = false;
     const double whole = compresses ? compressionLeft(rate) : restitutionLeft(rate_of_work, turns_back);
@@ -117,7 +117,7 @@ class Slip {
       const Vec2 rate = (c_.response * along(u)).tail<2>();
       const double pace = rate.norm();
       const double turning = std::abs(slip.x() * rate.y() - slip.y() * rate.x()) / pace;
-      const bool ends = slip.dot(rate) < 0.0 && turning <= unnoticed_;
+      const bool ends = dot(slip, rate) < 0.0 && turning <= unnoticed_;
       if (!rubs() || !(turning > kStraight * slip.norm()) || ends)
         goStraight(course);
       else
@@ -135,7 +135,7 @@ class Slip {
   void goStraight(Course& course) const {
     const Vec3 xi = along(course.velocity());
     const Vec2 slip = course.velocity().tail<2>();
-    const double growth = slip.dot((c_.response * xi).tail<2>()) / slip.squaredNorm();
+    const double growth = dot(slip, (c_.response * xi).tail<2>()) / slip.squaredNorm();
     course.advance(xi, rubs() && growth < 0.0 ? -1.0 / growth : kForever);
   }
 
@@ -198,7 +198,7 @@ Vec2 departure(const PointCollision& c) {
     const Eigen::Matrix2d inverse = matrix.inverse();
     direction = inverse * drive;
     const double length = direction.norm();
-    const double step = (length - 1.0) * length * length / direction.dot(inverse * direction);
+    const double step = (length - 1.0) * length * length / dot(direction, inverse * direction);
     if (!(step > 1e-15 * (lambda + matrix.trace()))) break;
     lambda += step;
   }
@@ -218,9 +218,9 @@ Vec3 impulseWithoutSlip(const PointCollision& c) {
 // Rounding of the course could leave more energy than there was: 2 (E_after - E_before) = J . (u_before +
 // u_after).
 Vec3 withoutGain(const PointCollision& c, const Vec3& impulse) {
-  const double response = impulse.dot(c.response * impulse);
-  const double gain = 2.0 * impulse.dot(c.velocity) + response;
-  return gain > 0.0 ? Vec3(impulse * (-2.0 * impulse.dot(c.velocity) / response)) : impulse;
+  const double response = dot(impulse, c.response * impulse);
+  const double gain = 2.0 * dot(impulse, c.velocity) + response;
+  return gain > 0.0 ? Vec3(impulse * (-2.0 * dot(impulse, c.velocity) / response)) : impulse;
 }
 
 }  // namespace

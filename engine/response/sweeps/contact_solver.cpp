@@ -45,7 +45,7 @@ struct RowChange {
 
 // Whether the row does not press and need not: in a heap, nearly half of all visits.
 bool isIdle(const ContactRow& row, const Vec3& velocity_W) {
-  return row.parts_idly && row.impulse.isZero(0.0) && row.n.dot(velocity_W) >= row.lowest_speed;
+  return row.parts_idly && row.impulse.isZero(0.0) && dot(row.n, velocity_W) >= row.lowest_speed;
 }
 
 // Brings the impulse of one row to its conditions, or nearer to them, with all else as it is.

@@ -64,7 +64,7 @@ inline Mat3 rowFrame(const ContactRow& row) {
 }
 /// A world vector as (n, t1, t2).
 inline Vec3 inRowFrame(const ContactRow& row, const Vec3& v_W) {
-  return {row.n.dot(v_W), row.t1.dot(v_W), row.t2.dot(v_W)};
+  return {dot(row.n, v_W), dot(row.t1, v_W), dot(row.t2, v_W)};
 }
 /// K, 1/kg, in the row's frame (n, t1, t2).
 Mat3 rowResponse(const ContactRow& row, std::span<const ImpulseBody> bodies);

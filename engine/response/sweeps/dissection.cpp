@@ -13,7 +13,7 @@ double extent(const DissectionPlan& plan, std::span<const int> members, const Ve
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const int i : members) {
-    const double place = direction.dot(plan.bodies[at(i)].center);
+    const double place = dot(direction, plan.bodies[at(i)].center);
     low = std::min(low, place);
     high = std::max(high, place);
   }
@@ -34,7 +34,7 @@ void divide(const DissectionPlan& plan, std::span<int> members, int levels, int 
   }
   if (members.empty()) return;
   const Vec3 direction = longest(plan, members);
-  const auto place = [&](int i) { return std::tuple(direction.dot(plan.bodies[at(i)].center), i); };
+  const auto place = [&](int i) { return std::tuple(dot(direction, plan.bodies[at(i)].center), i); };
   const std::size_t half = members.size() / 2;
   std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
                    [&](int i, int j) { return place(i) < place(j); });

@@ -11,8 +11,8 @@ namespace {
 double powerOnMisses(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies) {
   double power = 0.0;
   for (const ContactRow& row : rows) {
-    if (!row.impulse.isZero(0.0)) power += row.impulse.dot(rowMiss(row, bodies));
-    if (!row.torque.isZero(0.0)) power += row.torque.dot(rowSpin(row, bodies));
+    if (!row.impulse.isZero(0.0)) power += dot(row.impulse, rowMiss(row, bodies));
+    if (!row.torque.isZero(0.0)) power += dot(row.torque, rowSpin(row, bodies));
   }
   return power;
 }

@@ -20,7 +20,7 @@ constexpr double kMostLeverage = 30.0;
 // The speed at which one of a row's bodies, on its way, presses the row together, m/s; `sign`: 1 for A, -1
 // for B.
 double pushOf(const ImpulseBody& body, const Vec3& r, const Vec3& n, double sign) {
-  return body.inverse_mass == 0.0 ? sign * n.dot(body.velocity.at(r)) : 0.0;
+  return body.inverse_mass == 0.0 ? sign * dot(n, body.velocity.at(r)) : 0.0;
 }
 double pushOfA(const ContactRow& row, std::span<const ImpulseBody> bodies) {
   return pushOf(bodies[static_cast<std::size_t>(row.a)], row.r_a, row.n, 1.0);
@@ -92,7 +92,8 @@ double twiceEnergyOf(std::span<const ContactRow> rows, std::span<const Vec3> imp
   for (ImpulseBody& body : bodies) body.velocity = {};
   for (std::size_t i = 0; i < rows.size(); ++i) applyToRow(rows[i], impulses[i], bodies);
   double twice_energy = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) twice_energy += impulses[i].dot(rowVelocity(rows[i], bodies));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    twice_energy += dot(impulses[i], rowVelocity(rows[i], bodies));
   return twice_energy;
 }
 

@@ -25,7 +25,7 @@ int upperBody(const ContactRow& row, std::span<const ImpulseBody> bodies, const 
   const ImpulseBody& b = bodies[at(row.b)];
   if (b.inverse_mass == 0.0) return row.a;
   if (a.inverse_mass == 0.0) return row.b;
-  return up.dot(b.center - a.center) >= 0.0 ? row.b : row.a;
+  return dot(up, b.center - a.center) >= 0.0 ? row.b : row.a;
 }
 
 // Brings one body to the bounds of its rows, round by round.
@@ -38,11 +38,11 @@ void settle(std::span<const UpperEnd> ends, std::span<const ContactRow> rows, st
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const ContactRow& row = rows[ends[k].row];
       const bool is_b = row.b == ends[k].body;
-      const double miss = row.n.dot(rowVelocityInWorld(row, bodies)) - row.lowest_speed;
+      const double miss = dot(row.n, rowVelocityInWorld(row, bodies)) - row.lowest_speed;
       if (miss >= 0.0 && impulses[k] == 0.0) continue;
       const Vec3& r = is_b ? row.r_b : row.r_a;
       const Vec3 lever = r.cross(row.n);
-      const double response = body.inverseMassAlong(row.n) + lever.dot(body.inverse_tensor * lever);
+      const double response = body.inverseMassAlong(row.n) + dot(lever, body.inverse_tensor * lever);
       const double impulse = std::max(0.0, impulses[k] - miss / response);
       const double change = impulse - impulses[k];
       if (change == 0.0) continue;
@@ -63,7 +63,7 @@ void passUpwards(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies
   ends.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int body = upperBody(rows[i], bodies, up);
-    if (bodies[at(body)].inverse_mass > 0.0) ends.push_back({up.dot(bodies[at(body)].center), body, i});
+    if (bodies[at(body)].inverse_mass > 0.0) ends.push_back({dot(up, bodies[at(body)].center), body, i});
   }
   std::sort(ends.begin(), ends.end());
   std::vector<double> impulses(ends.size(), 0.0);

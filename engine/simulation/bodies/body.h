@@ -63,7 +63,7 @@ struct StepMotion {
       return v;
     }
     const Vec3 spin_B = solved_spin_B + dt * turning_B;
-    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * spin_B.dot(inertia.tensor_B * spin_B));
+    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * dot(spin_B, inertia.tensor_B * spin_B));
     return v;
   }
 };

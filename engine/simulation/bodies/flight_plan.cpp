@@ -214,9 +214,9 @@ double FlightPlanner::workOfLoad(int index, const Body& body, double end_s) cons
   if (load.isZero() || !body.moves()) return 0.0;
   const Trajectory& path = body.path;
   const Vec3 way = path.positionAt(end_s) - path.X_WB.position;
-  if (!load.bends()) return load.force_W.dot(way);
+  if (!load.bends()) return dot(load.force_W, way);
   const AppliedLoad mean = meanLoad(index, body, end_s);
-  return mean.force_W.dot(way) + mean.torque_W.dot(turnedBy(body, step_s_, end_s));
+  return dot(mean.force_W, way) + dot(mean.torque_W, turnedBy(body, step_s_, end_s));
 }
 
 bool FlightPlanner::restless(const Body& body) const {

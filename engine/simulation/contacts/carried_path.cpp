@@ -35,8 +35,8 @@ void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& 
   const double room = std::min(gap_m, window.rest) - window.floor;
   const double dip = std::max(kDipShare * room, kNoDip * window.rest);
   const auto straighten = [&](int i) { std::atomic_ref(bends[at(i)]).store(0, std::memory_order_relaxed); };
-  if (-share * row.n.dot(accelerations[at(row.a)]) > dip) straighten(row.a);
-  if (share * row.n.dot(accelerations[at(row.b)]) > dip) straighten(row.b);
+  if (-share * dot(row.n, accelerations[at(row.a)]) > dip) straighten(row.a);
+  if (share * dot(row.n, accelerations[at(row.b)]) > dip) straighten(row.b);
 }
 
 }  // namespace carom

@@ -177,8 +177,8 @@ class Assembly {
       return Velocity{body.velocity.linear, body.path.spin}.at(p_W - body.X_WB.position);
     };
     const double step_s = world_.settings.step_s;
-    const double parting = pair.closest.n_W.dot(meanAt(pair.body_b, pair.closest.p_B_W) -
-                                                meanAt(pair.body_a, pair.closest.p_A_W));
+    const double parting = dot(
+        pair.closest.n_W, meanAt(pair.body_b, pair.closest.p_B_W) - meanAt(pair.body_a, pair.closest.p_A_W));
     // So much nearer at most, with what gravity adds.
     const double nearer = step_s * (0.5 * step_s * world_.settings.gravity.norm() - parting);
     return nearer > step_s * pair.collision_speed_mps &&
@@ -402,7 +402,7 @@ class Assembly {
     for (SourcedRow& sourced : rows) {
       const ContactRow& row = sourced.row;
       const Vec3 parting = landing.b.at(row.r_b) - landing.a.at(row.r_a);
-      sourced.gap_m -= landing.time_s * row.n.dot(parting);
+      sourced.gap_m -= landing.time_s * dot(row.n, parting);
     }
   }
 

@@ -68,7 +68,7 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
   const double gap = closest.distance_m;
   const Vec3 arm_a = travel.X_WA.rotation * (end_a.inverse() * closest.p_A_W);
   const Vec3 arm_b = travel.X_WB.rotation * (end_b.inverse() * closest.p_B_W);
-  const double speed_now = closest.n_W.dot(travel.momentum_b.at(arm_b) - travel.momentum_a.at(arm_a));
+  const double speed_now = dot(closest.n_W, travel.momentum_b.at(arm_b) - travel.momentum_a.at(arm_a));
   if (!travel.all && speed_now < -pair.collision_speed_mps) return 0.0;
   const double wanted = pair.window.rest * (1.0 - tolerance::kRestBand);
   return gap < kTurningGap * pair.window.rest ? (wanted - gap) / dt : 0.0;
@@ -134,7 +134,7 @@ double workOfForces(const ShapePair& pair, const std::vector<Body>& bodies, doub
     const double middle_s = 0.5 * (begin_s + end_s);
     const Velocity mean{body.path.velocityAt(middle_s), body.path.angularVelocityAt(middle_s)};
     work_J +=
-        sign * (end_s - begin_s) * (acting.force_W.dot(mean.at(arm)) + acting.torque_W.dot(mean.angular));
+        sign * (end_s - begin_s) * (dot(acting.force_W, mean.at(arm)) + dot(acting.torque_W, mean.angular));
   };
   for (const RememberedImpulse& acting : pair.remembered) {
     add(a, acting, 1.0, acting.arm_a);

@@ -29,7 +29,7 @@ Side sideOf(const PlacedPair& placed, bool b, const std::vector<Shape>& shapes) 
 double reachAlong(const Side& side, const Vec3& direction_W) {
   const ConvexPart& part = *side.shape.part;
   const Vec3 direction = side.X.rotation.conjugate() * direction_W;
-  return direction_W.dot(side.X * part.core.vertex(part.core.support(direction))) + part.radius_m;
+  return dot(direction_W, side.X * part.core.vertex(part.core.support(direction))) + part.radius_m;
 }
 
 // A lower bound of how far a point is from a part; exact over faces, balls and capsules.
@@ -42,7 +42,7 @@ double heightOver(const Side& side, const Vec3& p_W) {
     if (core.edgeCount() > 0) {
       const Edge& edge = core.edge(0);
       const Vec3& tail = core.vertex(edge.tail);
-      nearest = tail + std::clamp(edge.direction.dot(p - tail), 0.0, edge.length_m) * edge.direction;
+      nearest = tail + std::clamp(dot(edge.direction, p - tail), 0.0, edge.length_m) * edge.direction;
     }
     return (p - nearest).norm() - part.radius_m;
   }
@@ -64,7 +64,7 @@ bool passes(const Side& passing, const Side& edge, const ShapePair& contact, con
   const double held_at = (1.0 - tolerance::kRestBand) * other.pair.window.rest;
   const double sinks = std::max(0.0, other.closest.distance_m - held_at);
   const auto rising = [&](const Side& side) {
-    return up.dot(bodies[at(side.body)].velocity.at(passing.witness_W - side.X.position));
+    return dot(up, bodies[at(side.body)].velocity.at(passing.witness_W - side.X.position));
   };
   const double closes =
       support.body == edge.body ? 0.0 : std::max(0.0, rising(edge) - rising(support)) * dt_s;

@@ -37,7 +37,7 @@ void takePlace(const SourcedRow& later, const Half& a, const Half& b, double mos
   const Vec3 before = relativeVelocity(sourced.row, a.body.velocity, b.body.velocity);
   const Vec3 after = relativeVelocity(later.row, a.velocity(), b.velocity());
   Vec3 change = after - before;
-  const double normal_change = later.row.n.dot(after) - sourced.row.n.dot(before);
+  const double normal_change = dot(later.row.n, after) - dot(sourced.row.n, before);
   if (std::max(change.norm(), std::abs(normal_change)) > most_mps) return;  // another place than before
   ContactRow& row = sourced.row;
   const double coefficient = row.coefficient;
@@ -45,7 +45,7 @@ void takePlace(const SourcedRow& later, const Half& a, const Half& b, double mos
   setCoefficient(row, coefficient);
   sourced.off_middle_m = later.off_middle_m;
   row.lowest_speed = -normal_change;
-  row.still_slip = -Vec2(row.t1.dot(change), row.t2.dot(change));
+  row.still_slip = -Vec2(dot(row.t1, change), dot(row.t2, change));
 }
 
 }  // namespace

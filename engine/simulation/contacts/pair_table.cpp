@@ -28,9 +28,9 @@ Bounds boundsAt(const ConvexPart& part, const Pose& X) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Vec3 direction = to_body.col(axis);
     v = part.core.support(direction, v);
-    bounds.high[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] + part.radius_m;
+    bounds.high[axis] = dot(direction, part.core.vertex(v)) + X.position[axis] + part.radius_m;
     v = part.core.support(-direction, v);
-    bounds.low[axis] = direction.dot(part.core.vertex(v)) + X.position[axis] - part.radius_m;
+    bounds.low[axis] = dot(direction, part.core.vertex(v)) + X.position[axis] - part.radius_m;
   }
   return bounds;
 }

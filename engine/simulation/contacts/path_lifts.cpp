@@ -10,7 +10,7 @@ namespace {
 
 // Takes energy, J/kg, out of the speed along `down`. Returns what that has less.
 double slowFall(Body& body, double energy, const Vec3& down) {
-  const double falling = body.velocity.linear.dot(down);
+  const double falling = dot(body.velocity.linear, down);
   const double left = falling * falling - 2.0 * energy;
   body.velocity.linear += (std::copysign(std::sqrt(std::max(0.0, left)), falling) - falling) * down;
   return std::max(0.0, -0.5 * left);

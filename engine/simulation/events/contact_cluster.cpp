@@ -250,7 +250,7 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
       const ClosestFeatures& closest = look(p);
       const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
                             a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
-      if (closest.distance_m <= pair.window.ceiling && sameApproach(closest.n_W.dot(relative), approach_mps))
+      if (closest.distance_m <= pair.window.ceiling && sameApproach(dot(closest.n_W, relative), approach_mps))
         addPair(p, closest);
       else
         pair_joined_[at(p)] = 0;  // it may still join as a support
@@ -436,9 +436,9 @@ double ContactCluster::workOfCollision() const {
   for (const ContactRow& row : rows_) {
     const Vec3 impulse = rowImpulse(row, row.impulse);
     if (bodies_[at(members_[at(row.a)].body)].is_kinematic)
-      work_J += impulse.dot(momentum_[at(row.a)].velocity.at(row.r_a));
+      work_J += dot(impulse, momentum_[at(row.a)].velocity.at(row.r_a));
     if (bodies_[at(members_[at(row.b)].body)].is_kinematic)
-      work_J -= impulse.dot(momentum_[at(row.b)].velocity.at(row.r_b));
+      work_J -= dot(impulse, momentum_[at(row.b)].velocity.at(row.r_b));
   }
   return work_J;
 }

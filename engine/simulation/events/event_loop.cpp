@@ -300,8 +300,8 @@ class EventLoop {
       const Velocity v{body.path.velocityAt(found.time_s), body.path.angularVelocityAt(found.time_s)};
       return v.at(p_W - body.path.positionAt(found.time_s));
     };
-    return found.closest.n_W.dot(velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
-                                 velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W));
+    return dot(found.closest.n_W, velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
+                                      velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W));
   }
 
   // Carries the search of a pair on by one look.
@@ -383,7 +383,7 @@ class EventLoop {
     };
     const Vec3 parting = velocityOf(bodies_[at(pair.body_b)], found.closest.p_B_W) -
                          velocityOf(bodies_[at(pair.body_a)], found.closest.p_A_W);
-    return found.closest.n_W.dot(parting) >= -slowestImpact(index);
+    return dot(found.closest.n_W, parting) >= -slowestImpact(index);
   }
 
   // What turning brings back again and again lasts: a body that grinds past another would spend thousands of
@@ -453,7 +453,7 @@ class EventLoop {
 
   // From now on the body goes on at another mean velocity than it would have.
   void countLift(Body& body, const Vec3& mean_before, const Vec3& mean) const {
-    body.lifting += settings_.gravity.dot(mean_before - mean);
+    body.lifting += dot(settings_.gravity, mean_before - mean);
   }
 
   // The same where it is led in contact: only as far as it falls less or more than its momentum does, and by
@@ -461,8 +461,8 @@ class EventLoop {
   // taken its energy.
   void countFall(Body& body, const Vec3& mean_before, const Vec3& mean) const {
     const Vec3 down = settings_.gravity.normalized();
-    const double unborne = std::max(0.0, down.dot(body.acceleration));
-    body.lifting += unborne * (std::max(0.0, down.dot(mean_before)) - std::max(0.0, down.dot(mean)));
+    const double unborne = std::max(0.0, dot(down, body.acceleration));
+    body.lifting += unborne * (std::max(0.0, dot(down, mean_before)) - std::max(0.0, dot(down, mean)));
   }
 
   void halve(int index, double rest_of_step_s) {
@@ -571,7 +571,7 @@ class EventLoop {
       if (body.travel == Travel::kHeld) {
         if (rest > 0.0) drive(body, cluster_.end(i), rest);
         // It stays, whatever its new momentum would fall by.
-        body.lifting = settings_.gravity.dot(body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
+        body.lifting = dot(settings_.gravity, body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
         continue;
       }
       if (keeps_path) {

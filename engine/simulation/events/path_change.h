@@ -23,7 +23,7 @@ inline double twiceEnergy(const ImpulseBody& body, const Velocity& v) {
   if (!(trace > 0.0)) return linear;
   constexpr double kRankOne = 1e-12;
   const bool turns_freely = body.inverse_tensor.determinant() > kRankOne * trace * trace * trace;
-  return linear + (turns_freely ? v.angular.dot(body.inverse_tensor.inverse() * v.angular)
+  return linear + (turns_freely ? dot(v.angular, body.inverse_tensor.inverse() * v.angular)
                                 : v.angular.squaredNorm() / trace);
 }
 

@@ -149,12 +149,13 @@ void PathClearing::setRows(double time_s, double rest_s, const PairTable& table,
     if (place.turned) holdTurning(row);
   }
   for (Row& row : rows_)
-    row.response = row.place->n_W.dot(
-        collisionMatrix(paths_[at(row.a)], paths_[at(row.b)], row.r_a, row.r_b) * row.place->n_W);
+    row.response =
+        dot(row.place->n_W,
+            collisionMatrix(paths_[at(row.a)], paths_[at(row.b)], row.r_a, row.r_b) * row.place->n_W);
 }
 
 double PathClearing::partingOf(const Row& row) const {
-  return row.place->n_W.dot(paths_[at(row.b)].velocity.at(row.r_b) - paths_[at(row.a)].velocity.at(row.r_a));
+  return dot(row.place->n_W, paths_[at(row.b)].velocity.at(row.r_b) - paths_[at(row.a)].velocity.at(row.r_a));
 }
 
 bool PathClearing::sweepRows() {
@@ -199,10 +200,10 @@ void PathClearing::push(const Row& row, double impulse) {
 // slides by presses by rounding.
 void PathClearing::findWedging(std::size_t led) {
   const auto pushOfA = [&](const Row& row) {
-    return at(row.a) < led ? 0.0 : row.place->n_W.dot(paths_[at(row.a)].velocity.at(row.r_a));
+    return at(row.a) < led ? 0.0 : dot(row.place->n_W, paths_[at(row.a)].velocity.at(row.r_a));
   };
   const auto pushOfB = [&](const Row& row) {
-    return at(row.b) < led ? 0.0 : -row.place->n_W.dot(paths_[at(row.b)].velocity.at(row.r_b));
+    return at(row.b) < led ? 0.0 : -dot(row.place->n_W, paths_[at(row.b)].velocity.at(row.r_b));
   };
   double most = 0.0;
   for (const Row& row : rows_) most = std::max({most, pushOfA(row), pushOfB(row)});

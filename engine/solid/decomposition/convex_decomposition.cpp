@@ -75,11 +75,11 @@ class PlanesAbout {
 
   void addPlane(const Vec3& direction, std::vector<NotchPlane>& planes) const {
     const Vec3 normal = along_.cross(direction).normalized();
-    const Plane plane{normal, normal.dot(origin_)};
+    const Plane plane{normal, dot(normal, origin_)};
     if (surface_.divides(plane, notch_)) planes.push_back({plane, notch_, -1});
   }
 
-  Vec2 fromLine(const Vec3& p) const { return {basis_.t1.dot(p - origin_), basis_.t2.dot(p - origin_)}; }
+  Vec2 fromLine(const Vec3& p) const { return {dot(basis_.t1, p - origin_), dot(basis_.t2, p - origin_)}; }
   static double offLine(const Vec2& direction, const Vec2& q) {
     return std::abs(direction.x() * q.y() - direction.y() * q.x()) / direction.norm();
   }
@@ -263,8 +263,8 @@ class Cutting {
     double volume = 0.0;
     for (const int t : piece) {
       const Triangle& c = surface_.triangle(t);
-      volume += (surface_.point(c[0]) - origin)
-                    .dot((surface_.point(c[1]) - origin).cross(surface_.point(c[2]) - origin));
+      volume += dot(surface_.point(c[0]) - origin,
+                    (surface_.point(c[1]) - origin).cross(surface_.point(c[2]) - origin));
     }
     return volume / 6.0;
   }
@@ -306,10 +306,10 @@ class Cutting {
     for (const int t : shell) {
       const Triangle& c = surface_.triangle(t);
       const Vec3 a = surface_.point(c[0]) - p, b = surface_.point(c[1]) - p, d = surface_.point(c[2]) - p;
-      const double ab = ray.dot(a.cross(b)), bd = ray.dot(b.cross(d)), da = ray.dot(d.cross(a));
+      const double ab = dot(ray, a.cross(b)), bd = dot(ray, b.cross(d)), da = dot(ray, d.cross(a));
       const bool positive = ab >= 0.0 && bd >= 0.0 && da >= 0.0, negative = ab < 0.0 && bd < 0.0 && da < 0.0;
       if (!positive && !negative) continue;
-      if ((a.dot(b.cross(d)) >= 0.0) == positive) ++crossings;
+      if ((dot(a, b.cross(d)) >= 0.0) == positive) ++crossings;
     }
     return crossings % 2 == 1;
   }
@@ -409,8 +409,8 @@ class Merging {
     for (const int t : piece) {
       const Triangle& c = surface.triangle(t);
       made.volume_m3 +=
-          (surface.point(c[0]) - made.points[0])
-              .dot((surface.point(c[1]) - made.points[0]).cross(surface.point(c[2]) - made.points[0])) /
+          dot(surface.point(c[0]) - made.points[0],
+              (surface.point(c[1]) - made.points[0]).cross(surface.point(c[2]) - made.points[0])) /
           6.0;
     }
     measure(made);

@@ -43,7 +43,7 @@ class Groups {
 
 struct Frame2 {
   TangentBasis basis;
-  Vec2 operator()(const Vec3& p) const { return {basis.t1.dot(p), basis.t2.dot(p)}; }
+  Vec2 operator()(const Vec3& p) const { return {dot(basis.t1, p), dot(basis.t2, p)}; }
 };
 
 constexpr int kUnlabelled = 2;
@@ -247,13 +247,13 @@ void CutSurface::growFacet(int seed) {
       if (facets_of_[at(t)] >= 0) continue;
       const Vec3 n = area.normalized(), center = moment / weight;
       const Vec3& apex = point(tail(next(next(half))));
-      if (std::abs(n.dot(apex - center)) > tolerance_m_) continue;
+      if (std::abs(dot(n, apex - center)) > tolerance_m_) continue;
       // A triangle that is folded back is flat, but no part of the facet.
       const Vec3 own = triangleArea(t);
       const Triangle& c = triangles_[at(t)];
       const double longest = std::max({(point(c[1]) - point(c[0])).norm(), (point(c[2]) - point(c[1])).norm(),
                                        (point(c[0]) - point(c[2])).norm()});
-      if (n.dot(own) < 0.0 && own.norm() > tolerance_m_ * longest) continue;
+      if (dot(n, own) < 0.0 && own.norm() > tolerance_m_ * longest) continue;
       include(t);
       reached.push_back(t);
     }
@@ -264,7 +264,7 @@ void CutSurface::growFacet(int seed) {
     for (const int v : triangles_[at(t)])
       longest = std::max(longest, 2.0 * (point(v) - Vec3(moment / weight)).norm());
   const double width = 2.0 * weight / std::max(longest, std::numeric_limits<double>::min());
-  facets_.push_back({{n, n.dot(Vec3(moment / weight))}, std::min(1.0, tolerance_m_ / width)});
+  facets_.push_back({{n, dot(n, Vec3(moment / weight))}, std::min(1.0, tolerance_m_ / width)});
 }
 
 bool CutSurface::isNotch(int half) const {
@@ -272,7 +272,7 @@ bool CutSurface::isNotch(int half) const {
   if (f == g) return false;
   const Facet &left = facets_[at(f)], &right = facets_[at(g)];
   const Vec3 along = (point(head(half)) - point(tail(half))).normalized();
-  return left.plane.normal.cross(right.plane.normal).dot(along) < -(left.normal_error + right.normal_error);
+  return dot(left.plane.normal.cross(right.plane.normal), along) < -(left.normal_error + right.normal_error);
 }
 
 std::vector<int> CutSurface::notches(std::span<const int> piece) const {
@@ -286,8 +286,8 @@ std::vector<int> CutSurface::notches(std::span<const int> piece) const {
 bool CutSurface::divides(const Plane& plane, int half) const {
   const int f = facetOf(half), g = facetOf(mate(half));
   const Vec3 along = point(head(half)) - point(tail(half));
-  const double left = plane.normal.dot(facet(f).normal.cross(along)) / along.norm();
-  const double right = -plane.normal.dot(facet(g).normal.cross(along)) / along.norm();
+  const double left = dot(plane.normal, facet(f).normal.cross(along)) / along.norm();
+  const double right = -dot(plane.normal, facet(g).normal.cross(along)) / along.norm();
   const double l = std::abs(left) <= facets_[at(f)].normal_error ? 0.0 : left;
   const double r = std::abs(right) <= facets_[at(g)].normal_error ? 0.0 : right;
   return l * r < 0.0 || ((l == 0.0) != (r == 0.0));
@@ -358,7 +358,7 @@ void CutSurface::addArea(int t, Section& section) const {
 int CutSurface::sideOf(int t, const Section& section) const {
   for (const int v : triangles_[at(t)])
     if (label_[at(v)] != 0) return label_[at(v)];
-  return facet(facets_of_[at(t)]).normal.dot(section.plane.normal) > 0.0 ? -1 : 1;
+  return dot(facet(facets_of_[at(t)]).normal, section.plane.normal) > 0.0 ? -1 : 1;
 }
 
 /// Whether the side runs along the cut, with its triangle below the plane and the other above.

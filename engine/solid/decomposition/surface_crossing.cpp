@@ -18,13 +18,13 @@ std::optional<Vec3> piercing(const SurfaceMesh& mesh, int a, int b, const Triang
   const Vec3 area = (v - u).cross(w - u);
   if (!(area.norm() > 0.0)) return std::nullopt;
   const Vec3 n = area.normalized();
-  const double da = n.dot(mesh.vertices[at(a)] - u), db = n.dot(mesh.vertices[at(b)] - u);
+  const double da = dot(n, mesh.vertices[at(a)] - u), db = dot(n, mesh.vertices[at(b)] - u);
   if (!((da > tolerance_m && db < -tolerance_m) || (da < -tolerance_m && db > tolerance_m)))
     return std::nullopt;
   const Vec3 p = mesh.vertices[at(a)] + da / (da - db) * (mesh.vertices[at(b)] - mesh.vertices[at(a)]);
   for (int k = 0; k < 3; ++k) {
     const Vec3 &from = mesh.vertices[at(t[at(k)])], &to = mesh.vertices[at(t[at((k + 1) % 3)])];
-    if (n.cross(to - from).normalized().dot(p - from) <= tolerance_m) return std::nullopt;
+    if (dot(n.cross(to - from).normalized(), p - from) <= tolerance_m) return std::nullopt;
   }
   return p;
 }
