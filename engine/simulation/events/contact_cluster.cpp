@@ -318,8 +318,9 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
   long visits = 0;
   bool resumes = false;
   bool solved_at_once = false;
+  bool unseen = false;   // whom the solution at once reaches has not been looked at
   bool reached = false;  // all whom the impulses reach have joined
-  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps();) {
+  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || unseen;) {
     const double enough = visits < kCarefulVisits ? std::min(careful_mps, safe) : safe;
     const int fine_sweeps =
         std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
@@ -338,11 +339,12 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
     reached = !grew;
     const bool leaves_much = report.residual_mps > kFewRowsShare * safe;
     if (fine && !grew && leaves_much && !solved_at_once && rows_.size() <= kMostPivotedRows) {
-      solved_at_once = true;
+      solved_at_once = unseen = true;
       solveAtOnce(kFewRowsShare * safe);
-    } else if (!grew && report.residual_mps <= enough) {
-      return true;
+      continue;
     }
+    unseen = false;
+    if (!grew && report.residual_mps <= enough) return true;
   }
   return false;
 }
