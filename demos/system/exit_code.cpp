@@ -40,6 +40,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
     return failure(ExitCode::kCannotWrite, error.what());
   } catch (const OutOfResources& error) {
     return failure(ExitCode::kCannotWrite, error.what());
+  } catch (const renderer::NoImageMemory& error) {
+    return failure(ExitCode::kCannotWrite, error.what());
   } catch (const std::bad_alloc&) {
     return failure(ExitCode::kCannotWrite, "out of memory: the system gives no more");
   } catch (const SimulationInvalid& error) {

@@ -207,11 +207,8 @@ void FrameRenderer::Impl::createTargets() {
   backdrop = std::make_unique<Backdrop>(
       gl, Backdrop::Request{settings.width, settings.height, frameLines(settings), quality.mirror});
 
-  if (!scene_complete || !shadow_map.isComplete() || gl.GetError() != GL_NO_ERROR) {
-    std::ostringstream message;
-    message << "the GL driver has no room for an image of " << settings.width << "x" << settings.height;
-    throw NoRenderer(message.str());
-  }
+  if (!scene_complete || !shadow_map.isComplete() || gl.GetError() != GL_NO_ERROR)
+    throw NoImageMemory("images", settings.width, settings.height);
 }
 
 // One exposure or several, and their mean; the image at hand, where it is of the same.

@@ -33,7 +33,7 @@ class FrameRenderer {
  public:
   /// Creates the context and uploads the solids' geometry (kept by value; the span need not outlive the
   /// call). Throws InputError for a size outside [1, kMaxImageSide] or no light direction, NoRenderer without
-  /// a GL context.
+  /// a GL context, NoImageMemory without memory for the images.
   FrameRenderer(const Settings& settings, std::span<const Solid> solids);
   ~FrameRenderer();
   FrameRenderer(const FrameRenderer&) = delete;

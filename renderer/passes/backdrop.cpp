@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
 
 #include "renderer/draw/shader_lines.h"
 #include "renderer/draw/shaders.h"
@@ -55,11 +54,8 @@ void Backdrop::createTarget() {
   gl_.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
   gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, request_.width, request_.height);
   gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
-  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    std::ostringstream message;
-    message << "the GL driver has no room for a background of " << request_.width << "x" << request_.height;
-    throw NoRenderer(message.str());
-  }
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw NoImageMemory("backgrounds", request_.width, request_.height);
 }
 
 void Backdrop::copyTo(GLuint target, const FrameInputs& inputs, std::span<const GridBlock> blocks) {

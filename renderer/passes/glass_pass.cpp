@@ -1,6 +1,5 @@
 #include "renderer/passes/glass_pass.h"
 
-#include <sstream>
 #include <utility>
 
 #include "renderer/draw/shaders.h"
@@ -28,12 +27,8 @@ void GlassPass::create() {
   gl_.GenFramebuffers(1, &copy_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, copy_);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
-  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    std::ostringstream message;
-    message << "the GL driver has no room for what is behind glass of " << scene_.width << "x"
-            << scene_.height;
-    throw NoRenderer(message.str());
-  }
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw NoImageMemory("images behind glass", scene_.width, scene_.height);
 }
 
 void GlassPass::copyScene() const {

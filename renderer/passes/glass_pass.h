@@ -21,7 +21,7 @@ class GlassPass {
   GlassPass(const GlFunctions& gl, const Scene& scene, std::string lines);
 
   /// Into the scene's target, over its depths, which it adds to; groups of the instances that are uploaded,
-  /// and the shadow map must be bound. Throws NoRenderer.
+  /// and the shadow map must be bound. Throws NoImageMemory.
   void draw(std::span<const DrawGroup> groups, const SceneGeometry& geometry);
 
  private:

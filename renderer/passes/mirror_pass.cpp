@@ -1,7 +1,5 @@
 #include "renderer/passes/mirror_pass.h"
 
-#include <sstream>
-
 #include "renderer/gl/offscreen_context.h"
 #include "renderer/gl/texture_filter.h"
 
@@ -21,12 +19,8 @@ MirrorPass::MirrorPass(const GlFunctions& gl, BodyPrograms& programs, int width,
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
-  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE ||
-      gl_.GetError() != GL_NO_ERROR) {
-    std::ostringstream message;
-    message << "the GL driver has no room for mirrored images of " << width << "x" << height;
-    throw NoRenderer(message.str());
-  }
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || gl_.GetError() != GL_NO_ERROR)
+    throw NoImageMemory("mirrored images", width, height);
 }
 
 // The winding turns over in a mirror.

@@ -13,7 +13,7 @@ namespace carom::renderer {
 
 class MirrorPass {
  public:
-  /// For an image of that size. Both must outlive this. Throws NoRenderer.
+  /// For an image of that size. Both must outlive this. Throws NoImageMemory.
   MirrorPass(const GlFunctions& gl, BodyPrograms& programs, int width, int height);
 
   GLuint texture() const { return texture_; }

@@ -21,4 +21,8 @@ GlBackend backendOf(const std::string& name) {
   return static_cast<GlBackend>(found - backendNames().begin());
 }
 
+NoImageMemory::NoImageMemory(const std::string& images, int width, int height)
+    : std::runtime_error("out of memory: the GL driver has no room for " + images + " of " +
+                         std::to_string(width) + "x" + std::to_string(height)) {}
+
 }  // namespace carom::renderer

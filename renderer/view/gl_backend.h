@@ -44,4 +44,11 @@ class WrongDriver : public NoRenderer {
   using NoRenderer::NoRenderer;
 };
 
+/// The driver has no memory for the images that a frame needs; one line, says which.
+class NoImageMemory : public std::runtime_error {
+ public:
+  /// `images` in the plural, of `width` x `height` pixels.
+  NoImageMemory(const std::string& images, int width, int height);
+};
+
 }  // namespace carom::renderer

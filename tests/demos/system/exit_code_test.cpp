@@ -21,6 +21,7 @@ TEST(ExitCode, EachKindOfFailureHasItsOwn) {
   EXPECT_EQ(failureOfThrown(UsageError("x")).code, 2);
   EXPECT_EQ(failureOfThrown(InputError("x")).code, 3);
   EXPECT_EQ(failureOfThrown(CannotWrite("x")).code, 4);
+  EXPECT_EQ(failureOfThrown(renderer::NoImageMemory("images", 32, 32)).code, 4);
   EXPECT_EQ(failureOfThrown(SimulationInvalid("x")).code, 5);
   EXPECT_EQ(failureOfThrown(renderer::NoRenderer("x")).code, 6);
   EXPECT_EQ(failureOfThrown(PipeClosed("x")).code, 141);
