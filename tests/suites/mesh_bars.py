@@ -18,7 +18,7 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2] / "assets")]
 
 from family_chains import nets, rings
-from mesh_shapes import bumpy, gear, grille, torus, write_obj
+from mesh_shapes import bolt, bumpy, gear, grille, torus, write_obj
 from suite_checks import all_sides, nothing
 from suite_fixture import Fixture, Run, body, floor, mesh, simulate
 
@@ -38,7 +38,8 @@ def decomposed(program, path):
 
 def decomposition(program, folder):
     for name, shape, most in (("torus of 400 triangles", torus(0.4, 0.1, 20, 10), 170), ("gear", gear(18, 0.1, 0.16), 65),
-                              ("nut", None, 512), ("bolt", None, 512)):
+                              ("thread of 2120 facets", bolt(0.8, 1.0, 0.25, 8, 32, 0.3), 512), ("nut", None, 512),
+                              ("bolt", None, 512)):
         path = ASSETS / "meshes" / f"{name}.obj"
         if shape is not None:
             path = folder / f"{name.split()[0]}.obj"

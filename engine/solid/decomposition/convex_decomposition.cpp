@@ -35,9 +35,6 @@ constexpr std::size_t kFewestPlanes = 12;
 // Planes of one notch that fail in turn before the solid is given up.
 constexpr int kCutsPerPiece = 16;
 
-/// A part of the surface under work: closed shells around one connected volume, as triangles.
-using Piece = std::vector<int>;
-
 struct Candidate {
   NotchPlane by;
   int gain = 0;  // notches removed less those crossed
@@ -140,31 +137,55 @@ class PlanesAbout {
   TangentBasis basis_;
 };
 
+/// The volume that some triangles enclose, m^3; they are closed.
+double volumeOf(const CutSurface& surface, std::span<const int> triangles) {
+  const Vec3 origin = surface.point(surface.triangle(triangles[0])[0]);
+  double volume = 0.0;
+  for (const int t : triangles) {
+    const Triangle& c = surface.triangle(t);
+    volume +=
+        dot(surface.point(c[0]) - origin, (surface.point(c[1]) - origin).cross(surface.point(c[2]) - origin));
+  }
+  return volume / 6.0;
+}
+
+/// Whether a ray from the point, which is on no triangle, leaves the shell.
+bool winds(const CutSurface& surface, std::span<const int> shell, const Vec3& p) {
+  const Vec3 ray(0.5773, 0.6431, 0.5027);  // along nothing in particular
+  int crossings = 0;
+  for (const int t : shell) {
+    const Triangle& c = surface.triangle(t);
+    const Vec3 a = surface.point(c[0]) - p, b = surface.point(c[1]) - p, d = surface.point(c[2]) - p;
+    const double ab = dot(ray, a.cross(b)), bd = dot(ray, b.cross(d)), da = dot(ray, d.cross(a));
+    const bool positive = ab >= 0.0 && bd >= 0.0 && da >= 0.0, negative = ab < 0.0 && bd < 0.0 && da < 0.0;
+    if (!positive && !negative) continue;
+    if ((dot(a, b.cross(d)) >= 0.0) == positive) ++crossings;
+  }
+  return crossings % 2 == 1;
+}
+
 class Cutting {
  public:
   Cutting(const ClosedSurface& surface, const DecompositionSettings& settings, double tolerance_m)
-      : surface_(surface, tolerance_m), settings_(settings), tolerance_m_(tolerance_m) {
-    std::vector<Piece> shells(surface.within.size());
-    for (std::size_t t = 0; t < surface.shell.size(); ++t)
-      shells[at(surface.shell[t])].push_back(static_cast<int>(t));
-    for (std::size_t s = 0; s < shells.size(); ++s) {  // cavities go with the shell around them
-      const int around = surface.within[s];
-      if (around < 0) continue;
-      Piece& outer = shells[at(around)];
-      outer.insert(outer.end(), shells[s].begin(), shells[s].end());
-      shells[s].clear();
+      : settings_(settings), tolerance_m_(tolerance_m) {
+    std::vector<std::vector<int>> shells(surface.within.size());
+    for (std::size_t t = 0; t < surface.shell.size(); ++t) {
+      const int shell = surface.shell[t], around = surface.within[at(shell)];
+      shells[at(around < 0 ? shell : around)].push_back(
+          static_cast<int>(t));  // a cavity with what is around it
     }
-    for (Piece& shell : shells)
-      if (!shell.empty()) waiting_.push_back(std::move(shell));
+    const CutSurface whole(surface, tolerance_m);
+    for (const std::vector<int>& shell : shells)
+      if (!shell.empty()) waiting_.push_back(whole.part(shell));
   }
 
   /// Cuts until no notch is left.
   void run(DecompositionReport& report) {
-    for (const Piece& piece : waiting_) report.notches += static_cast<int>(surface_.notches(piece).size());
+    for (const CutSurface& piece : waiting_) report.notches += static_cast<int>(piece.notches().size());
     while (!waiting_.empty()) {
-      Piece piece = std::move(waiting_.back());
+      CutSurface piece = std::move(waiting_.back());
       waiting_.pop_back();
-      const std::vector<int> notches = surface_.notches(piece);
+      const std::vector<int> notches = piece.notches();
       if (notches.empty()) {
         done_.push_back(std::move(piece));
         continue;
@@ -181,8 +202,7 @@ class Cutting {
     }
   }
 
-  const std::vector<Piece>& pieces() const { return done_; }
-  const CutSurface& surface() const { return surface_; }
+  const std::vector<CutSurface>& pieces() const { return done_; }
 
  private:
   std::string tooMany(const DecompositionReport& report) const {
@@ -190,25 +210,23 @@ class Cutting {
            std::to_string(settings_.most_pieces) + " convex pieces";
   }
 
-  bool cutOnce(Piece& piece, const std::vector<int>& notches) {
-    const CutSurface before = surface_;
-    const Piece whole = piece;
+  bool cutOnce(CutSurface& piece, const std::vector<int>& notches) const {
+    const CutSurface whole = piece;
     for (const NotchPlane& by : bestPlanes(piece, notches)) {
-      if (surface_.cut(piece, by)) return true;
-      surface_ = before;
+      if (piece.cut(by)) return true;
       piece = whole;
     }
     return false;
   }
 
   /// Of all notches those whose solid angles are farthest from flat, times their length.
-  std::vector<int> deepest(const std::vector<int>& notches) const {
+  static std::vector<int> deepest(const CutSurface& piece, const std::vector<int>& notches) {
     if (notches.size() <= kNotchesTried) return notches;
     std::vector<std::pair<double, int>> depths;
     for (const int half : notches) {
-      const Vec3& left = surface_.facet(surface_.facetOf(half)).normal;
-      const Vec3& right = surface_.facet(surface_.facetOf(surface_.mate(half))).normal;
-      const Vec3 edge = surface_.point(surface_.head(half)) - surface_.point(surface_.tail(half));
+      const Vec3& left = piece.facet(piece.facetOf(half)).normal;
+      const Vec3& right = piece.facet(piece.facetOf(piece.mate(half))).normal;
+      const Vec3 edge = piece.point(piece.head(half)) - piece.point(piece.tail(half));
       depths.push_back({-(left - right).norm() * edge.norm(), half});
     }
     std::sort(depths.begin(), depths.end());
@@ -218,25 +236,25 @@ class Cutting {
   }
 
   /// Notches that the plane removes less those that it crosses, anywhere in the piece.
-  int gainOf(const NotchPlane& by, const std::vector<int>& notches) const {
+  int gainOf(const NotchPlane& by, const CutSurface& piece, const std::vector<int>& notches) const {
     int gain = 0;
     for (const int half : notches) {
-      const double a = by.plane.signedDistance(surface_.point(surface_.tail(half)));
-      const double b = by.plane.signedDistance(surface_.point(surface_.head(half)));
+      const double a = by.plane.signedDistance(piece.point(piece.tail(half)));
+      const double b = by.plane.signedDistance(piece.point(piece.head(half)));
       const bool a_on = std::abs(a) <= tolerance_m_, b_on = std::abs(b) <= tolerance_m_;
       if (a_on && b_on)
-        gain += surface_.divides(by.plane, half) ? 1 : 0;
+        gain += piece.divides(by.plane, half) ? 1 : 0;
       else if (!a_on && !b_on && (a > 0.0) != (b > 0.0))
         --gain;
     }
     return gain;
   }
 
-  std::vector<NotchPlane> bestPlanes(const Piece& piece, const std::vector<int>& notches) {
+  std::vector<NotchPlane> bestPlanes(CutSurface& piece, const std::vector<int>& notches) const {
     std::vector<Candidate> candidates;
-    for (const int notch : deepest(notches))
-      for (const NotchPlane& by : PlanesAbout(surface_, notch, tolerance_m_).planes(notches))
-        candidates.push_back({by, gainOf(by, notches)});
+    for (const int notch : deepest(piece, notches))
+      for (const NotchPlane& by : PlanesAbout(piece, notch, tolerance_m_).planes(notches))
+        candidates.push_back({by, gainOf(by, piece, notches)});
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
     struct Judged {
@@ -245,9 +263,9 @@ class Cutting {
       int gain() const { return effect.notches_removed - effect.notches_crossed; }
     };
     std::vector<Judged> judged;
-    const std::size_t tried = std::max(kFewestPlanes, kTrianglesSectioned / piece.size());
+    const std::size_t tried = std::max(kFewestPlanes, kTrianglesSectioned / at(piece.triangleCount()));
     for (std::size_t i = 0; i < std::min(candidates.size(), tried); ++i)
-      judged.push_back({surface_.effect(piece, notches, candidates[i].by), candidates[i].by});
+      judged.push_back({piece.effect(notches, candidates[i].by), candidates[i].by});
     std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) {
       return std::tuple(-a.gain(), a.effect.area_m2) < std::tuple(-b.gain(), b.effect.area_m2);
     });
@@ -258,66 +276,28 @@ class Cutting {
     return best;
   }
 
-  double volumeOf(const Piece& piece) const {
-    const Vec3 origin = surface_.point(surface_.triangle(piece[0])[0]);
-    double volume = 0.0;
-    for (const int t : piece) {
-      const Triangle& c = surface_.triangle(t);
-      volume += dot(surface_.point(c[0]) - origin,
-                    (surface_.point(c[1]) - origin).cross(surface_.point(c[2]) - origin));
-    }
-    return volume / 6.0;
-  }
-
-  /// Each connected shell becomes a piece; a cavity goes with the shell around it.
-  void separate(const Piece& piece) {
-    std::vector<char> seen(at(surface_.triangleCount()), 1);
-    for (const int t : piece) seen[at(t)] = 0;
-    std::vector<Piece> shells, cavities;
-    for (const int seed : piece) {
-      if (seen[at(seed)]) continue;
-      Piece shell{seed};
-      seen[at(seed)] = 1;
-      for (std::size_t i = 0; i < shell.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-          const int t = surface_.mate(3 * shell[i] + k) / 3;
-          if (seen[at(t)]) continue;
-          seen[at(t)] = 1;
-          shell.push_back(t);
-        }
-      std::sort(shell.begin(), shell.end());
-      (volumeOf(shell) < 0.0 ? cavities : shells).push_back(std::move(shell));
-    }
+  /// What the cut has made of a piece: each connected shell, a cavity with the shell around it.
+  void separate(const CutSurface& piece) {
+    std::vector<std::vector<int>> shells, cavities;
+    for (std::vector<int>& shell : piece.shells())
+      (volumeOf(piece, shell) < 0.0 ? cavities : shells).push_back(std::move(shell));
     if (shells.empty()) return;  // nothing but rounding encloses nothing
-    for (const Piece& cavity : cavities) {
-      const Vec3& p = surface_.point(surface_.triangle(cavity[0])[0]);
-      Piece* around = &shells[0];
-      for (Piece& shell : shells)
-        if (winds(shell, p)) around = &shell;
+    for (const std::vector<int>& cavity : cavities) {
+      const Vec3& p = piece.point(piece.triangle(cavity[0])[0]);
+      std::vector<int>* around = &shells[0];
+      for (std::vector<int>& shell : shells)
+        if (winds(piece, shell, p)) around = &shell;
       around->insert(around->end(), cavity.begin(), cavity.end());
     }
-    for (Piece& shell : shells) waiting_.push_back(std::move(shell));
-  }
-
-  /// Whether a ray from the point, which is on no triangle, leaves the shell.
-  bool winds(const Piece& shell, const Vec3& p) const {
-    const Vec3 ray(0.5773, 0.6431, 0.5027);  // along nothing in particular
-    int crossings = 0;
-    for (const int t : shell) {
-      const Triangle& c = surface_.triangle(t);
-      const Vec3 a = surface_.point(c[0]) - p, b = surface_.point(c[1]) - p, d = surface_.point(c[2]) - p;
-      const double ab = dot(ray, a.cross(b)), bd = dot(ray, b.cross(d)), da = dot(ray, d.cross(a));
-      const bool positive = ab >= 0.0 && bd >= 0.0 && da >= 0.0, negative = ab < 0.0 && bd < 0.0 && da < 0.0;
-      if (!positive && !negative) continue;
-      if ((dot(a, b.cross(d)) >= 0.0) == positive) ++crossings;
+    for (std::vector<int>& shell : shells) {
+      std::sort(shell.begin(), shell.end());
+      waiting_.push_back(piece.part(shell));
     }
-    return crossings % 2 == 1;
   }
 
-  CutSurface surface_;
   const DecompositionSettings& settings_;
   double tolerance_m_;
-  std::vector<Piece> waiting_, done_;
+  std::vector<CutSurface> waiting_, done_;
 };
 
 /// A piece when nothing is to be cut any more: its points, its volume, and its hull where it has one.
@@ -345,7 +325,7 @@ class Merging {
  public:
   Merging(const Cutting& cutting, const DecompositionSettings& settings, double tolerance_m)
       : settings_(settings), tolerance_m_(tolerance_m) {
-    for (const Piece& piece : cutting.pieces()) pieces_.push_back(collected(cutting.surface(), piece));
+    for (const CutSurface& piece : cutting.pieces()) pieces_.push_back(collected(piece));
   }
 
   /// The smallest first: what is thin goes with what is beside it.
@@ -398,21 +378,12 @@ class Merging {
   }
 
  private:
-  ConvexPiece collected(const CutSurface& surface, const Piece& piece) const {
+  ConvexPiece collected(const CutSurface& surface) const {
+    std::vector<int> all(at(surface.triangleCount()));
+    std::iota(all.begin(), all.end(), 0);
     ConvexPiece made;
-    std::vector<int> vertices;
-    for (const int t : piece)
-      for (const int v : surface.triangle(t)) vertices.push_back(v);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (const int v : vertices) made.points.push_back(surface.point(v));
-    for (const int t : piece) {
-      const Triangle& c = surface.triangle(t);
-      made.volume_m3 +=
-          dot(surface.point(c[0]) - made.points[0],
-              (surface.point(c[1]) - made.points[0]).cross(surface.point(c[2]) - made.points[0])) /
-          6.0;
-    }
+    made.points = surface.points();
+    made.volume_m3 = volumeOf(surface, all);
     measure(made);
     return made;
   }

@@ -46,8 +46,6 @@ struct Frame2 {
   Vec2 operator()(const Vec3& p) const { return {dot(basis.t1, p), dot(basis.t2, p)}; }
 };
 
-constexpr int kUnlabelled = 2;
-
 double cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -84,11 +82,11 @@ bool isWithin(const std::vector<int>& inner, const std::vector<int>& outer,
 /// below count(), and some numbers are no curve's.
 class CutSurface::Curves {
  public:
-  Curves(CutSurface& surface, std::span<const int> piece) : surface_(surface) {
+  explicit Curves(CutSurface& surface) : surface_(surface) {
     surface.node_of_point_.assign(surface.points_.size(), -1);
     surface.node_of_half_.assign(surface.mates_.size(), -1);
-    for (const int t : piece) {
-      const Triangle& c = surface.triangles_[at(t)];
+    for (int t = 0; t < surface.triangleCount(); ++t) {
+      const Triangle& c = surface.triangle(t);
       const int side = label(c[0]);
       if (side == 0 || label(c[1]) != side || label(c[2]) != side) follow(t);
     }
@@ -275,11 +273,10 @@ bool CutSurface::isNotch(int half) const {
   return dot(left.plane.normal.cross(right.plane.normal), along) < -(left.normal_error + right.normal_error);
 }
 
-std::vector<int> CutSurface::notches(std::span<const int> piece) const {
+std::vector<int> CutSurface::notches() const {
   std::vector<int> found;
-  for (const int t : piece)
-    for (int half = 3 * t; half < 3 * t + 3; ++half)
-      if (half < mate(half) && isNotch(half)) found.push_back(half);
+  for (int half = 0; half < 3 * triangleCount(); ++half)
+    if (half < mate(half) && isNotch(half)) found.push_back(half);
   return found;
 }
 
@@ -300,24 +297,22 @@ Vec3 CutSurface::crossing(const Plane& plane, int half) const {
   return point(low) + (l / (l - h)) * (point(high) - point(low));
 }
 
-void CutSurface::labelPoints(std::span<const int> piece, const NotchPlane& by) {
-  label_.assign(points_.size(), kUnlabelled);
-  for (const int t : piece)
-    for (const int v : triangles_[at(t)]) {
-      if (label_[at(v)] != kUnlabelled) continue;
-      const double d = by.plane.signedDistance(point(v));
-      label_[at(v)] = std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1;
-    }
+void CutSurface::labelPoints(const NotchPlane& by) {
+  label_.resize(points_.size());
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    const double d = by.plane.signedDistance(points_[v]);
+    label_[v] = std::abs(d) <= tolerance_m_ ? 0 : d > 0.0 ? 1 : -1;
+  }
   for (const int v : {tail(by.half), head(by.half)}) label_[at(v)] = 0;
   if (by.along < 0) return;
-  for (const int t : piece)
-    if (facets_of_[at(t)] == by.along)
-      for (const int v : triangles_[at(t)]) label_[at(v)] = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    if (facets_of_[t] == by.along)
+      for (const int v : triangles_[t]) label_[at(v)] = 0;
 }
 
-CutSurface::Section CutSurface::sectionOf(std::span<const int> piece, const NotchPlane& by) {
-  labelPoints(piece, by);
-  Curves curves(*this, piece);
+CutSurface::Section CutSurface::sectionOf(const NotchPlane& by) {
+  labelPoints(by);
+  Curves curves(*this);
   const std::vector<char> chosen = curves.near(tail(by.half), by.plane);
   Section section;
   section.plane = by.plane;
@@ -369,8 +364,8 @@ bool CutSurface::isRim(int half, const Section& section) const {
   return sideOf(half / 3, section) < 0 && sideOf(mate(half) / 3, section) > 0;
 }
 
-CutEffect CutSurface::effect(std::span<const int> piece, std::span<const int> notches, const NotchPlane& by) {
-  const Section section = sectionOf(piece, by);
+CutEffect CutSurface::effect(std::span<const int> notches, const NotchPlane& by) {
+  const Section section = sectionOf(by);
   CutEffect effect;
   effect.area_m2 = 0.5 * section.twice_area;
   for (const int half : notches) {
@@ -380,6 +375,55 @@ CutEffect CutSurface::effect(std::span<const int> piece, std::span<const int> no
     if (on && section.near_notch[at(a)] && divides(by.plane, half)) ++effect.notches_removed;
   }
   return effect;
+}
+
+std::vector<std::vector<int>> CutSurface::shells() const {
+  std::vector<int> shell_of(triangles_.size(), -1), reached;
+  std::vector<std::vector<int>> found;
+  for (int t = 0; t < triangleCount(); ++t) {
+    if (shell_of[at(t)] < 0) {
+      reached = {t};
+      shell_of[at(t)] = static_cast<int>(found.size());
+      for (std::size_t i = 0; i < reached.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+          const int beside = mate(3 * reached[i] + k) / 3;
+          if (shell_of[at(beside)] >= 0) continue;
+          shell_of[at(beside)] = static_cast<int>(found.size());
+          reached.push_back(beside);
+        }
+      found.emplace_back().reserve(reached.size());
+    }
+    found[at(shell_of[at(t)])].push_back(t);
+  }
+  return found;
+}
+
+CutSurface CutSurface::part(std::span<const int> triangles) const {
+  CutSurface made(tolerance_m_);
+  std::vector<int> triangle_in(triangles_.size(), -1), point_in(points_.size(), -1);
+  std::vector<int> facet_in(facets_.size(), -1);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    triangle_in[at(triangles[i])] = static_cast<int>(i);
+    for (const int v : triangle(triangles[i])) point_in[at(v)] = 0;
+    facet_in[at(facets_of_[at(triangles[i])])] = 0;
+  }
+  const auto keep = [](std::vector<int>& new_of, const auto& all, auto& kept) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (new_of[i] == 0) {
+        new_of[i] = static_cast<int>(kept.size());
+        kept.push_back(all[i]);
+      }
+  };
+  keep(point_in, points_, made.points_);
+  keep(facet_in, facets_, made.facets_);
+  for (const int t : triangles) {
+    const Triangle& c = triangle(t);
+    made.triangles_.push_back({point_in[at(c[0])], point_in[at(c[1])], point_in[at(c[2])]});
+    made.facets_of_.push_back(facet_in[at(facets_of_[at(t)])]);
+    for (int half = 3 * t; half < 3 * t + 3; ++half)
+      made.mates_.push_back(3 * triangle_in[at(mate(half) / 3)] + mate(half) % 3);
+  }
+  return made;
 }
 
 int CutSurface::addTriangle(const Triangle& corners, int facet) {
@@ -395,14 +439,13 @@ void CutSurface::pair(int half, int other) {
 }
 
 // Both triangles a b c of the edge from a to b become a p c and p b c.
-void CutSurface::splitEdge(int half, int p, std::vector<int>& piece) {
+void CutSurface::splitEdge(int half, int p) {
   const int other = mate(half);
   const auto divide = [&](int side) {
     const int t = side / 3;
     const int b = head(side), c = head(next(side));
     const int beyond = mate(next(side));  // of the side from b to c
     const int added = addTriangle({p, b, c}, facets_of_[at(t)]);
-    piece.push_back(added);
     triangles_[at(t)][at((side + 1) % 3)] = p;
     pair(3 * added + 1, beyond);
     moved_[next(side)] = 3 * added + 1;
@@ -416,33 +459,32 @@ void CutSurface::splitEdge(int half, int p, std::vector<int>& piece) {
 }
 
 /// The closed ways along the rim; one that comes to a vertex twice is two.
-std::vector<std::vector<int>> CutSurface::rims(std::span<const int> piece, const Section& section) const {
+std::vector<std::vector<int>> CutSurface::rims(const Section& section) const {
   std::vector<char> taken(mates_.size(), 0);
   std::vector<std::vector<int>> found;
-  for (const int t : piece)
-    for (int start = 3 * t; start < 3 * t + 3; ++start) {
-      if (taken[at(start)] || !isRim(start, section)) continue;
-      std::vector<int> way;
-      for (int half = start; !taken[at(half)];) {
-        taken[at(half)] = 1;
-        const auto before =
-            std::find_if(way.begin(), way.end(), [&](int other) { return tail(other) == tail(half); });
-        if (before != way.end()) {
-          found.emplace_back(before, way.end());
-          way.erase(before, way.end());
-        }
-        way.push_back(half);
-        half = next(half);
-        // Around the vertex, through what is below the plane, to where the rim goes on.
-        for (std::size_t turns = 0; !isRim(half, section) && turns < mates_.size(); ++turns)
-          half = next(mate(half));
+  for (int start = 0; start < 3 * triangleCount(); ++start) {
+    if (taken[at(start)] || !isRim(start, section)) continue;
+    std::vector<int> way;
+    for (int half = start; !taken[at(half)];) {
+      taken[at(half)] = 1;
+      const auto before =
+          std::find_if(way.begin(), way.end(), [&](int other) { return tail(other) == tail(half); });
+      if (before != way.end()) {
+        found.emplace_back(before, way.end());
+        way.erase(before, way.end());
       }
-      found.push_back(std::move(way));
+      way.push_back(half);
+      half = next(half);
+      // Around the vertex, through what is below the plane, to where the rim goes on.
+      for (std::size_t turns = 0; !isRim(half, section) && turns < mates_.size(); ++turns)
+        half = next(mate(half));
     }
+    found.push_back(std::move(way));
+  }
   return found;
 }
 
-void CutSurface::splitCrossed(Section& section, std::vector<int>& piece) {
+void CutSurface::splitCrossed(Section& section) {
   moved_.clear();
   for (int half : section.crossed) {
     for (auto moved = moved_.find(half); moved != moved_.end(); moved = moved_.find(half))
@@ -451,13 +493,13 @@ void CutSurface::splitCrossed(Section& section, std::vector<int>& piece) {
     points_.push_back(crossing(section.plane, half));
     label_.push_back(0);
     section.near_notch.push_back(1);
-    splitEdge(half, p, piece);
+    splitEdge(half, p);
   }
 }
 
-CutSurface::Rims CutSurface::rimsAround(int notch, std::span<const int> piece, const Section& section) const {
+CutSurface::Rims CutSurface::rimsAround(int notch, const Section& section) const {
   Rims found;
-  found.ways = rims(piece, section);
+  found.ways = rims(section);
   for (std::size_t i = 0; i < found.ways.size(); ++i) {
     found.rings.emplace_back();
     for (const int half : found.ways[i]) {
@@ -472,13 +514,13 @@ CutSurface::Rims CutSurface::rimsAround(int notch, std::span<const int> piece, c
   return found;
 }
 
-bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
-  Section section = sectionOf(piece, by);
-  splitCrossed(section, piece);
+bool CutSurface::cut(const NotchPlane& by) {
+  Section section = sectionOf(by);
+  splitCrossed(section);
   // One of the sides of the notch is the rim's, or the plane does not divide it.
   const int notch = isRim(by.half, section) ? by.half : mate(by.half);
   if (!isRim(notch, section)) return false;
-  const Rims found = rimsAround(notch, piece, section);
+  const Rims found = rimsAround(notch, section);
   const std::vector<int>& own = found.ways[found.own];
   // The region: a ring with area on its left, and the holes of which it is the smallest ring around.
   const std::optional<std::size_t> outer =
@@ -496,17 +538,17 @@ bool CutSurface::cut(std::vector<int>& piece, const NotchPlane& by) {
     double length_m = 0.0;
     for (const int half : own) length_m += (point(head(half)) - point(tail(half))).norm();
     if (std::abs(found.twice_areas[found.own]) > tolerance_m_ * length_m) return false;
-    return addCaps({own}, section, by, piece);
+    return addCaps({own}, section, by);
   }
   std::vector<std::vector<int>> chosen{found.ways[*outer]};
   for (std::size_t i = 0; i < found.rings.size(); ++i)
     if (!(found.twice_areas[i] > 0.0) && i != *outer && found.around(i) == outer)
       chosen.push_back(found.ways[i]);
-  return addCaps(chosen, section, by, piece);
+  return addCaps(chosen, section, by);
 }
 
 bool CutSurface::addCaps(const std::vector<std::vector<int>>& rims, const Section& section,
-                         const NotchPlane& by, std::vector<int>& piece) {
+                         const NotchPlane& by) {
   std::vector<Vec2> corners;
   std::vector<int> corner_points;
   std::vector<std::pair<int, int>> rim_of;  // by corner: below and above the ring's side that begins there
@@ -530,19 +572,17 @@ bool CutSurface::addCaps(const std::vector<std::vector<int>>& rims, const Sectio
   const int above = static_cast<int>(facets_.size());
   const double error = facets_[at(below)].normal_error;
   facets_.push_back({{-by.plane.normal, -by.plane.offset}, error});
-  for (const int t : piece) {
+  for (int t = 0; t < triangleCount(); ++t) {
     const Triangle& c = triangles_[at(t)];
     if (label_[at(c[0])] != 0 || label_[at(c[1])] != 0 || label_[at(c[2])] != 0) continue;
     facets_of_[at(t)] = sideOf(t, section) < 0 ? below : above;
   }
   const int lower = triangleCount();
   for (const std::array<int, 3>& t : caps->triangles)
-    piece.push_back(
-        addTriangle({corner_points[at(t[0])], corner_points[at(t[1])], corner_points[at(t[2])]}, below));
+    addTriangle({corner_points[at(t[0])], corner_points[at(t[1])], corner_points[at(t[2])]}, below);
   const int upper = triangleCount();
   for (const std::array<int, 3>& t : caps->triangles)
-    piece.push_back(
-        addTriangle({corner_points[at(t[0])], corner_points[at(t[2])], corner_points[at(t[1])]}, above));
+    addTriangle({corner_points[at(t[0])], corner_points[at(t[2])], corner_points[at(t[1])]}, above);
   // Side k of a lower triangle is side 2 - k of the upper one, the other way round.
   const auto lowerHalf = [&](SideNumber side) {
     return side >= 0 ? 3 * lower + side : rim_of[at(-1 - side)].first;

@@ -3,7 +3,8 @@
 // section that a notch lies on is cut and closed by two caps, so that what is far away stays whole. Which
 // triangle is beside which is never found by places but carried along, so that the volumes of what comes of
 // it add up to what was there whatever is rounded: both caps have the same triangles, and a new point lies on
-// an edge. Tested in tests/engine/solid/decomposition/convex_decomposition_test.cpp.
+// an edge. What has come apart becomes surfaces of their own, so that a cut costs what it cuts. Tested in
+// tests/engine/solid/decomposition/convex_decomposition_test.cpp.
 
 #include <map>
 #include <optional>
@@ -35,6 +36,7 @@ class CutSurface {
   CutSurface(const ClosedSurface& surface, double tolerance_m);
 
   const Vec3& point(int v) const { return points_[at(v)]; }
+  const std::vector<Vec3>& points() const { return points_; }
   int tail(int half) const { return triangles_[at(half / 3)][at(half % 3)]; }
   int head(int half) const { return triangles_[at(half / 3)][at((half + 1) % 3)]; }
   int mate(int half) const { return mates_[at(half)]; }
@@ -43,18 +45,21 @@ class CutSurface {
   const Plane& facet(int f) const { return facets_[at(f)].plane; }
   int triangleCount() const { return static_cast<int>(triangles_.size()); }
 
-  /// Whether the solid's angle at the edge is more than 180 degrees.
-  bool isNotch(int half) const;
-  /// The notches of some triangles, once each.
-  std::vector<int> notches(std::span<const int> piece) const;
+  /// The notches, once each: edges at which the solid's angle is more than 180 degrees.
+  std::vector<int> notches() const;
   /// Whether the plane, which contains the edge, has its two facets on either side or on itself: cutting
   /// along it leaves no notch there.
   bool divides(const Plane& plane, int half) const;
 
-  CutEffect effect(std::span<const int> piece, std::span<const int> notches, const NotchPlane& by);
-  /// Cuts the part of the section that the notch lies on; adds the new triangles to `piece`. False, with
-  /// nothing but more points on edges, where rounding makes the section no polygon.
-  bool cut(std::vector<int>& piece, const NotchPlane& by);
+  CutEffect effect(std::span<const int> notches, const NotchPlane& by);
+  /// Cuts the part of the section that the notch lies on. False, with nothing but more points on edges, where
+  /// rounding makes the section no polygon.
+  bool cut(const NotchPlane& by);
+
+  /// The triangles that hang together, in order.
+  std::vector<std::vector<int>> shells() const;
+  /// The surface of whole shells, whose triangles are in order. Everything keeps its order.
+  CutSurface part(std::span<const int> triangles) const;
 
  private:
   struct Facet {
@@ -65,24 +70,25 @@ class CutSurface {
   struct Section;
   struct Rims;
 
+  explicit CutSurface(double tolerance_m) : tolerance_m_(tolerance_m) {}
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static int next(int half) { return half % 3 == 2 ? half - 2 : half + 1; }
   Vec3 triangleArea(int t) const;
   void growFacet(int seed);
-  void labelPoints(std::span<const int> piece, const NotchPlane& by);
-  Section sectionOf(std::span<const int> piece, const NotchPlane& by);
+  bool isNotch(int half) const;
+  void labelPoints(const NotchPlane& by);
+  Section sectionOf(const NotchPlane& by);
   void addArea(int t, Section& section) const;
   Vec3 crossing(const Plane& plane, int half) const;
-  void splitEdge(int half, int point, std::vector<int>& piece);
+  void splitEdge(int half, int point);
   int addTriangle(const Triangle& corners, int facet);
   void pair(int half, int other);
   int sideOf(int t, const Section& section) const;
   bool isRim(int half, const Section& section) const;
-  void splitCrossed(Section& section, std::vector<int>& piece);
-  std::vector<std::vector<int>> rims(std::span<const int> piece, const Section& section) const;
-  Rims rimsAround(int notch, std::span<const int> piece, const Section& section) const;
-  bool addCaps(const std::vector<std::vector<int>>& rims, const Section& section, const NotchPlane& by,
-               std::vector<int>& piece);
+  void splitCrossed(Section& section);
+  std::vector<std::vector<int>> rims(const Section& section) const;
+  Rims rimsAround(int notch, const Section& section) const;
+  bool addCaps(const std::vector<std::vector<int>>& rims, const Section& section, const NotchPlane& by);
 
   double tolerance_m_;
   std::vector<Vec3> points_;

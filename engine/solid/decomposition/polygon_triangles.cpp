@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "engine/foundation/index.h"
@@ -147,6 +148,7 @@ class EarClipping {
       before_.push_back((i + n - 1) % n);
       after_.push_back((i + 1) % n);
     }
+    obstacles_.resize(nodes_.size());
   }
 
   std::optional<PolygonTriangles> run() {
@@ -162,6 +164,11 @@ class EarClipping {
 
  private:
   static constexpr double kNoEar = -1.0;
+  static constexpr int kGone = -1;  // no node, or what follows one that has been clipped
+  /// What keeps a corner from being an ear: a node, and the side that begins there.
+  struct Obstacle {
+    int node = kGone, after = kGone;
+  };
   const Vec2& p(int node) const { return corners_[at(nodes_[at(node)].corner)]; }
 
   std::vector<int> ringFrom(int start) const {
@@ -176,13 +183,12 @@ class EarClipping {
     std::vector<double> quality;
     quality.reserve(ring.size());
     for (const int i : ring) quality.push_back(qualityOf(i));
-    bool fresh = true;  // no quality is out of date: an ear clipped may free others
     while (ring.size() > 2) {
       auto best = std::max_element(quality.begin(), quality.end());
-      if (!(*best > 0.0) && !fresh) {
-        for (std::size_t k = 0; k < ring.size(); ++k) quality[k] = qualityOf(ring[k]);
+      if (!(*best > 0.0)) {  // an ear clipped may have freed others
+        for (std::size_t k = 0; k < ring.size(); ++k)
+          if (isFreed(ring[k])) quality[k] = qualityOf(ring[k]);
         best = std::max_element(quality.begin(), quality.end());
-        fresh = true;
       }
       if (!(*best > 0.0) && takeApart(ring, rings)) return true;
       if (*best == kNoEar) return false;
@@ -191,7 +197,6 @@ class EarClipping {
       cutOff(ear);
       ring.erase(ring.begin() + k);
       quality.erase(quality.begin() + k);
-      fresh = false;
       for (std::size_t i = 0; i < ring.size(); ++i)
         if (ring[i] == before || ring[i] == after) quality[i] = qualityOf(ring[i]);
     }
@@ -209,6 +214,7 @@ class EarClipping {
     nodes_[at(before)].beyond = first + 2;
     after_[at(before)] = after;
     before_[at(after)] = before;
+    after_[at(ear)] = kGone;
   }
 
   void join(int side, int other) { raw_joins_.push_back({side, other}); }
@@ -232,6 +238,19 @@ class EarClipping {
     }
   }
 
+  /// By position in the ring: the next at the same place; the ring's size for none.
+  std::vector<std::size_t> samePlaces(const std::vector<int>& ring) const {
+    std::vector<std::size_t> order(ring.size()), next(ring.size(), ring.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+      const Vec2 &a = p(ring[i]), &b = p(ring[k]);
+      return std::tuple(a.x(), a.y(), i) < std::tuple(b.x(), b.y(), k);
+    });
+    for (std::size_t i = 0; i + 1 < order.size(); ++i)
+      if (p(ring[order[i]]) == p(ring[order[i + 1]])) next[order[i]] = order[i + 1];
+    return next;
+  }
+
   /// Parts the ring in two where it comes to one place twice, with area on the left of both or of none.
   bool takeApart(const std::vector<int>& ring, std::vector<int>& rings) {
     std::vector<double> area{0.0};  // from the first corner up to each
@@ -239,9 +258,9 @@ class EarClipping {
       const Vec2 &a = p(ring[0]), &b = p(ring[k]), &c = p(ring[(k + 1) % ring.size()]);
       area.push_back(area.back() + turnOf(a, b, c));
     }
+    const std::vector<std::size_t> again = samePlaces(ring);
     for (std::size_t i = 0; i < ring.size(); ++i)
-      for (std::size_t k = i + 1; k < ring.size(); ++k) {
-        if (p(ring[i]) != p(ring[k])) continue;
+      for (std::size_t k = again[i]; k < ring.size(); k = again[k]) {
         const double part = area[k] - area[i] + turnOf(p(ring[0]), p(ring[k]), p(ring[i])),
                      rest = area.back() - part;
         const double least = -tolerance_m_ * static_cast<double>(ring.size());
@@ -258,8 +277,15 @@ class EarClipping {
     return false;
   }
 
+  /// Whether what kept the corner from being an ear is there no more, or has another side behind it.
+  bool isFreed(int i) const {
+    const Obstacle& obstacle = obstacles_[at(i)];
+    return obstacle.node >= 0 && after_[at(obstacle.node)] != obstacle.after;
+  }
+
   /// Twice the area over the square of the longest side; kNoEar where the corner cannot be clipped.
-  double qualityOf(int i) const {
+  double qualityOf(int i) {
+    obstacles_[at(i)] = {};
     const int before = before_[at(i)], after = after_[at(i)];
     const Vec2 &a = p(before), &b = p(i), &c = p(after);
     if (a == c) return kNoEar;
@@ -269,10 +295,21 @@ class EarClipping {
     // A corner in the middle of a straight side has no area to clip.
     const bool straight = std::abs(turn) <= tolerance_m_ * longest;
     if (!straight && turn < 0.0) return kNoEar;
-    for (int k = after_[at(after)]; k != before && !straight; k = after_[at(k)])
-      if (holds(a, b, c, p(k))) return kNoEar;
-    if (isBlocked(before, after)) return kNoEar;
+    int in_the_way = straight ? kGone : nodeWithin(before, i, after);
+    if (in_the_way == kGone) in_the_way = sideAcross(before, after);
+    if (in_the_way != kGone) {
+      obstacles_[at(i)] = {in_the_way, after_[at(in_the_way)]};
+      return kNoEar;
+    }
     return straight ? 0.0 : turn / (longest * longest);
+  }
+
+  /// A node of the ring that is inside the triangle of three of them or on the open side from the last to the
+  /// first.
+  int nodeWithin(int before, int ear, int after) const {
+    for (int k = after_[at(after)]; k != before; k = after_[at(k)])
+      if (holds(p(before), p(ear), p(after), p(k))) return k;
+    return kGone;
   }
 
   /// Whether q is inside the triangle or on the open side from a to c.
@@ -282,8 +319,8 @@ class EarClipping {
            sideOf(c, a, q, tolerance_m_) >= 0;
   }
 
-  /// Whether a side of the ring crosses the way from `after` to `before`.
-  bool isBlocked(int before, int after) const {
+  /// The node at which a side of the ring begins that crosses the way from `after` to `before`.
+  int sideAcross(int before, int after) const {
     const Vec2 &a = p(before), &c = p(after);
     int side = 0;  // of the last corner that was not on the line
     for (int k = after; k != before; k = after_[at(k)]) {
@@ -291,15 +328,16 @@ class EarClipping {
       side = sideOf(a, c, d, tolerance_m_);
       if (side * sideOf(a, c, e, tolerance_m_) < 0 &&
           sideOf(d, e, a, tolerance_m_) * sideOf(d, e, c, tolerance_m_) < 0)
-        return true;
+        return k;
     }
-    return false;
+    return kGone;
   }
 
   std::vector<Node> nodes_;
   const std::vector<Vec2>& corners_;
   double tolerance_m_;
   std::vector<int> before_, after_;
+  std::vector<Obstacle> obstacles_;  // by node
   int bridges_;
   double extent_ = 0.0;
   std::vector<std::pair<int, int>> raw_joins_;
