@@ -115,13 +115,24 @@ void kick(const PushedBody& pushed, double t_s, double dt_s, ForceScratch& scrat
   state.angular_momentum += R_WB * momentum.tail<3>();
 }
 
+// Of its energy of turning: what constant spin may have a body wrong on its way, which an impact then finds.
+constexpr double kEnergyMissed = 1e-6;
+
+// A body that is m radians from its orientation on its way carries a part m of its angular momentum along
+// another of its axes, at worst that of its smallest moment.
+bool turnsSteadily(const Inertia& inertia, const Quat& R_WB, const Vec3& omega, double dt_s) {
+  const double miss = tumblingMiss(inertia, R_WB, omega, dt_s);
+  return miss * miss * inertia.principal_moments[2] <= kEnergyMissed * inertia.principal_moments[0];
+}
+
 void findRotation(const PushedBody& pushed, const Pose& from, const Velocity& velocity, double dt_s,
                   EnvironmentFlight& flight) {
   const Inertia& inertia = *pushed.body.inertia;
   const Quat& R = flight.X_end.rotation;
   const Vec3 omega_end = angularVelocity(inertia, R, flight.angular_momentum_end);
   const double turn = std::max(velocity.angular.norm(), omega_end.norm()) * dt_s;
-  if (!pushed.environment.isVacuum() && turn <= kLargestTurn) {
+  if (!pushed.environment.isVacuum() && turn <= kLargestTurn &&
+      turnsSteadily(inertia, from.rotation, velocity.angular, dt_s)) {
     flight.spin = rotationOf(R * from.rotation.conjugate()) / dt_s;
     return;
   }

@@ -381,7 +381,7 @@ class Assembly {
                       .half_step_s = 0.5 * step_s,
                       .noticed_mps = noticedTurning(),
                       .half_turns = contacts_.half_turns};
-    moveToMidStep(request, pair, mid, rows, stretch.counters);
+    if (!moveToMidStep(request, pair, mid, rows, stretch.counters)) rows.clear();  // it has times of impact
   }
 
   // Where the bodies come down. There the gap is known, and how it goes on changing with the velocities. They

@@ -7,6 +7,9 @@
 namespace carom {
 namespace {
 
+// Radians a step: what turns farther has left the contact that it began the step with, or comes back to it.
+constexpr double kFarTurn = 1.0;
+
 // A body as it begins its step, and as its own spin has turned it in the middle.
 struct Half {
   const Body& body;
@@ -50,7 +53,7 @@ void takePlace(const SourcedRow& later, const Half& a, const Half& b, double mos
 
 }  // namespace
 
-void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
+bool moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
                    std::span<SourcedRow> rows, StepCounters& counters) {
   const auto halfOf = [&](int body, int shape) {
     return Half{mid.bodies[at(body)], mid.half_turns[at(body)], mid.shapes[at(shape)]};
@@ -59,7 +62,7 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
   const Half b = halfOf(pair.body_b, pair.shapes.b);
   const double slide = (b.body.velocity.linear - a.body.velocity.linear).norm();
   const double most = a.change(slide, mid.half_step_s) + b.change(slide, mid.half_step_s);
-  if (!(most > mid.noticed_mps)) return;
+  if (!(most > mid.noticed_mps)) return true;
   RowRequest later = request;
   later.X_WA = a.pose(request.X_WA, mid.half_step_s);
   later.X_WB = b.pose(request.X_WB, mid.half_step_s);
@@ -68,7 +71,10 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
       closestFeatures(*a.shape.part, later.X_WA, *b.shape.part, later.X_WB, tracked);
   ++counters.distance_queries;
   counters.states_walked += closest.states;
-  if (!(closest.distance_m > 0.0)) return;
+  const double spin = std::max(a.body.velocity.angular.norm(), b.body.velocity.angular.norm());
+  if (2.0 * mid.half_step_s * spin > kFarTurn && std::abs(closest.distance_m) > request.height_m)
+    return false;
+  if (!(closest.distance_m > 0.0)) return true;
   later.closest = &closest;
   RememberedPoints now;
   for (const SourcedRow& row : rows) now.add(row.id);
@@ -80,6 +86,7 @@ void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidSt
         std::find_if(there.begin(), there.end(), [&](const SourcedRow& s) { return s.id == row.id; });
     if (same != there.end()) takePlace(*same, a, b, most, row);
   }
+  return true;
 }
 
 }  // namespace carom

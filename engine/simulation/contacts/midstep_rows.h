@@ -26,7 +26,9 @@ struct MidStep {
 
 /// Moves the rows of one pair, as `appendRows` made them for `request`, to mid-step, where the velocities of
 /// the solver's bodies carry the two; their coefficients stay. Rows of points that are not there then stay.
-void moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
+/// Whether the contact lasts: not one of bodies that turn by radians a step and are apart by then, or within
+/// each other, by more than `request.height_m`. No force that acts all the step is that of such a contact.
+bool moveToMidStep(const RowRequest& request, const ShapePair& pair, const MidStep& mid,
                    std::span<SourcedRow> rows, StepCounters& counters);
 
 }  // namespace carom
