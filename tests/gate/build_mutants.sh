@@ -29,6 +29,6 @@ mutate tone-map renderer/glsl/light.glsl "inversesqrt(1.0 + light * light)" "inv
 mutate solver engine/foundation/tolerances.h "kSolverResidual = 1.0e-8" "kSolverResidual = 1.0e-6"
 # For work_seen.py: one sweep more a solve, one texel more a side of the shadow map, one band of a PNG more.
 mutate sweep engine/response/sweeps/contact_solver.cpp "if (hasConverged(report, settings, enough, rows.size())) break;" \
-  "if (!hasConverged(report, settings, enough, rows.size())) continue; sweeps.sweep({settings.friction, !forward, kVisitAll, enough}, report); break;"
+  "if (hasConverged(report, settings, enough, rows.size())) { sweeps.sweep({settings.friction, !forward, kVisitAll, enough}, report); break; }"
 mutate texture renderer/view/preset.h "shadow_texels = 1024" "shadow_texels = 1025"
 mutate band renderer/image/png.cpp "if (is_first || std::memcmp(" "if (is_first || i == 0 || std::memcmp("
