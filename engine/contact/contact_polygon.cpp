@@ -33,6 +33,14 @@ struct ContactFrame {
   }
 };
 
+// A part whose far corners are within the distance k lies, too, however it leans: all of it may come down
+// while the contact lasts. One that leans by more than half a right angle lies on its next face.
+double lyingSine(const PosedParts& parts, const CollisionWindow& window) {
+  const double extent_m = 2.0 * std::min(parts.a.core.radius(), parts.b.core.radius());
+  if (window.manifold <= kLyingSine * extent_m) return kLyingSine;
+  return std::min(std::sqrt(0.5), window.manifold / extent_m);
+}
+
 // One of the two parts in that frame.
 struct Placed {
   const ConvexPolyhedron& core;
@@ -50,14 +58,15 @@ struct Placed {
 };
 
 // The face at the feature whose normal comes nearest to `direction` (in the part's frame), with its cosine.
-// Face -1: none is within the lying angle. Equals go to the lower index.
+// Face -1: none is within the angle of that sine. Equals go to the lower index.
 struct FacingFace {
   int face = -1;
   double cosine = -1.0;
 };
 
-FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3& direction) {
-  static const double least = std::sqrt(1.0 - kLyingSine * kLyingSine);
+FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3& direction,
+                       double lying_sine) {
+  const double least = std::sqrt(1.0 - lying_sine * lying_sine);
   FacingFace best;
   const auto consider = [&](int f) {
     if (f < 0) return;
@@ -83,12 +92,12 @@ FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3
 
 // The edge at the feature that is flattest against `normal` (in the part's frame), if it lies within the
 // lying angle; -1 if none does.
-int edgeAcross(const ConvexPolyhedron& core, Feature feature, const Vec3& normal) {
+int edgeAcross(const ConvexPolyhedron& core, Feature feature, const Vec3& normal, double lying_sine) {
   int best = -1;
-  double least = kLyingSine;
+  double least = lying_sine;
   const auto consider = [&](int e) {
     const double s = std::abs(dot(core.edge(e).direction, normal));
-    if (s >= kLyingSine || s > least + kSameSine) return;
+    if (s >= lying_sine || s > least + kSameSine) return;
     if (best < 0 || s < least - kSameSine || e < best) best = e;
     least = std::min(least, s);
   };
@@ -130,9 +139,18 @@ struct PartAtPose {
   const ConvexPart& part;
   const Pose& X_W;
   Feature feature;
+  double lying_sine = kLyingSine;  // of what lies on the other
 
-  FacingFace faceAlong(const Vec3& n_W) const { return faceTowards(part.core, feature, inPart(X_W, n_W)); }
-  int edgeAcrossTo(const Vec3& n_W) const { return edgeAcross(part.core, feature, inPart(X_W, n_W)); }
+  /// The face that the other part lies on.
+  FacingFace faceUnder(const Vec3& n_W) const {
+    return faceTowards(part.core, feature, inPart(X_W, n_W), kLyingSine);
+  }
+  FacingFace faceAlong(const Vec3& n_W) const {
+    return faceTowards(part.core, feature, inPart(X_W, n_W), lying_sine);
+  }
+  int edgeAcrossTo(const Vec3& n_W) const {
+    return edgeAcross(part.core, feature, inPart(X_W, n_W), lying_sine);
+  }
   Vec3 faceNormal(int f) const { return X_W.rotation * part.core.plane(f).normal; }
 };
 
@@ -151,8 +169,8 @@ Lying lyingOn(const PartAtPose& reference, int f, const PartAtPose& incident, bo
 // Which of the two faces is the reference is decided by what both ways of naming the bodies share: the angle
 // to the contact, then the area. Equals have no canonical choice between them; their mean is one.
 Lying whatLies(const PartAtPose& a, const PartAtPose& b, const Vec3& n_W) {
-  const FacingFace face_a = a.faceAlong(n_W);
-  const FacingFace face_b = b.faceAlong(-n_W);
+  const FacingFace face_a = a.faceUnder(n_W);
+  const FacingFace face_b = b.faceUnder(-n_W);
   if (face_a.face < 0 && face_b.face < 0) return {};
   if (face_a.cosine > face_b.cosine + kSameCosine) return lyingOn(a, face_a.face, b, true);
   if (face_b.cosine > face_a.cosine + kSameCosine) return lyingOn(b, face_b.face, a, false);
@@ -384,8 +402,9 @@ double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& w
 void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
                     ContactPolygon& polygon) {
   const ContactPoint single = contactPoint(closest, parts.a, parts.X_WA, parts.b, parts.X_WB);
-  const PartAtPose at_a{parts.a, parts.X_WA, closest.features.a};
-  const PartAtPose at_b{parts.b, parts.X_WB, closest.features.b};
+  const double lying_sine = lyingSine(parts, window);
+  const PartAtPose at_a{parts.a, parts.X_WA, closest.features.a, lying_sine};
+  const PartAtPose at_b{parts.b, parts.X_WB, closest.features.b, lying_sine};
   polygon.corners.clear();
   polygon.n_W = single.n_W;
   const Lying lying = whatLies(at_a, at_b, single.n_W);

@@ -149,8 +149,8 @@ double volumeOf(const CutSurface& surface, std::span<const int> triangles) {
   return volume / 6.0;
 }
 
-/// Whether a ray from the point, which is on no triangle, leaves the shell.
-bool winds(const CutSurface& surface, std::span<const int> shell, const Vec3& p) {
+/// Whether the shell is around the point, which is on no triangle: a ray from there leaves it.
+bool surrounds(const CutSurface& surface, std::span<const int> shell, const Vec3& p) {
   const Vec3 ray(0.5773, 0.6431, 0.5027);  // along nothing in particular
   int crossings = 0;
   for (const int t : shell) {
@@ -286,7 +286,7 @@ class Cutting {
       const Vec3& p = piece.point(piece.triangle(cavity[0])[0]);
       std::vector<int>* around = &shells[0];
       for (std::vector<int>& shell : shells)
-        if (winds(piece, shell, p)) around = &shell;
+        if (surrounds(piece, shell, p)) around = &shell;
       around->insert(around->end(), cavity.begin(), cavity.end());
     }
     for (std::vector<int>& shell : shells) {

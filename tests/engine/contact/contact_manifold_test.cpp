@@ -185,6 +185,25 @@ TEST(ContactManifold, OfABoxTiltedOutOfReach_IsTheEdgeThatIsNear) {
   EXPECT_EQ(near, 2);
 }
 
+// So does what contacts of a step hold, which is any corner that could come down within it.
+TEST(ContactManifold, OfABoxThatLeansWithAllOfItInReach_IsItsWholeFace) {
+  const Solid floor = Solid::box({1.0, 1.0, 0.1}), plate = Solid::box({0.002, 0.0007, 0.0001});
+  const Pose X_WA{Quat::Identity(), Vec3(0, 0, -0.05)};
+  for (const double degrees : {8.0, 20.0, 40.0}) {
+    const double lean = degrees * std::numbers::pi / 180.0;
+    const double half = 0.00035 * std::sin(lean) + 0.00005 * std::cos(lean);
+    const Pose X_WB{turned(Vec3::UnitX(), lean), Vec3(0, 0, half + 1e-6)};
+    FeaturePair cold;
+    const ConvexPart &a = floor.parts()[0], &b = plate.parts()[0];
+    const ClosestFeatures closest = closestFeatures(a, X_WA, b, X_WB, cold);
+    CollisionWindow window = collisionWindow(a, b);
+    window.manifold = 0.002;
+    EXPECT_EQ(contactManifold(closest, {a, X_WA, b, X_WB}, window).count, 4) << degrees;
+    window.manifold = 0.1 * half;
+    EXPECT_EQ(contactManifold(closest, {a, X_WA, b, X_WB}, window).count, 2) << degrees;
+  }
+}
+
 TEST(ContactManifold, OfAnEdgeOnAFace_IsItsTwoEnds) {
   const Quat edge_down = turned(Vec3::UnitZ(), 0.3) * turned(Vec3::UnitY(), std::numbers::pi / 4);
   const ContactManifold m =
