@@ -139,7 +139,7 @@ class PlanesAbout {
 
 /// The volume that some triangles enclose, m^3; they are closed.
 double volumeOf(const CutSurface& surface, std::span<const int> triangles) {
-  const Vec3 origin = surface.point(surface.triangle(triangles[0])[0]);
+  const Vec3& origin = surface.point(surface.triangle(triangles[0])[0]);
   double volume = 0.0;
   for (const int t : triangles) {
     const Triangle& c = surface.triangle(t);
