@@ -34,7 +34,8 @@ struct ContactFrame {
 };
 
 // A part whose far corners are within the distance k lies, too, however it leans: all of it may come down
-// while the contact lasts. One that leans by more than half a right angle lies on its next face.
+// while the contact lasts. Where one is over the other they are no wider than the smaller of them. One that
+// leans by more than half a right angle lies on its next face.
 double lyingSine(const PosedParts& parts, const CollisionWindow& window) {
   const double extent_m = 2.0 * std::min(parts.a.core.radius(), parts.b.core.radius());
   if (window.manifold <= kLyingSine * extent_m) return kLyingSine;
@@ -91,7 +92,7 @@ FacingFace faceTowards(const ConvexPolyhedron& core, Feature feature, const Vec3
 }
 
 // The edge at the feature that is flattest against `normal` (in the part's frame), if it lies within the
-// lying angle; -1 if none does.
+// angle of that sine; -1 if none does.
 int edgeAcross(const ConvexPolyhedron& core, Feature feature, const Vec3& normal, double lying_sine) {
   int best = -1;
   double least = lying_sine;
@@ -141,10 +142,11 @@ struct PartAtPose {
   Feature feature;
   double lying_sine = kLyingSine;  // of what lies on the other
 
-  /// The face that the other part lies on.
+  /// The face on which the other part lies.
   FacingFace faceUnder(const Vec3& n_W) const {
     return faceTowards(part.core, feature, inPart(X_W, n_W), kLyingSine);
   }
+  /// The face, or else the edge, that lies on the other part.
   FacingFace faceAlong(const Vec3& n_W) const {
     return faceTowards(part.core, feature, inPart(X_W, n_W), lying_sine);
   }

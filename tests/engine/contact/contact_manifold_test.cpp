@@ -185,7 +185,7 @@ TEST(ContactManifold, OfABoxTiltedOutOfReach_IsTheEdgeThatIsNear) {
   EXPECT_EQ(near, 2);
 }
 
-// So does what contacts of a step hold, which is any corner that could come down within it.
+// Contacts of a step look so high as a corner could come down from within it: a small part leans below that.
 TEST(ContactManifold, OfABoxThatLeansWithAllOfItInReach_IsItsWholeFace) {
   const Solid floor = Solid::box({1.0, 1.0, 0.1}), plate = Solid::box({0.002, 0.0007, 0.0001});
   const Pose X_WA{Quat::Identity(), Vec3(0, 0, -0.05)};
