@@ -1,6 +1,7 @@
 #include "engine/response/collision.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/response/standing_solver.h"
@@ -97,6 +98,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     rows[i].lowest_speed = 0.0;
     rows[i].resistance = {};
   }
+  const double approach_mps = std::abs(report.approach_mps);  // a zero without a sign where nothing approaches
   if (rows.size() == 1) {
     ContactRow& row = rows.front();
     row.impulse =
@@ -105,7 +107,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     report.impulse_Ns = row.impulse.x();
     return report;
   }
-  solveRows(rows, bodies, -report.approach_mps);
+  solveRows(rows, bodies, approach_mps);
 
   if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
     std::vector<Vec3> compressed(rows.size());
@@ -116,13 +118,13 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       rows[i].impulse.x() += rebound;
       rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution[i] * std::min(before[i].x(), 0.0) : 0.0;
     }
-    solveRows(rows, bodies, -report.approach_mps);
+    solveRows(rows, bodies, approach_mps);
     if (twiceEnergyGain(rows, before, bodies) > 0.0) {
       report.restitution_cut = true;
       cutRestitution(rows, before, compressed, bodies);
     }
   }
-  stopApproaches(rows, bodies, -kLeastApproach * report.approach_mps);
+  stopApproaches(rows, bodies, kLeastApproach * approach_mps);
   for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
   return report;
 }

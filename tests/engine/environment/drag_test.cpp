@@ -61,9 +61,11 @@ TEST(Drag, APureSpinAgreesWithManySmallPieces) {
   oracle::Random random(21);
   CutScratch scratch;
   for (int k = 0; k < 20; ++k) {
-    const Vec3 corner[3] = {Vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.3),
-                            Vec3(random.uniform(1.0, 2.0), random.uniform(-1.0, 1.0), 0.3),
-                            Vec3(random.uniform(-1.0, 1.0), random.uniform(1.0, 2.0), 0.3)};
+    // In braces, so that every compiler draws them in one order; counterclockwise, as a facet's corners are.
+    Vec3 corner[3] = {Vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.3},
+                      Vec3{random.uniform(1.0, 2.0), random.uniform(-1.0, 1.0), 0.3},
+                      Vec3{random.uniform(-1.0, 1.0), random.uniform(1.0, 2.0), 0.3}};
+    if ((corner[1] - corner[0]).cross(corner[2] - corner[0]).z() < 0.0) std::swap(corner[1], corner[2]);
     StreamDrag drag;
     drag.velocity << 0.0, 0.0, random.uniform(-1.0, 1.0), random.uniform(-2.0, 2.0),
         random.uniform(-2.0, 2.0), 0.0;

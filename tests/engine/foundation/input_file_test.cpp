@@ -39,7 +39,7 @@ TEST_F(InputFiles, WhatIsNoFileIsRefusedAtOnceWithItsPathAndTheReason) {
                                      {folder, "it is a folder"},
                                      {"/dev/zero", "it is a device"}}) {
     EXPECT_NE(tryInputFile(path).problem.find(reason), std::string::npos) << tryInputFile(path).problem;
-    const std::string said = thrownMessage<InputError>([&path] { openInputFile(path); });
+    const std::string said = thrownMessage<InputError>([&path = path] { openInputFile(path); });
     EXPECT_EQ(said.rfind("cannot read '" + path.string() + "': " + reason, 0), 0u) << said;
   }
 }
