@@ -21,6 +21,7 @@
 #include "engine/simulation/contacts/lasting_contact.h"
 #include "engine/simulation/contacts/path_lifts.h"
 #include "engine/simulation/events/contact_cluster.h"
+#include "engine/simulation/events/impact_searches.h"
 #include "engine/simulation/events/path_clearing.h"
 
 namespace carom {
@@ -31,21 +32,9 @@ struct StepWatchers {
   StepPaths* paths = nullptr;  ///< Of the paths that events have ended.
 };
 
-/// The search for a pair's next impact. It is carried only as far as events come: most searches end early,
-/// because another event gives one of the bodies a new path.
-struct Prediction {
-  int version = 0;
-  int impacts = 0;        ///< In this step.
-  bool searched = false;  ///< Its bodies may meet.
-  bool looked = false;    ///< At least once.
-  ImpactSearch search;
-  TimeOfImpact found;
-};
-
 /// Kept from step to step for its room: nothing of it says what happens in a step.
 struct EventMemory {
-  std::vector<Prediction> predictions;  ///< By place of the pair.
-  std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
+  SearchMemory searches;
   ClusterMemory cluster;
   PathClearing clearing;
   PathLifts lifts;

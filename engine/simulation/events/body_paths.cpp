@@ -1,0 +1,152 @@
+#include "engine/simulation/events/body_paths.h"
+
+#include <algorithm>
+
+#include "engine/foundation/index.h"
+#include "engine/simulation/contacts/carried_path.h"
+
+namespace carom {
+
+void BodyPaths::bring(int index, double time_s) {
+  Body& body = bodies_[at(index)];
+  if (body.path.start_s == time_s) return;
+  counters_.work_J += planner_.workOfLoad(index, body, time_s);
+  if (ended_ != nullptr) ended_->add(at(index), body, time_s);
+  const Pose X_WB = body.path.at(time_s);
+  body.lift += (time_s - body.path.start_s) * body.lifting;
+  body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
+  body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
+  body.path.velocity = body.path.velocityAt(time_s);
+  body.path.spin += (time_s - body.path.start_s) * body.path.spin_change.rate;
+  body.path.X_WB = X_WB;
+  body.path.start_s = time_s;
+}
+
+void BodyPaths::fly(int index) {
+  Body& body = bodies_[at(index)];
+  body.lifting = 0.0;  // its path is that of its momentum again
+  body.travel = Travel::kBallistic;
+  planner_.plan(index, body);
+}
+
+void BodyPaths::flyStraight(int index) {
+  fly(index);
+  Body& body = bodies_[at(index)];
+  const double rest = restOf(body);
+  body.travel = Travel::kCarried;
+  carryAlong(body, {body.path.meanVelocity(body.path.start_s, rest), body.path.spin}, rest, false);
+}
+
+void BodyPaths::carryTo(int index, const Velocity& end, bool bends) {
+  Body& body = bodies_[at(index)];
+  body.lifting = 0.0;
+  body.travel = Travel::kCarried;
+  drive(body, end);
+  carryAlong(body,
+             {0.5 * (body.momentum_velocity.linear + end.linear),
+              0.5 * (body.momentum_velocity.angular + end.angular)},
+             restOf(body), bends);
+}
+
+void BodyPaths::keepPath(int index, const Velocity& end, const Velocity& mean) {
+  Body& body = bodies_[at(index)];
+  body.travel = Travel::kCarried;
+  drive(body, end);
+  carryAlong(body, mean, restOf(body), false);
+}
+
+void BodyPaths::driveHeld(int index, const Velocity& end) {
+  Body& body = bodies_[at(index)];
+  const double rest = restOf(body);
+  if (rest > 0.0) drive(body, end);
+  // It stays, whatever its new momentum would fall by.
+  body.lifting = dot(settings_.gravity, body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
+}
+
+// By the tensor of the path's start.
+void BodyPaths::drive(Body& body, const Velocity& end) {
+  const Velocity& begin = body.momentum_velocity;
+  driveEvenly(body, {begin,
+                     {end.linear - begin.linear, end.angular - begin.angular},
+                     body.path.X_WB.rotation,
+                     begin.angular,
+                     restOf(body)});
+}
+
+void BodyPaths::lead(int index, const Velocity& mean) {
+  Body& body = bodies_[at(index)];
+  const double rest = restOf(body);
+  countLift(body, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
+  body.travel = Travel::kCarried;
+  carryAlong(body, mean, rest, false);
+}
+
+void BodyPaths::leadInContact(int index, const Velocity& mean, bool bends) {
+  Body& body = bodies_[at(index)];
+  const double rest = restOf(body);
+  body.travel = Travel::kCarried;
+  countFall(body, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
+  carryAlong(body, mean, rest, bends);
+}
+
+void BodyPaths::halve(int index) {
+  const Trajectory& path = bodies_[at(index)].path;
+  lead(index, {0.5 * path.meanVelocity(path.start_s, restOf(bodies_[at(index)])),
+               0.5 * path.angularVelocityAt(path.start_s)});
+}
+
+void BodyPaths::hold(int index) {
+  Body& body = bodies_[at(index)];
+  if (body.is_static || body.travel == Travel::kHeld) return;
+  if (body.is_kinematic) {
+    stop(index);
+    return;
+  }
+  countLift(body, body.path.meanVelocity(body.path.start_s, restOf(body)), Vec3::Zero());
+  endPath(body);
+  ++counters_.stopped_bodies;
+}
+
+// From now on the body goes on at another mean velocity than it would have.
+void BodyPaths::countLift(Body& body, const Vec3& mean_before, const Vec3& mean) const {
+  body.lifting += dot(settings_.gravity, mean_before - mean);
+}
+
+// The same where it is led in contact: only as far as it falls less or more than its momentum does, and by
+// what of its weight no contact bears. What opens a gap under it lifts it once, and what stops a fall has
+// taken its energy.
+void BodyPaths::countFall(Body& body, const Vec3& mean_before, const Vec3& mean) const {
+  const Vec3 down = settings_.gravity.normalized();
+  const double unborne = std::max(0.0, dot(down, body.acceleration));
+  body.lifting += unborne * (std::max(0.0, dot(down, mean_before)) - std::max(0.0, dot(down, mean)));
+}
+
+bool BodyPaths::stopDriven(int index, double time_s) {
+  if (bodies_[at(index)].travel != Travel::kDriven) return false;
+  bring(index, time_s);
+  stop(index);
+  return true;
+}
+
+void BodyPaths::stop(int index) {
+  Body& body = bodies_[at(index)];
+  countForcesOf(index, body.path.start_s, -1.0);
+  stopKinematic(body);
+  ++counters_.stopped_kinematic;
+}
+
+void BodyPaths::beginNextPiece(int index) {
+  Body& body = bodies_[at(index)];
+  const double time_s = body.piece_end_s;
+  countForcesOf(index, time_s, -1.0);
+  bring(index, time_s);
+  planner_.drive(index, body);
+  countForcesOf(index, time_s, 1.0);
+}
+
+void BodyPaths::countForcesOf(int index, double time_s, double sign) {
+  for (const int pair : table_.pairsOf(index))
+    counters_.work_J += sign * workOfForces(table_.pairs()[at(pair)], bodies_, time_s, settings_.step_s);
+}
+
+}  // namespace carom
