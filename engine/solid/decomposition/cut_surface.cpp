@@ -7,6 +7,7 @@
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
+#include "engine/solid/decomposition/disjoint_sets.h"
 #include "engine/solid/decomposition/polygon_triangles.h"
 
 namespace carom {
@@ -16,35 +17,6 @@ namespace {
 int edgeOf(int half, int mate) {
   return std::min(half, mate);
 }
-
-class Groups {
- public:
-  int add() {
-    parents_.push_back(static_cast<int>(parents_.size()));
-    return parents_.back();
-  }
-  int rootOf(int i) {
-    while (parents_[static_cast<std::size_t>(i)] != i) {
-      int& parent = parents_[static_cast<std::size_t>(i)];
-      parent = parents_[static_cast<std::size_t>(parent)];
-      i = parent;
-    }
-    return i;
-  }
-  void join(int a, int b) {
-    const int root_a = rootOf(a), root_b = rootOf(b);
-    parents_[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
-  }
-  int count() const { return static_cast<int>(parents_.size()); }
-
- private:
-  std::vector<int> parents_;
-};
-
-struct Frame2 {
-  TangentBasis basis;
-  Vec2 operator()(const Vec3& p) const { return {dot(basis.t1, p), dot(basis.t2, p)}; }
-};
 
 double cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -143,7 +115,7 @@ class CutSurface::Curves {
   }
 
   std::vector<Eigen::AlignedBox2d> boxesIn(const Plane& plane) {
-    const Frame2 flat{tangentBasis(plane.normal)};
+    const PlaneCoordinates flat{tangentBasis(plane.normal)};
     std::vector<Eigen::AlignedBox2d> boxes(at(nodes_.count()));
     for (const int t : met_)
       for (int half = 3 * t; half < 3 * t + 3; ++half) {
@@ -155,14 +127,14 @@ class CutSurface::Curves {
   }
 
   CutSurface& surface_;
-  Groups nodes_;
+  DisjointSets nodes_;
   std::vector<int> met_, crossed_;
 };
 
 /// The curves of a section that are near the notch.
 struct CutSurface::Section {
   Plane plane;
-  Frame2 flat;
+  PlaneCoordinates flat;
   std::vector<int> crossed;       // edges, in order
   std::vector<char> near_notch;   // by point: on the plane, and on a curve that is cut
   std::vector<char> edge_chosen;  // by half (of crossed edges)

@@ -13,6 +13,12 @@
 
 namespace carom {
 
+/// Of points in a plane: along its tangents.
+struct PlaneCoordinates {
+  TangentBasis basis;
+  Vec2 operator()(const Vec3& p) const { return {dot(basis.t1, p), dot(basis.t2, p)}; }
+};
+
 /// Rings of corner numbers, the region on the left of each: the outer one counter-clockwise, holes clockwise.
 using Rings = std::vector<std::vector<int>>;
 
