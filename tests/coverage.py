@@ -1,11 +1,12 @@
 """coverage.py FOLDER: prints the share of the engine's lines that were run, folder by folder, from what a build with
---coverage left in FOLDER; then the ten files with the most lines that were not. Run by `bash tests/checks.sh coverage`."""
+--coverage left in FOLDER; then the ten files with the most lines that were not. Exit 1: fewer than nine tenths were. Run by `bash tests/checks.sh coverage`."""
 import collections
 import json
 import pathlib
 import subprocess
 import sys
 
+SHARE_TO_RUN = 0.9
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -43,6 +44,8 @@ def main(folder):
     for path, lines in missed.most_common(10):
         if lines:
             print(f"{lines:5} lines not run in {path}")
+    if whole[0] < SHARE_TO_RUN * whole[1]:
+        sys.exit(f"fewer than {100 * SHARE_TO_RUN:g} % of the engine's lines are run")
 
 
 if __name__ == "__main__":

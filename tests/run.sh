@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, runs the tests. Arguments go to ctest (for example: -R Frame). With --all: the
-# tools too without which tests are skipped, and after the tests what checks.sh lists, as far as an hour is enough for it.
+# Installs what is missing, builds everything, runs the tests but those of tests/long_tests.txt. Arguments go to ctest, which
+# then leaves out none that they ask for (for example: -R Frame). With --all: those too, with the tools without which tests are
+# skipped, and after the tests what checks.sh lists, as far as an hour is enough for it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
@@ -21,8 +22,10 @@ if $all; then
   fi
 fi
 build_release all
+left_out=()
+if ! $all && [ $# -eq 0 ]; then left_out=(-E "^($(grep -v '^#' tests/long_tests.txt | paste -sd '|'))"); fi
 code=0
-ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "$@" || code=$?
+ctest --test-dir "$(build_folder release)" --output-on-failure -j2 "${left_out[@]}" "$@" || code=$?
 if $all; then
   export CAROM_CHECKS_BEGAN CAROM_CHECKS_END_S=${CAROM_CHECKS_END_S:-3450}
   bash tests/checks.sh || code=$?

@@ -65,7 +65,7 @@ void findRoots(DistanceFigure& figure) {
 
 void runWorld(DistanceFigure& figure) {
   World world({kSample_s, kGravity, true});
-  BodyDescription plate{world.addSolid(figure.plate), figure.X_WPlate, {}, {}, {}, true};
+  BodyDescription plate{world.addSolid(figure.plate), figure.X_WPlate, Vec3::Zero(), Vec3::Zero(), {}, true};
   BodyDescription rod{
       world.addSolid(figure.rod), figure.path.X_WB, figure.path.velocity, figure.path.spin, {}, false};
   rod.linear_velocity = figure.path.velocity;

@@ -38,6 +38,7 @@ enum class Mode : std::uint8_t {
 };
 const char* modeName(Mode mode);
 
+/// Empty braces are no zero vector (Eigen leaves what they make as it finds it): Vec3::Zero() is.
 struct BodyDescription {
   int solid = 0;  ///< Index returned by World::addSolid.
   Pose X_WB;      ///< Pose of the solid's own frame (centre of mass).

@@ -62,12 +62,24 @@ TEST(FlushTiles, LetAThingSlideAsFarAsOneFloor) {
 // Of a box that slides towards a tile that is higher by `height_m`, and past its edge.
 double speedPastAStep(double height_m, double speed_mps) {
   SmallWorld world(240.0);
-  world.add({Solid::box({10, 4, 1}), {Quat::Identity(), {-5, 0, -0.5}}, {}, {}, rubbing(0.0), true});
-  world.add(
-      {Solid::box({10, 4, 1}), {Quat::Identity(), {5, 0, -0.5 + height_m}}, {}, {}, rubbing(0.0), true});
+  world.add({Solid::box({10, 4, 1}),
+             {Quat::Identity(), {-5, 0, -0.5}},
+             Vec3::Zero(),
+             Vec3::Zero(),
+             rubbing(0.0),
+             true});
+  world.add({Solid::box({10, 4, 1}),
+             {Quat::Identity(), {5, 0, -0.5 + height_m}},
+             Vec3::Zero(),
+             Vec3::Zero(),
+             rubbing(0.0),
+             true});
   const Vec3 start(-0.4, 0, 0.25 + collisionWindow(0.5).rest);
-  const int box = world.add(
-      {Solid::box({0.5, 0.5, 0.5}), {Quat::Identity(), start}, {speed_mps, 0, 0}, {}, rubbing(0.0)});
+  const int box = world.add({Solid::box({0.5, 0.5, 0.5}),
+                             {Quat::Identity(), start},
+                             {speed_mps, 0, 0},
+                             Vec3::Zero(),
+                             rubbing(0.0)});
   world.start();
   world.run(0.8 / speed_mps);
   return world.state(box).linear_velocity.x();
@@ -93,9 +105,9 @@ TEST(PlateOfTiles, GoesOnSpinningOnAnother) {
         {boxPolyhedron({0.25, 0.5, 0.1}).translated({0.25 * (i % 4 - 1.5), 0.5 * (i / 4 - 0.5), 0}), 0.0});
   const Solid plate{parts};
   const double gap = collisionWindow(plate.width()).rest;
-  world.add({plate, {Quat::Identity(), {0, 0, -0.05}}, {}, {}, rubbing(0.0), true});
+  world.add({plate, {Quat::Identity(), {0, 0, -0.05}}, Vec3::Zero(), Vec3::Zero(), rubbing(0.0), true});
   const int spinning =
-      world.add({plate, {Quat::Identity(), {0, 0, 0.05 + gap}}, {}, {0, 0, 3.0}, rubbing(0.0)});
+      world.add({plate, {Quat::Identity(), {0, 0, 0.05 + gap}}, Vec3::Zero(), {0, 0, 3.0}, rubbing(0.0)});
   world.start();
   world.run(3.0);
   EXPECT_NEAR(world.state(spinning).angular_velocity.z() / 3.0, 1.0, 1e-4);

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kSides = 32;
 constexpr double kHalfFace = std::numbers::pi / kSides;
-constexpr double kDensity = 1000.0;
 
 Solid prism(double radius_m, double length_m) {
   std::vector<Vec3> points;

@@ -19,12 +19,12 @@ TEST_P(Break, AlongTheAxis_ScattersAsItsOwnMirrorImage) {
   const double apart = 2.0 * kRadius + gap_m;
   SmallWorld w(rate_hz);
   w.addPlane(rubbing(friction));
-  const auto ball = [&](double x, double y, double speed) {
+  const auto ball = [&, rubs = friction](double x, double y, double speed) {
     return w.add({Solid::ball(kRadius),
                   {Quat::Identity(), Vec3(x, y, height)},
                   Vec3(speed, 0.0, 0.0),
                   Vec3::Zero(),
-                  rubbing(friction, 0.95)});
+                  rubbing(rubs, 0.95)});
   };
   const int cue = ball(-0.5, 0.0, 8.0);
   std::vector<std::pair<int, int>> mirrored{{cue, cue}};
