@@ -98,7 +98,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     rows[i].lowest_speed = 0.0;
     rows[i].resistance = {};
   }
-  const double approach_mps = std::abs(report.approach_mps);  // a zero without a sign where nothing approaches
+  const double approach_mps = std::abs(report.approach_mps);  // no minus zero where nothing approaches
   if (rows.size() == 1) {
     ContactRow& row = rows.front();
     row.impulse =

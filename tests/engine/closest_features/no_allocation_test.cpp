@@ -110,7 +110,8 @@ struct Loop {
 };
 
 TEST_F(NoAllocation, TheCounterCounts) {
-  EXPECT_EQ(allocationsOf([] { ::operator delete(::operator new(1)); }), 1);  // a new-expression may be left out
+  // A new-expression may be left out by the compiler; a call is not.
+  EXPECT_EQ(allocationsOf([] { ::operator delete(::operator new(1)); }), 1);
   EXPECT_GE(allocationsOf([] { std::vector<double> v(100); }), 1);
 }
 

@@ -448,7 +448,8 @@ TEST(TimeOfImpact, OfATumblingBody_IsProvenAllTheWay) {
   const Mover post = Mover::of(Solid::box({0.2, 0.2, 3}), {turned(Vec3(1, 2, 3), 0.5), Vec3::Zero()});
   int impacts = 0;
   for (int i = 0; i < 300; ++i) {
-    const Vec3 size{1.0, random.uniform(0.1, 0.5), random.uniform(0.5, 0.9)};  // drawn in this order by every compiler
+    // In braces, so that every compiler draws them in this order.
+    const Vec3 size{1.0, random.uniform(0.1, 0.5), random.uniform(0.5, 0.9)};
     const Solid solid = Solid::box(size);
     const Inertia inertia = inertiaOf(500.0, solid.volume(), solid.unitInertia());
     const Pose X{random.rotation(), Vec3{0.75 + random.uniform(0, 0.3), 0.0, random.uniform(-1, 1)}};
