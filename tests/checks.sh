@@ -104,8 +104,8 @@ run_shared() {
   return $code
 }
 
-# What is repeated so often that it would take half an hour under the sanitizers, which slow it down by fifteen; nor does it
-# run more of the engine than fewer of it would.
+# What is repeated so often that it would take half an hour under the sanitizers, which slow it down by fifteen.
+# Coverage does without it too.
 often_repeated="VClip/RandomPairs.*:*AnySeed*:*AMillion*:*HundredThousand*:*/gons:*/nearly_parallel:*/concentric:Threads.*"
 often_repeated+=":RoundedMass.OfAnyHull*:PointCollision.WithCurvedSlip*:CapCover.*:*200Gons*:ConvexHull.OfASphereFiner*"
 

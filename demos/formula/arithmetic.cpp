@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "demos/format/formatted.h"
 #include "demos/format/nearest_name.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/elementary.h"
@@ -99,7 +100,7 @@ class Reader {
     return true;
   }
   void deeper() {
-    if (++depth_ > kDeepest) fail("nested deeper than " + std::to_string(kDeepest) + " levels");
+    if (++depth_ > kDeepest) fail(formatted("nested deeper than %d levels", kDeepest));
   }
 
   double sum() {
