@@ -55,13 +55,12 @@ say_unless_right() {
 }
 
 # configure_engine PRESET: in a folder of its own, without a renderer, warnings being errors. Sanitizers' builds are for one
-# run: by clang, which takes two thirds of gcc's time for them, little optimised, lines alone for their reports, and without
-# precompiled headers, which its linter does not read. The engine is compiled several files at a time, so that what they
-# include is read once. What clang optimises asserts, and so certifies.
+# run: by clang, which takes two thirds of gcc's time for them, little optimised, lines alone for their reports. The engine is
+# compiled several files at a time, so that what they include is read once. What clang optimises asserts, and so certifies.
 configure_engine() {
   local own=()
   case $1 in
-    *san) own=(-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) ;;
+    *san) own=(-DCMAKE_CXX_COMPILER=clang++) ;;
     clang) own=(-DCMAKE_CXX_FLAGS_RELEASE=-O3) ;;
     coverage) own=(-DCAROM_PROGRAM=OFF -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG --coverage -fprofile-update=atomic") ;;
   esac
