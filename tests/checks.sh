@@ -26,7 +26,7 @@ source demos/packages.sh
 # What is cheap and tells most comes first; the hashes leave the sanitizers half of their build.
 stages=(format lint threads hashes sanitizers clang coverage)
 # Seconds on two cores without a compiler cache.
-declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=500 [clang]=500 [coverage]=500 [processors]=1800)
+declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=900 [clang]=450 [coverage]=700 [processors]=1800)
 scene_s=0.5  # simulated, of each scene
 
 left_out=77  # what a stage returns that cannot be run here

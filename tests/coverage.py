@@ -1,5 +1,6 @@
 """coverage.py FOLDER: prints the share of the engine's lines that were run, folder by folder, from what a build with
---coverage left in FOLDER; then the ten files with the most lines that were not. Exit 1: fewer than nine tenths were. Run by `bash tests/checks.sh coverage`."""
+--coverage left in FOLDER; then the ten files with the most lines that were not. Exit 1: fewer than nine tenths were.
+Run by `bash tests/checks.sh coverage`."""
 import collections
 import json
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, runs the tests but those of tests/long_tests.txt. Arguments go to ctest, which
-# then leaves out none that they ask for (for example: -R Frame). With --all: those too, with the tools without which tests are
-# skipped, and after the tests what checks.sh lists, as far as an hour is enough for it.
+# Installs what is missing, builds everything, runs the tests but those of tests/long_tests.txt. With arguments, which go to
+# ctest (for example: -R Frame), the tests that they choose, long ones too. With --all: every test, with the tools without which
+# some are skipped, and after the tests what checks.sh lists, as far as an hour is enough for it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
