@@ -17,7 +17,8 @@ export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 make() {
   rm -rf "${systems:?}/$1"
   mkdir -p "$systems"
-  mmdebstrap --quiet --variant=minbase "$suite" "$systems/$1" >&2
+  # A mirror that has not been brought up to date for a while will do.
+  mmdebstrap --quiet --variant=minbase --aptopt='Acquire::Check-Valid-Until "false"' "$suite" "$systems/$1" >&2
   cp /etc/resolv.conf "$systems/$1/etc/resolv.conf"
 }
 # inside NAME COMMAND: with what programs expect to find. In a room of its own, so that nothing stays mounted.
