@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The steps of demos/package/Containerfile in clean systems that mmdebstrap makes (root; apt-get install mmdebstrap), then
 # what a developer does: chroot.sh [SUITE [PACKAGES]], SUITE a release such as bookworm, trixie or sid.
-#   build     a system for building, with both commands (demos/run.sh, tests/run.sh where TESTS=1) and the packages
+#   build     a system for building, with both commands (demos/run.sh, tests/run.sh where TESTS=1) and the packages, in
+#             which lintian finds no error
 #   use       another: installs them, draws a scene, builds tests/package_example by CMake and by pkg-config, tests it, and
 #             removes them: nothing of Carom is left
 # PACKAGES, a folder of packages of the same release, takes the place of building them. Systems go to CHROOTS (a temporary
@@ -36,6 +37,7 @@ if [ -z "$packages" ]; then
   git archive HEAD | tar -x -C "$systems/build/src"
   run_steps build 1 /src
   [ -z "${TESTS-}" ] || inside build "cd /src && bash tests/run.sh"
+  inside build "apt-get install -y --no-install-recommends lintian && lintian --fail-on error /packages/*.deb"
   packages=$systems/build/packages
 fi
 
