@@ -2,7 +2,8 @@
 # One state hash everywhere: builds the program without its renderer by several compilers, at several levels, for several
 # processors (Debian's cross compilers, run by qemu-user), simulates every shipped scene and 200 random worlds of the
 # explorer with each, and prints a table of what equals the first cell's. hash_table.sh [CELL...]; without cells, those
-# that can be built here. Worlds run for WORLD_S seconds (1 and 0.25), SEEDS random ones (200).
+# that can be built here; the cell `release` is the release build as it is. Scenes run for SCENE_S seconds (1), SEEDS random
+# worlds (200) for SEED_S (0.25).
 #
 # A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages (13's for riscv64, which 12 has no
 # release for); what is needed:
@@ -20,7 +21,7 @@ work=$(realpath "$work")
 
 # cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
 declare -A cells=(
-  [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
+  [release]="g++" [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
   [clang-O3]="clang++|-O3" [clang-O2]="clang++|-O2" [clang-O0]="clang++|-O0" [clang-O3-avx2]="clang++|-O3 -mavx2 -mfma"
   [i686-O3]="i686-linux-gnu-g++|-O3 -msse2 -mfpmath=sse|i386|i386" [aarch64-O3]="aarch64-linux-gnu-g++|-O3|arm64|aarch64"
   [aarch64-O2]="aarch64-linux-gnu-g++|-O2|arm64|aarch64" [ppc64el-O3]="powerpc64le-linux-gnu-g++|-O3|ppc64el|ppc64le"
@@ -53,6 +54,7 @@ system_root() {
 # build CELL: the program of that cell; says nothing unless it fails.
 build() {
   local folder=$work/$1 debian root more=()
+  if [ "$1" = release ]; then build_release carom >&2; return; fi
   debian=$(field "$1" 3)
   if [ -n "$debian" ]; then
     root=$(system_root "$1")
@@ -74,7 +76,9 @@ run_cell() {
   local cell=$1 debian
   shift
   debian=$(field "$cell" 3)
-  if [ -z "$debian" ]; then
+  if [ "$cell" = release ]; then
+    "$release/demos/carom" "$@"
+  elif [ -z "$debian" ]; then
     "$work/$cell/demos/carom" "$@"
   else
     "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$work/$cell/demos/carom" "$@"
@@ -97,7 +101,8 @@ hash_worlds() {
     xargs -d '\n' -P "$JOBS" -n 1 bash -c 'hash_world "$0" "${1% *}" "${1##* }"' "$1" | sort >"$work/$1.hashes"
 }
 export -f hash_world run_cell field system_root
-export work
+release=$(realpath -m "$(build_folder release)")
+export work release
 
 wanted=("$@")
 if [ ${#wanted[@]} -eq 0 ]; then
@@ -109,7 +114,7 @@ if [ ${#wanted[@]} -eq 0 ]; then
   done
 fi
 for cell in "${wanted[@]}"; do
-  [ -n "${cells[$cell]-}" ] || { echo "no cell $cell; accepted: ${order[*]}" >&2; exit 2; }
+  [ -n "${cells[$cell]-}" ] || { echo "no cell $cell; accepted: release ${order[*]}" >&2; exit 2; }
 done
 # The shell's functions see an associative array only as text.
 cells_text=$(declare -p cells)
