@@ -87,16 +87,17 @@ build_folder() { echo "${CAROM_BUILD:-build}/$1"; }
 build_release() { build_preset release "$@"; }
 
 # build_preset PRESET TARGET...: configures the preset and builds the targets, in the checkout's root. Speaks only of
-# phases unless something fails. Warnings are errors where CAROM_WARNINGS_ARE_ERRORS says so, or a developer has
-# configured the folder by the preset alone.
+# phases unless something fails. Warnings are errors where CAROM_WARNINGS_ARE_ERRORS says so. A folder that a developer has
+# configured by the preset alone, which precompiles no headers, stays as it is.
 build_preset() {
-  local preset=$1 folder log strict=${CAROM_WARNINGS_ARE_ERRORS:-OFF}
+  local preset=$1 folder log
+  local own=(-DCAROM_WARNINGS_ARE_ERRORS="${CAROM_WARNINGS_ARE_ERRORS:-OFF}" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF)
   folder=$(build_folder "$preset")
-  ! grep -qs '^CAROM_WARNINGS_ARE_ERRORS:[A-Z]*=ON' "$folder/CMakeCache.txt" || strict=ON
+  ! grep -qs '^CMAKE_DISABLE_PRECOMPILE_HEADERS:[A-Z]*=ON' "$folder/CMakeCache.txt" || own=()
   shift
   log=$(mktemp)
   echo "configuring $folder"
-  cmake --preset "$preset" -B "$folder" -DCAROM_WARNINGS_ARE_ERRORS="$strict" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
+  cmake --preset "$preset" -B "$folder" "${own[@]}" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; echo "configuring failed" >&2; return 1; }
   echo "building $* with $(nproc) jobs"
   cmake --build "$folder" -j"$(nproc)" --target "$@" >"$log" 2>&1 ||
     { grep -vE '^\[[0-9]+/[0-9]+\]' "$log" | head -n 60 >&2; rm -f "$log"; echo "building failed" >&2; return 1; }
