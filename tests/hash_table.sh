@@ -3,13 +3,14 @@
 # processors (Debian's cross compilers, run by qemu-user), simulates every shipped scene and 200 random worlds of the
 # explorer with each, and prints a table of what equals the first cell's. hash_table.sh [CELL...]; without cells, those
 # that can be built here; the cell `release` is the release build as it is. Scenes run for SCENE_S seconds (1), SEEDS random
-# worlds (200) for SEED_S (0.25).
+# worlds (200) for SEED_S (0.25). hash_table.sh --states [CELL...] builds half of the program and looks at the states of the
+# scenes alone.
 #
 # A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages (13's for riscv64, which 12 has no
 # release for); what is needed:
 #   apt-get install clang mmdebstrap qemu-user g++-{aarch64,i686,powerpc64le,riscv64,s390x}-linux-gnu
 # WebAssembly has no cell: Debian packages neither assimp nor qhull for emscripten.
-# Exit 1: a cell differs; each difference is a line of build/hashes/CELL.differs.
+# Exit 1: a cell differs; each difference is a line of build/hashes/CELL.differs. Exit 77: a cell's libraries cannot be had.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
@@ -17,6 +18,11 @@ source demos/packages.sh
 SCENE_S=${SCENE_S:-1} SEED_S=${SEED_S:-0.25} SEEDS=${SEEDS:-200} JOBS=${JOBS:-$(nproc)}
 work=${CAROM_BUILD:-build}/hashes
 mkdir -p "$work"
+target=carom program=demos/carom
+if [ "${1-}" = --states ]; then
+  target=state_hashes program=tests/hashes/state_hashes SEEDS=0
+  shift
+fi
 work=$(realpath "$work")
 
 # cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
@@ -41,7 +47,7 @@ system_root() {
   if [ ! -d "$root/usr" ]; then
     mkdir -p "$(dirname "$root")"
     mmdebstrap --quiet --variant=extract --architectures="$architecture" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev \
-      "${release:-bookworm}" "$root" >&2
+      "${release:-bookworm}" "$root" >&2 || { rm -rf "$root"; return 1; }
     # What names places from the root up means this one.
     sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
     find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
@@ -54,10 +60,10 @@ system_root() {
 # build CELL: the program of that cell; says nothing unless it fails.
 build() {
   local folder=$work/$1 debian root more=()
-  if [ "$1" = release ]; then build_release carom >&2; return; fi
+  if [ "$1" = release ]; then build_release "$target" >&2; return; fi
   debian=$(field "$1" 3)
   if [ -n "$debian" ]; then
-    root=$(system_root "$1")
+    root=$(system_root "$1") || { echo "the libraries of $1 cannot be had" >&2; exit 77; }
     more=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$(field "$1" 4)" -DCMAKE_SYSROOT="$root"
       -DCMAKE_FIND_ROOT_PATH="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
       -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
@@ -68,7 +74,7 @@ build() {
   fi
   { cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$(field "$1" 1)" \
       -DCMAKE_CXX_FLAGS_RELEASE="$(field "$1" 2) -DNDEBUG" -DCAROM_RENDERER=OFF -DCAROM_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON "${more[@]}" &&
-    cmake --build "$folder" --target carom -j"$JOBS"; } >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
+    cmake --build "$folder" --target "$target" -j"$JOBS"; } >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
 }
 
 # run_cell CELL ARGUMENTS...: its program.
@@ -77,11 +83,11 @@ run_cell() {
   shift
   debian=$(field "$cell" 3)
   if [ "$cell" = release ]; then
-    "$release/demos/carom" "$@"
+    "$release/$program" "$@"
   elif [ -z "$debian" ]; then
-    "$work/$cell/demos/carom" "$@"
+    "$work/$cell/$program" "$@"
   else
-    "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$work/$cell/demos/carom" "$@"
+    "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$work/$cell/$program" "$@"
   fi
 }
 
@@ -89,6 +95,7 @@ run_cell() {
 hash_world() {
   local name hash record=$work/$1.recordings
   name=$(basename "$2" .json)
+  if [ "$target" = state_hashes ]; then echo "$(run_cell "$1" "$3" "$2" 2>/dev/null || echo "$name failed by $1") -"; return; fi
   hash=$(run_cell "$1" simulate "$2" --duration "$3" --fps 20 -q -o "$record/$name.carom" 2>/dev/null | head -n 1) || true
   echo "$name ${hash:-refused} $(sha256sum <"$record/$name.carom" 2>/dev/null | cut -c1-16)"
 }
@@ -97,12 +104,12 @@ hash_world() {
 hash_worlds() {
   mkdir -p "$work/$1.recordings"
   { for scene in assets/scenes/*.json; do echo "$PWD/$scene $SCENE_S"; done
-    find "$work/worlds" -name '*.json' | sort -V | sed "s/\$/ $SEED_S/"; } |
+    [ "$SEEDS" -eq 0 ] || find "$work/worlds" -name '*.json' | sort -V | sed "s/\$/ $SEED_S/"; } |
     xargs -d '\n' -P "$JOBS" -n 1 bash -c 'hash_world "$0" "${1% *}" "${1##* }"' "$1" | sort >"$work/$1.hashes"
 }
 export -f hash_world run_cell field system_root
 release=$(realpath -m "$(build_folder release)")
-export work release
+export work release target program
 
 wanted=("$@")
 if [ ${#wanted[@]} -eq 0 ]; then
@@ -137,6 +144,11 @@ for cell in "${wanted[@]}"; do
   join "$work/$first.hashes" "$work/$cell.hashes" | awk '$2 != $4 || $3 != $5' >"$work/$cell.differs"
   states=$(join "$work/$first.hashes" "$work/$cell.hashes" | awk '$2 == $4' | wc -l)
   recordings=$(join "$work/$first.hashes" "$work/$cell.hashes" | awk '$3 == $5' | wc -l)
+  if [ "$target" = state_hashes ]; then
+    echo "| $cell | $(wc -l <"$work/$cell.hashes") | $states | | |"
+    [ ! -s "$work/$cell.differs" ] || code=1
+    continue
+  fi
   sum=$(run_cell "$cell" export "$work/$first.recordings/resting.carom" -q --csv /dev/stdout | sha256sum | cut -c1-16)
   [ "$cell" != "$first" ] || first_sum=$sum
   echo "| $cell | $(wc -l <"$work/$cell.hashes") | $states | $recordings | $([ "$sum" = "$first_sum" ] && echo yes || echo no) |"
