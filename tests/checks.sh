@@ -6,15 +6,12 @@
 #   lint        clang-tidy finds nothing in the engine (.clang-tidy)
 #   threads     the tests of several threads under the thread sanitizer
 #   hashes      every shipped scene ends in one state by gcc, and by clang under the address and undefined-behaviour sanitizers
-#   sanitizers  that other compiler builds the engine and its tests without a warning; they pass under those sanitizers
-#               (but those that repeat one thing by the hundred thousand)
-#   clang       the engine's and the physics' tests pass as clang optimises them, every answer of V-Clip certified, and the
-#               scenes end in those states
-#   coverage    those tests run nine tenths of the engine's lines
+#   clang       the engine's and the physics' tests pass as clang optimises them, every answer of V-Clip certified, and run
+#               nine tenths of the engine's lines
+#   processors  every shipped scene ends in that state on aarch64 too, by Debian's cross compiler and qemu
+#   sanitizers  the engine's tests pass under those sanitizers
 #
-# and, by name only, since it takes longer:
-#
-#   processors  shipped scenes and some random worlds come to one state on aarch64, by Debian's cross compiler and qemu
+# The tests that repeat one thing by the hundred thousand are left out of `clang` and `sanitizers`, which slow them down.
 #
 # CAROM_CHECKS_END_S: how many seconds may have passed since CAROM_CHECKS_BEGAN (seconds of the epoch; now) when the last
 # stage is over. What would not be, by the seconds in `takes`, is named and not begun, and what is not over then is ended;
@@ -24,9 +21,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
 
 # What is cheap and tells most comes first; the hashes leave the sanitizers half of their build.
-stages=(format lint threads hashes sanitizers clang coverage)
+stages=(format lint threads hashes clang processors sanitizers)
 # Seconds on two cores without a compiler cache.
-declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=350 [sanitizers]=900 [clang]=450 [coverage]=700 [processors]=1800)
+declare -A takes=([format]=20 [lint]=120 [threads]=200 [hashes]=300 [clang]=520 [processors]=300 [sanitizers]=500)
 scene_s=0.5  # simulated, of each scene
 
 left_out=77  # what a stage returns that cannot be run here
@@ -55,17 +52,19 @@ say_unless_right() {
 }
 
 # configure_engine PRESET: in a folder of its own, without a renderer, warnings being errors. Sanitizers' builds are for one
-# run: by clang, which takes two thirds of gcc's time for them, little optimised, lines alone for their reports. The engine is
+# run: by clang, which takes two thirds of gcc's time for them, lines alone for their reports. The engine is
 # compiled several files at a time, so that what they include is read once. What clang optimises asserts, and so certifies.
 configure_engine() {
   local own=()
   case $1 in
     *san) own=(-DCMAKE_CXX_COMPILER=clang++) ;;
-    clang) own=(-DCMAKE_CXX_FLAGS_RELEASE=-O3) ;;
-    coverage) own=(-DCAROM_PROGRAM=OFF -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG --coverage -fprofile-update=atomic") ;;
+    clang)
+      own=(-DCAROM_PROGRAM=OFF -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DCMAKE_EXE_LINKER_FLAGS=-fprofile-instr-generate
+        -DCAROM_ENGINE_OPTIONS="-fprofile-instr-generate;-fcoverage-mapping;-fprofile-list=$PWD/tests/coverage.list")
+      ;;
   esac
-  say_unless_right cmake --preset "${1/coverage/release}" -B "$(build_folder "checks-$1")" "${own[@]}" -DCAROM_RENDERER=OFF \
-    -DCAROM_WARNINGS_ARE_ERRORS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG"
+  say_unless_right cmake --preset "$1" -B "$(build_folder "checks-$1")" "${own[@]}" -DCAROM_RENDERER=OFF \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1 -DNDEBUG"
 }
 
 # build_engine PRESET TARGET...
@@ -103,8 +102,7 @@ run_shared() {
   return $code
 }
 
-# What is repeated so often that it would take half an hour under the sanitizers, which slow it down by fifteen.
-# Coverage does without it too.
+# What is repeated by the hundred thousand: half an hour under the sanitizers, some minutes where each answer is certified.
 often_repeated="VClip/RandomPairs.*:*AnySeed*:*AMillion*:*HundredThousand*:*/gons:*/nearly_parallel:*/concentric:Threads.*"
 often_repeated+=":RoundedMass.OfAnyHull*:PointCollision.WithCurvedSlip*:CapCover.*:*200Gons*:ConvexHull.OfASphereFiner*"
 
@@ -126,7 +124,7 @@ format() {
 lint() {
   local linter folder found
   linter=$(llvm_14 clang-tidy) && is_had clang++ || return $left_out
-  configure_engine asan+ubsan || return 1
+  build_engine asan+ubsan carom_foundation || return 1  # with the headers that it precompiles
   folder=$(realpath "$(build_folder checks-asan+ubsan)")
   found=$(grep -F -e "\"file\": \"$PWD/engine/" -e "\"file\": \"$folder/engine/" "$folder/compile_commands.json" |
     sed -E 's/^ *"file": "(.*)",?$/\1/' |
@@ -149,15 +147,13 @@ sanitizers() {
 
 # hashes_of FOLDER: a line a scene.
 hashes_of() {
-  printf '%s\n' assets/scenes/*.json | xargs -P "$(nproc)" -n 1 "$1/tests/state_hashes" "$scene_s" | sort
+  printf '%s\n' assets/scenes/*.json | xargs -P "$(nproc)" -n 1 "$1/tests/hashes/state_hashes" "$scene_s" | sort
 }
 
 # hashes_agree PRESET: with those of the release build.
 hashes_agree() {
   local expected found
-  say_unless_right cmake --preset release -B "$(build_folder release)" &&
-    say_unless_right cmake --build "$(build_folder release)" -j"$(nproc)" --target state_hashes &&
-    build_engine "$1" state_hashes || return 1
+  say_unless_right build_release state_hashes && build_engine "$1" state_hashes || return 1
   expected=$(hashes_of "$(build_folder release)") && found=$(hashes_of "$(build_folder "checks-$1")") || return 1
   [ "$(wc -l <<<"$expected")" -eq "$(printf '%s\n' assets/scenes/*.json | wc -l)" ] || { echo "not every scene has a hash"; return 1; }
   [ "$expected" != "$found" ] || return 0
@@ -171,27 +167,26 @@ hashes() {
 }
 
 clang() {
-  is_had clang++ || return $left_out
-  tests_of clang "*" engine_tests physics_tests && hashes_agree clang
+  is_had clang++ && is_had llvm-cov-14 || return $left_out
+  local programs profiles
+  profiles=$(realpath -m "$(build_folder checks-clang)/profiles")
+  programs=("$(build_folder checks-clang)"/tests/{engine,physics}_tests)
+  rm -rf "$profiles"
+  LLVM_PROFILE_FILE=$profiles/%p.profraw tests_of clang "-$often_repeated" engine_tests physics_tests || return 1
+  python3 tests/coverage.py "$profiles" "${programs[@]}"
 }
 
 processors() {
+  install_what_is_had g++-aarch64-linux-gnu qemu-user mmdebstrap
   is_had aarch64-linux-gnu-g++ && is_had qemu-aarch64 && is_had mmdebstrap || return $left_out
-  SCENE_S=$scene_s SEEDS=20 bash tests/hash_table.sh gcc-O3 aarch64-O3
-}
-
-coverage() {
-  local folder
-  folder=$(build_folder checks-coverage)
-  find "$folder" -name '*.gcda' -delete 2>/dev/null || true
-  tests_of coverage "-$often_repeated" no_allocation_tests engine_tests physics_tests && python3 tests/coverage.py "$folder"
+  SCENE_S=$scene_s bash tests/hash_table.sh --states release aarch64-O3
 }
 
 if [ $# -gt 0 ]; then stages=("$@"); fi
 for stage in "${stages[@]}"; do
   [ -n "${takes[$stage]-}" ] || { echo "no stage $stage; accepted: ${!takes[*]}" >&2; exit 2; }
 done
-install_what_is_had "${carom_packages[@]}" clang clang-format clang-tidy
+install_what_is_had "${carom_packages[@]}" clang clang-format clang-tidy llvm-14
 
 began=${CAROM_CHECKS_BEGAN:-$(date +%s)} failed=0
 for stage in "${stages[@]}"; do
