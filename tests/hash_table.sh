@@ -27,7 +27,7 @@ work=$(realpath "$work")
 
 # cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
 declare -A cells=(
-  [release]="g++" [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
+  [release]="g++|-O3" [gcc-O3]="g++|-O3" [gcc-O2]="g++|-O2" [gcc-O0]="g++|-O0" [gcc-O3-avx2]="g++|-O3 -mavx2 -mfma"
   [clang-O3]="clang++|-O3" [clang-O2]="clang++|-O2" [clang-O0]="clang++|-O0" [clang-O3-avx2]="clang++|-O3 -mavx2 -mfma"
   [i686-O3]="i686-linux-gnu-g++|-O3 -msse2 -mfpmath=sse|i386|i386" [aarch64-O3]="aarch64-linux-gnu-g++|-O3|arm64|aarch64"
   [aarch64-O2]="aarch64-linux-gnu-g++|-O2|arm64|aarch64" [ppc64el-O3]="powerpc64le-linux-gnu-g++|-O3|ppc64el|ppc64le"
@@ -79,15 +79,13 @@ build() {
 
 # run_cell CELL ARGUMENTS...: its program.
 run_cell() {
-  local cell=$1 debian
+  local cell=$1 folder=$work/$1
   shift
-  debian=$(field "$cell" 3)
-  if [ "$cell" = release ]; then
-    "$release/$program" "$@"
-  elif [ -z "$debian" ]; then
-    "$work/$cell/$program" "$@"
+  [ "$cell" != release ] || folder=$release
+  if [ -z "$(field "$cell" 3)" ]; then
+    "$folder/$program" "$@"
   else
-    "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$work/$cell/$program" "$@"
+    "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$folder/$program" "$@"
   fi
 }
 
