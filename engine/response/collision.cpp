@@ -4,22 +4,18 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/response/standing_solver.h"
+#include "engine/response/few_rows_solver.h"
 #include "engine/response/sweeps/energy_bound.h"
+#include "engine/response/sweeps/principal_pivoting.h"
 
 namespace carom {
 namespace {
 
-constexpr int kCollisionSweeps = 400;     // of each of the two phases, at most
+// Of each of the two phases, at most; of few rows it is steps of Newton's method that converge.
+constexpr int kCollisionSweeps = 400;
+constexpr int kSweepsOfFew = 60;
 constexpr double kConverged = 1e-12;      // of the approach speed: a sweep that changes less is the last
 constexpr double kLeastApproach = 1e-10;  // of the approach speed: points that approach more slowly are left
-constexpr int kMostStops = 4000;          // of approaches that the phases have left, at most
-// Of the approach speed: what sweeps change by more at the end is solved at once ...
-constexpr double kSlow = 1e-9;
-// ... where it is no more rows than these ...
-constexpr std::size_t kRowsAtOnce = 32;
-// ... after so many sweeps more.
-constexpr int kSweepsBefore = 20;
 
 // 2 (E_after - E_before) = sum over the points of impulse . (u_before + u_after).
 double twiceEnergyGain(std::span<const ContactRow> rows, const std::vector<Vec3>& before,
@@ -54,36 +50,27 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
   setShare(low);
 }
 
-// Few rows that sweeps have not brought to rest, between bodies of very different mass, are solved at once.
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  SolverSettings settings{kCollisionSweeps, kConverged * approach_mps, true};
-  if (solveContacts(rows, bodies, settings).residual_mps <= kSlow * approach_mps) return;
-  if (rows.size() > kRowsAtOnce) return;
-  settings.sweeps = kSweepsBefore;
-  solveStandingContacts(rows, bodies, settings);
-  takeBackGain(rows, bodies);
+  const bool few = rows.size() <= kMostNewtonRows;
+  solveFewContacts(rows, bodies, {few ? kSweepsOfFew : kCollisionSweeps, kConverged * approach_mps, true});
 }
 
-// What the solves have left approaching, where they have not converged (rough ground, very unequal masses):
-// one point after the other, the fastest first, is stopped by a collision of its own without restitution.
-// Each takes energy away, so this ends.
+// What the solves have left approaching, where they have not converged (rough ground that rows contradict
+// each other on), is stopped without friction: that takes energy away, and there is always a solution.
 void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double tolerated_mps) {
-  for (int i = 0; i < kMostStops; ++i) {
-    std::size_t fastest = 0;
-    double approach = 0.0;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double speed = rowVelocity(rows[k], bodies).x();
-      if (speed >= approach) continue;
-      approach = speed;
-      fastest = k;
-    }
-    if (approach >= -tolerated_mps) return;
-    ContactRow& row = rows[fastest];
-    const Vec3 impulse =
-        pointCollisionImpulse({rowResponse(row, bodies), rowVelocity(row, bodies), row.friction, 0.0});
-    applyToRow(row, impulse, bodies);
-    row.impulse += impulse;
+  const bool any = std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
+    return rowVelocity(row, bodies).x() < -tolerated_mps;
+  });
+  if (!any) return;
+  std::vector<ContactRow> stops(rows.begin(), rows.end());
+  for (ContactRow& row : stops) {
+    row.impulse.setZero();
+    row.lowest_speed = 0.0;
   }
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
+    solveContacts(stops, bodies, {kCollisionSweeps, tolerated_mps, false});
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse += stops[i].impulse;
 }
 
 }  // namespace
@@ -108,6 +95,7 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
     return report;
   }
   solveRows(rows, bodies, approach_mps);
+  takeBackGain(rows, bodies);
 
   if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
     std::vector<Vec3> compressed(rows.size());

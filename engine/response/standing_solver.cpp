@@ -1,9 +1,8 @@
 #include "engine/response/standing_solver.h"
 
-#include <vector>
-
 #include "engine/response/focused_solver.h"
 #include "engine/response/held_rows.h"
+#include "engine/response/sweeps/solution.h"
 
 namespace carom {
 namespace {
@@ -24,35 +23,6 @@ constexpr double kHopeless = 10.0;
 // Sweeps after a step, at most: fewer do not bring the impulses back into their cones.
 constexpr int kSweepsAfter = 16;
 
-// A solution, to return to.
-class Saved {
- public:
-  Saved(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, double residual_mps)
-      : residual_mps_(residual_mps) {
-    for (const ContactRow& row : rows) {
-      impulses_.push_back(row.impulse);
-      torques_.push_back(row.torque);
-      for (const int body : {row.a, row.b})
-        velocities_.push_back(bodies[static_cast<std::size_t>(body)].velocity);
-    }
-  }
-  double residual() const { return residual_mps_; }
-  void restore(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) const {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i].impulse = impulses_[i];
-      rows[i].torque = torques_[i];
-      bodies[static_cast<std::size_t>(rows[i].a)].velocity = velocities_[2 * i];
-      bodies[static_cast<std::size_t>(rows[i].b)].velocity = velocities_[2 * i + 1];
-    }
-  }
-
- private:
-  double residual_mps_;
-  std::vector<Vec3> impulses_;
-  std::vector<Vec3> torques_;
-  std::vector<Velocity> velocities_;  // of both bodies of every row
-};
-
 }  // namespace
 
 SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
@@ -64,7 +34,8 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   HeldRows held(rows, bodies);
   total.products = held.products();
   if (total.products > settings.most_products) return total;
-  Saved best(rows, bodies, total.residual_mps);
+  Solution best(rows, bodies);
+  double least_mps = total.residual_mps;
   const int most_steps = rows.size() < kFocusedRows ? kDirectSteps : kDirectStepsOfMany;
   for (int step = 0; step < most_steps; ++step) {
     if (!held.step(rows, bodies)) break;
@@ -72,15 +43,16 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
     total.sweeps += report.sweeps;
     total.visits += report.visits;
     total.residual_mps = report.residual_mps;
-    if (report.residual_mps > kHopeless * best.residual()) break;
+    if (report.residual_mps > kHopeless * least_mps) break;
     if (report.residual_mps <= settings.residual_mps) return total;
-    if (report.residual_mps >= best.residual()) continue;
-    const bool gains = report.residual_mps <= kGainingShare * best.residual();
-    best = Saved(rows, bodies, report.residual_mps);
-    if (!gains && best.residual() <= kNearlyEnough * settings.residual_mps) break;
+    if (report.residual_mps >= least_mps) continue;
+    const bool gains = report.residual_mps <= kGainingShare * least_mps;
+    best = Solution(rows, bodies);
+    least_mps = report.residual_mps;
+    if (!gains && least_mps <= kNearlyEnough * settings.residual_mps) break;
   }
   best.restore(rows, bodies);
-  total.residual_mps = best.residual();
+  total.residual_mps = least_mps;
   return total;
 }
 

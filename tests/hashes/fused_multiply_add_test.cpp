@@ -1,12 +1,13 @@
-// Programs that are told of a processor with fused multiply-add round every product all the same. Compiled for such a
-// processor, after which come the rules that every floor is compiled with.
+// Programs that are told of a processor with fused multiply-add round every product all the same. Compiled
+// for such a processor, after which come the rules that every floor is compiled with.
 
 #include <gtest/gtest.h>
 
 namespace carom {
 namespace {
 
-// Vectors of a difference and a sum: gcc fuses these where it may use the instruction, though it is told not to contract.
+// Vectors of a difference and a sum: gcc fuses these where it may use the instruction, though it is told not
+// to contract.
 [[gnu::noinline]] void subtractAndAdd(const double* __restrict factors, const double* __restrict others,
                                       const double* __restrict addends, double* __restrict sums) {
   const double first = factors[0] * others[0];

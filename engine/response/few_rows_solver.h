@@ -1,0 +1,18 @@
+#pragma once
+// The contact solver for few rows: some sweeps, then steps of Newton's method (newton_rows.h), where sweeps
+// alone would creep for hundreds of rounds: points a millimetre apart, faces that stick, bodies a thousand
+// times as heavy. Tested in tests/engine/response/few_rows_solver_test.cpp.
+
+#include "engine/response/sweeps/contact_solver.h"
+
+namespace carom {
+
+/// Of more rows than these a step costs more than the sweeps that it saves.
+inline constexpr std::size_t kMostNewtonRows = 32;
+
+/// As solveContacts, which it is for more rows than `kMostNewtonRows`; rows whose turning is resisted are
+/// solved as if it were not. Never ends farther from convergence than the sweeps before a step.
+SolverReport solveFewContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                              const SolverSettings& settings);
+
+}  // namespace carom
