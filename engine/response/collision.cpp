@@ -50,13 +50,17 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
   setShare(low);
 }
 
+int mostSweeps(std::span<const ContactRow> rows) {
+  return rows.size() <= kMostNewtonRows ? kSweepsOfFew : kCollisionSweeps;
+}
+
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  const bool few = rows.size() <= kMostNewtonRows;
-  solveFewContacts(rows, bodies, {few ? kSweepsOfFew : kCollisionSweeps, kConverged * approach_mps, true});
+  solveFewContacts(rows, bodies, {mostSweeps(rows), kConverged * approach_mps, true});
 }
 
 // What the solves have left approaching, where they have not converged (rough ground that rows contradict
-// each other on), is stopped without friction: that takes energy away, and there is always a solution.
+// each other on), is stopped without friction: that takes energy away, and among bodies that can move there
+// is always a solution.
 void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double tolerated_mps) {
   const bool any = std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
     return rowVelocity(row, bodies).x() < -tolerated_mps;
@@ -69,7 +73,7 @@ void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, d
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
   if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
-    solveContacts(stops, bodies, {kCollisionSweeps, tolerated_mps, false});
+    solveContacts(stops, bodies, {mostSweeps(rows), tolerated_mps, false});
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse += stops[i].impulse;
 }
 

@@ -20,6 +20,10 @@ constexpr int kStraightSteps = 6;
 constexpr double kFirstGive = 1e-2;
 constexpr double kGiveShare = 0.1;
 constexpr int kEasedSteps = 16;
+// Of the residual before: steps that leave more have found nothing. Where rows contradict each other, as
+// between a wall and what is driven towards it, they press without measure; sweeps press no more than each
+// takes.
+constexpr double kFoundShare = 1e-3;
 
 // Steps until the rows' conditions hold, or so many.
 void takeSteps(NewtonRows& newton, double first_give, int most, double enough_mps) {
@@ -53,10 +57,9 @@ class FewRowsSolver {
     takeSteps(newton_, first_give, steps, settings_.residual_mps);
     applyAnew(before);
     if (sweep(kLastSweeps)) return true;
-    if (report_.residual_mps > residual_mps) {
-      before.restore(rows_, bodies_);
-      report_.residual_mps = residual_mps;
-    }
+    if (report_.residual_mps <= kFoundShare * residual_mps) return false;
+    before.restore(rows_, bodies_);
+    report_.residual_mps = residual_mps;
     return false;
   }
   const SolverReport& report() const { return report_; }

@@ -150,6 +150,24 @@ TEST(Collide, OfAHeavyBodyOnALightOneOnTheFloor_StopsBothWithoutRestitution) {
   EXPECT_NEAR(bodies[2].velocity.linear.z(), 0.0, 1e-6);
 }
 
+// Of a ball between a lid and what is driven towards it nothing is right: it must not be pressed without
+// measure.
+TEST(Collide, WithoutRoom_PressesNoMoreThanSweepsDo) {
+  const Solid ball = Solid::ball(0.5);
+  const Inertia inertia = inertiaOf(1.0, ball.volume(), ball.unitInertia());
+  const double speed_mps = 4.0;
+  std::vector<ImpulseBody> bodies{immovable(), immovable(),
+                                  impulseBody(inertia, Quat::Identity(), Vec3::Zero(), {})};
+  bodies[0].velocity.linear = Vec3(0, 0, speed_mps);
+  std::vector<ContactRow> rows{
+      rowAt({.a = 0, .b = 2, .p_W = Vec3(0, 0, -0.5), .friction = {0.5, 0.5}}, bodies),
+      rowAt({.a = 2, .b = 1, .p_W = Vec3(0, 0, 0.5), .friction = {0.5, 0.5}}, bodies)};
+  collide(rows, bodies, {{0.3, 0.3}});
+  const double most_Ns = 200.0 * speed_mps / inertia.inverse_mass;  // three solves of sixty sweeps
+  EXPECT_LT(bodies[2].velocity.linear.norm(), 2.0 * speed_mps);
+  for (const ContactRow& row : rows) EXPECT_LT(row.impulse.norm(), most_Ns);
+}
+
 TEST(Collide, OfBodiesThatSeparate_ChangesNothing) {
   Random random(116);
   for (int i = 0; i < 100; ++i) {
