@@ -190,7 +190,6 @@ void BoundsTree::find(const Bounds& bounds, std::vector<int>& found) const {
     while (node(i).parent >= 0 && side(i) == 1) i = node(i).parent;
     i = node(i).parent >= 0 ? node(node(i).parent).children[1] : -1;
   }
-  std::sort(found.begin(), found.end());
 }
 
 }  // namespace carom

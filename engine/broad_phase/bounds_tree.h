@@ -27,7 +27,7 @@ class BoundsTree {
   void move(int thing, const Bounds& bounds);
   /// Makes the bounds of a thing hold these too. Cost about O(log n).
   void grow(int thing, const Bounds& bounds);
-  /// All things whose bounds overlap these, ascending. Cost about O(log n + found).
+  /// All things whose bounds overlap these, in no order. Cost about O(log n + found).
   void find(const Bounds& bounds, std::vector<int>& found) const;
 
  private:

@@ -93,6 +93,7 @@ void PairFinder::findPartners(std::span<const Proxy> proxies, int proxy, std::ve
   const Proxy& mine = proxies[at(proxy)];
   tree_.find(mine.bounds, found);
   std::erase_if(found, [&](int other) { return !canPair(mine, proxies[at(other)]); });
+  std::sort(found.begin(), found.end());
 }
 
 }  // namespace carom

@@ -20,18 +20,36 @@ constexpr double kNoticedBounce = 1.0;          // steps: a bounce that would la
 constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
-// The bounds of a part in a pose.
-Bounds boundsAt(const ConvexPart& part, const Pose& X) {
-  const Mat3 to_body = X.rotation.conjugate().toRotationMatrix();
+// Of a core in the axes of the world, from its origin.
+Bounds turnedBounds(const ConvexPolyhedron& core, const Mat3& to_body) {
+  constexpr int kFewVertices = 16;  // all of them are looked at in less time than the farthest are walked to
   Bounds bounds;
   int v = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Vec3 direction = to_body.col(axis);
-    v = part.core.support(direction, v);
-    bounds.high[axis] = dot(direction, part.core.vertex(v)) + X.position[axis] + part.radius_m;
-    v = part.core.support(-direction, v);
-    bounds.low[axis] = dot(direction, part.core.vertex(v)) + X.position[axis] - part.radius_m;
+    double low = dot(direction, core.vertex(0)), high = low;
+    for (int i = 1; i < core.vertexCount() && core.vertexCount() <= kFewVertices; ++i) {
+      const double along = dot(direction, core.vertex(i));
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+    if (core.vertexCount() > kFewVertices) {
+      v = core.support(direction, v);
+      high = dot(direction, core.vertex(v));
+      v = core.support(-direction, v);
+      low = dot(direction, core.vertex(v));
+    }
+    bounds.low[axis] = low;
+    bounds.high[axis] = high;
   }
+  return bounds;
+}
+
+// The bounds of a part in a pose.
+Bounds boundsAt(const ConvexPart& part, const Pose& X) {
+  Bounds bounds = turnedBounds(part.core, X.rotation.conjugate().toRotationMatrix());
+  bounds.low += X.position - Vec3::Constant(part.radius_m);
+  bounds.high += X.position + Vec3::Constant(part.radius_m);
   return bounds;
 }
 
@@ -178,11 +196,16 @@ void PairTable::restPairs(const std::vector<Body>& bodies) {
 // Pairs added within the last step have the places of their shapes from now on.
 void PairTable::takeInExtended(const std::vector<Body>& bodies) {
   const auto before = [this](int p, int q) { return isBefore(p, q); };
-  for (const int place : extended_) pairAt(place).rank = rankOf(pairAt(place).shapes);
-  for (const int place : extended_)
-    for (const int body : {pairAt(place).body_a, pairAt(place).body_b})
-      if (!bodies[at(body)].is_static)
-        std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
+  std::vector<int> changed;
+  for (const int place : extended_) {
+    ShapePair& pair = pairAt(place);
+    pair.rank = rankOf(pair.shapes);
+    for (const int body : {pair.body_a, pair.body_b})
+      if (!bodies[at(body)].is_static) changed.push_back(body);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (const int body : changed) std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
   extended_.clear();
   if (!std::is_sorted(active_.begin(), active_.end(), before))
     std::sort(active_.begin(), active_.end(), before);

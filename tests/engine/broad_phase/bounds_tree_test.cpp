@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/oracle/test_shapes.h"
@@ -29,6 +30,7 @@ std::vector<int> everyoneAt(const std::vector<Bounds>& all, const Bounds& where)
 std::vector<int> foundAt(const BoundsTree& tree, const Bounds& where) {
   std::vector<int> found{-1};  // what was there before does not matter
   tree.find(where, found);
+  std::sort(found.begin(), found.end());
   return found;
 }
 
