@@ -56,6 +56,11 @@ Experiment boxes(int count) {
   return drop(count, 0.9, [&](int) { return box; });
 }
 
+Experiment bouncing(Experiment world, double restitution) {
+  for (ExperimentBody& body : world.bodies) body.restitution = restitution;
+  return world;
+}
+
 /// As an experiment has it: about the centre of mass, axes along the principal ones.
 Shape principalHull(const std::vector<Vec3>& points) {
   const Solid solid = Shape::hull(points).solid;
@@ -177,6 +182,8 @@ std::vector<PileRow> dropRows() {
       boxRow(1000, false),
       boxRow(2000, true),
       boxRow(4000, true),
+      {"bouncing-500", "500 boxes of 0.5 m, restitution 0.5, dropped into a bin",
+       [] { return bouncing(boxes(500), 0.5); }},
       longRow("hulls-1000", "1000 hulls of 1 m, 12 to 20 points, dropped into a bin",
               [] { return hulls(1000, 12, 20); }),
       {"hulls-300", "300 hulls of 250 points dropped into a bin", [] { return hulls(300, 250, 250); }},
