@@ -1,6 +1,7 @@
 #include "engine/response/few_rows_solver.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "engine/response/newton_rows.h"
@@ -37,7 +38,7 @@ void takeSteps(NewtonRows& newton, double first_give, int most, double enough_mp
 class FewRowsSolver {
  public:
   FewRowsSolver(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings)
-      : rows_(rows), bodies_(bodies), settings_(settings), newton_(rows, bodies, settings.friction) {}
+      : rows_(rows), bodies_(bodies), settings_(settings) {}
 
   // Both say whether the rows have converged.
   bool sweep(int sweeps) {
@@ -54,7 +55,8 @@ class FewRowsSolver {
     if (report_.sweeps >= settings_.sweeps) return false;
     const Solution before(rows_, bodies_);
     const double residual_mps = report_.residual_mps;
-    takeSteps(newton_, first_give, steps, settings_.residual_mps);
+    if (!newton_) newton_.emplace(rows_, bodies_, settings_.friction);
+    takeSteps(*newton_, first_give, steps, settings_.residual_mps);
     applyAnew(before);
     if (sweep(kLastSweeps)) return true;
     if (report_.residual_mps <= kFoundShare * residual_mps) return false;
@@ -79,7 +81,7 @@ class FewRowsSolver {
   std::span<ContactRow> rows_;
   std::span<ImpulseBody> bodies_;
   const SolverSettings& settings_;
-  NewtonRows newton_;
+  std::optional<NewtonRows> newton_;
   SolverReport report_;
 };
 

@@ -20,27 +20,30 @@ constexpr double kNoticedBounce = 1.0;          // steps: a bounce that would la
 constexpr double kFallingShare = 0.5;
 constexpr double kStepsOfGravity = 1.5;  // a body on others may fall for a step; half of one is margin
 
+// Of more vertices, the farthest are walked to in less time than all are looked at.
+constexpr int kScannedVertices = 16;
+
 // Of a core in the axes of the world, from its origin.
 Bounds turnedBounds(const ConvexPolyhedron& core, const Mat3& to_body) {
-  constexpr int kFewVertices = 16;  // all of them are looked at in less time than the farthest are walked to
   Bounds bounds;
   int v = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Vec3 direction = to_body.col(axis);
-    double low = dot(direction, core.vertex(0)), high = low;
-    for (int i = 1; i < core.vertexCount() && core.vertexCount() <= kFewVertices; ++i) {
-      const double along = dot(direction, core.vertex(i));
-      low = std::min(low, along);
-      high = std::max(high, along);
-    }
-    if (core.vertexCount() > kFewVertices) {
+    double& low = bounds.low[axis];
+    double& high = bounds.high[axis];
+    if (core.vertexCount() <= kScannedVertices) {
+      low = high = dot(direction, core.vertex(0));
+      for (int i = 1; i < core.vertexCount(); ++i) {
+        const double along = dot(direction, core.vertex(i));
+        low = std::min(low, along);
+        high = std::max(high, along);
+      }
+    } else {
       v = core.support(direction, v);
       high = dot(direction, core.vertex(v));
       v = core.support(-direction, v);
       low = dot(direction, core.vertex(v));
     }
-    bounds.low[axis] = low;
-    bounds.high[axis] = high;
   }
   return bounds;
 }
