@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/response/few_rows_solver.h"
+#include "engine/response/newton_solver.h"
 #include "engine/response/sweeps/energy_bound.h"
 #include "engine/response/sweeps/principal_pivoting.h"
 
@@ -55,7 +55,7 @@ int mostSweeps(std::span<const ContactRow> rows) {
 }
 
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  solveFewContacts(rows, bodies, {mostSweeps(rows), kConverged * approach_mps, true});
+  solveContactsByNewton(rows, bodies, {mostSweeps(rows), kConverged * approach_mps, true});
 }
 
 // What the solves have left approaching, where they have not converged (rough ground that rows contradict

@@ -3,8 +3,9 @@
 // Coulomb friction. At one point it is followed through (point_collision.h). At several: compression to rest
 // with friction, then every compressed point leaves with e times its approach speed, friction acting on.
 // Kinetic energy never grows: compression with friction only dissipates, and restitution is cut back where it
-// would return more than was there. Few points are solved at once (few_rows_solver.h). Resistance to turning
-// belongs to lasting contact: here it does not act. Tested in tests/engine/response/collision_test.cpp.
+// would return more than was there. Few points are solved by Newton's method (newton_solver.h). Resistance to
+// turning belongs to lasting contact: here it does not act. Tested in
+// tests/engine/response/collision_test.cpp.
 
 #include <span>
 

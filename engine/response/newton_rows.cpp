@@ -47,7 +47,7 @@ void eliminate(RowMajorMatrix& system, Eigen::VectorXd& solution) {
 }  // namespace
 
 NewtonRows::NewtonRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction)
-    : rows_(rows), bodies_(bodies), friction_(friction), answers_(rows.size()) {
+    : rows_(rows), bodies_(bodies), friction_(friction), laws_(rows.size()) {
   placeRows();
   const auto size = static_cast<Eigen::Index>(6 * moving_.size());
   system_.resize(size, size);
@@ -85,40 +85,40 @@ void NewtonRows::placeRows() {
   }
 }
 
-NewtonRows::Answer NewtonRows::answerOf(const ContactRow& row, double give) const {
+NewtonRows::LinearLaw NewtonRows::lawOf(const ContactRow& row, double compliance) const {
   const Vec3 miss = rowMiss(row, bodies_);
   const double response = row.normal_response.x();
   const double pressing = row.impulse.x() - miss.x() / response;
   if (pressing <= 0.0) return {.impulse = -row.impulse};
-  const double stiffness = 1.0 / (give * response);
-  Answer answer{-stiffness * miss, stiffness * Mat3::Identity()};
+  const double stiffness = 1.0 / (compliance * response);
+  LinearLaw law{-stiffness * miss, stiffness * Mat3::Identity()};
   const double coefficient = friction_ ? row.coefficient : 0.0;
   const double reach = 1.0 / row.largest_slip_response;
   const Vec2 pull = row.impulse.tail<2>() - reach * miss.tail<2>();
   const double limit = coefficient * pressing;
   const double length = pull.norm();
-  if (coefficient > 0.0 && length <= limit) return answer;
+  if (coefficient > 0.0 && length <= limit) return law;
   // It slides: friction is `limit` along the pull, and turns as the pull does.
-  answer.stiffness.bottomRows<2>().setZero();
-  answer.impulse.tail<2>() = -row.impulse.tail<2>();
-  if (coefficient == 0.0) return answer;
+  law.stiffness.bottomRows<2>().setZero();
+  law.impulse.tail<2>() = -row.impulse.tail<2>();
+  if (coefficient == 0.0) return law;
   const Vec2 along = pull / length;
   const Vec2 across(-along.y(), along.x());
   const double turning = limit / length;
-  const double softness = 1.0 - turning * (1.0 - reach * give * response);
+  const double softness = 1.0 - turning * (1.0 - reach * compliance * response);
   const Vec2 missing = coefficient * row.impulse.x() * along - row.impulse.tail<2>();
-  answer.impulse.tail<2>() = (dot(missing, along) + coefficient * answer.impulse.x()) * along +
-                             (dot(missing, across) / softness) * across;
-  answer.stiffness.block<2, 1>(1, 0) = coefficient * stiffness * along;
-  answer.stiffness.bottomRightCorner<2, 2>() = (turning * reach / softness) * across * across.transpose();
-  return answer;
+  law.impulse.tail<2>() = (dot(missing, along) + coefficient * law.impulse.x()) * along +
+                          (dot(missing, across) / softness) * across;
+  law.stiffness.block<2, 1>(1, 0) = coefficient * stiffness * along;
+  law.stiffness.bottomRightCorner<2, 2>() = (turning * reach / softness) * across * across.transpose();
+  return law;
 }
 
-void NewtonRows::add(const Place& place, const Answer& answer) {
+void NewtonRows::add(const Place& place, const LinearLaw& law) {
   const auto addTo = [&](int body, const RowJacobian& j) {
     if (body < 0) return;
-    const Eigen::Matrix<double, 6, 3> stiffness = j.transpose() * answer.stiffness;
-    change_.segment<6>(6 * body) += j.transpose() * answer.impulse;
+    const Eigen::Matrix<double, 6, 3> stiffness = j.transpose() * law.stiffness;
+    change_.segment<6>(6 * body) += j.transpose() * law.impulse;
     if (place.a >= 0) system_.block<6, 6>(6 * body, 6 * place.a) += stiffness * place.of_a;
     if (place.b >= 0) system_.block<6, 6>(6 * body, 6 * place.b) += stiffness * place.of_b;
   };
@@ -126,12 +126,12 @@ void NewtonRows::add(const Place& place, const Answer& answer) {
   addTo(place.b, place.of_b);
 }
 
-bool NewtonRows::step(double give) {
+bool NewtonRows::step(double compliance) {
   system_.setZero();
   change_.setZero();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    answers_[i] = answerOf(rows_[i], give);
-    add(places_[i], answers_[i]);
+    laws_[i] = lawOf(rows_[i], compliance);
+    add(places_[i], laws_[i]);
   }
   for (std::size_t body = 0; body < moving_.size(); ++body) {
     const auto first = static_cast<Eigen::Index>(6 * body);
@@ -146,7 +146,7 @@ bool NewtonRows::step(double give) {
     Vec3 velocity = Vec3::Zero();
     if (place.a >= 0) velocity += place.of_a * change_.segment<6>(6 * place.a);
     if (place.b >= 0) velocity += place.of_b * change_.segment<6>(6 * place.b);
-    const Vec3 impulse = answers_[i].impulse - answers_[i].stiffness * velocity;
+    const Vec3 impulse = laws_[i].impulse - laws_[i].stiffness * velocity;
     rows_[i].impulse += impulse;
     applyToRow(rows_[i], impulse, bodies_);
   }

@@ -4,7 +4,7 @@
 // idle, holds its point, or lets it slide, and the change of its impulse is linear in that of its velocity:
 //   change = p - S J v,   v = W sum over the rows of J' (p - S J v),
 // J the row's velocity per change v of the bodies' velocities, W the bodies' response. Tested in
-// tests/engine/response/few_rows_solver_test.cpp.
+// tests/engine/response/newton_solver_test.cpp.
 
 #include <Eigen/Core>
 #include <span>
@@ -20,12 +20,12 @@ class NewtonRows {
   /// Rows must be prepared. Without friction, what there is of it is taken away.
   NewtonRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, bool friction);
 
-  /// Changes impulses and velocities. A row that presses gives way to the change of its impulse by `give`
-  /// (above zero) of its own response: rows may repeat each other, as the corners of a face do, and the more
-  /// they give, the less can a step overshoot (the proximal point method, Rockafellar 1976). Steps converge
-  /// to rows that do not. Impulses may leave their cones: sweeps must follow. False where the system has no
-  /// solution; then nothing has changed.
-  bool step(double give);
+  /// Changes impulses and velocities. A row that presses gives way to the change of its impulse by
+  /// `compliance` (above zero) times its own response: rows may repeat each other, as the corners of a face
+  /// do, and the larger it is, the less can a step overshoot (the proximal point method, Rockafellar 1976).
+  /// Steps converge to rows without compliance. Impulses may leave their cones: sweeps must follow. False
+  /// where the system has no solution; then nothing has changed.
+  bool step(double compliance);
 
   /// The largest miss of a row's conditions, m/s.
   double miss() const;
@@ -48,20 +48,20 @@ class NewtonRows {
     RowJacobian of_b = RowJacobian::Zero();
   };
   /// Of a row: impulse - stiffness times the change of its velocity.
-  struct Answer {
+  struct LinearLaw {
     Vec3 impulse = Vec3::Zero();
     Mat3 stiffness = Mat3::Zero();
   };
   void placeRows();
-  Answer answerOf(const ContactRow& row, double give) const;
-  void add(const Place& place, const Answer& answer);
+  LinearLaw lawOf(const ContactRow& row, double compliance) const;
+  void add(const Place& place, const LinearLaw& law);
 
   std::span<ContactRow> rows_;
   std::span<ImpulseBody> bodies_;
   bool friction_;
   std::vector<Moving> moving_;
   std::vector<Place> places_;  ///< One a row.
-  std::vector<Answer> answers_;
+  std::vector<LinearLaw> laws_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> system_;
   Eigen::VectorXd change_;
 };

@@ -199,16 +199,18 @@ void PairTable::restPairs(const std::vector<Body>& bodies) {
 // Pairs added within the last step have the places of their shapes from now on.
 void PairTable::takeInExtended(const std::vector<Body>& bodies) {
   const auto before = [this](int p, int q) { return isBefore(p, q); };
-  std::vector<int> changed;
+  extended_bodies_.clear();
   for (const int place : extended_) {
     ShapePair& pair = pairAt(place);
     pair.rank = rankOf(pair.shapes);
     for (const int body : {pair.body_a, pair.body_b})
-      if (!bodies[at(body)].is_static) changed.push_back(body);
+      if (!bodies[at(body)].is_static) extended_bodies_.push_back(body);
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  for (const int body : changed) std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
+  std::sort(extended_bodies_.begin(), extended_bodies_.end());
+  extended_bodies_.erase(std::unique(extended_bodies_.begin(), extended_bodies_.end()),
+                         extended_bodies_.end());
+  for (const int body : extended_bodies_)
+    std::sort(of_body_[at(body)].begin(), of_body_[at(body)].end(), before);
   extended_.clear();
   if (!std::is_sorted(active_.begin(), active_.end(), before))
     std::sort(active_.begin(), active_.end(), before);

@@ -142,7 +142,7 @@ class PairTable {
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
   std::vector<std::vector<int>> of_body_;
-  std::vector<int> partners_, collected_;  ///< Scratch.
+  std::vector<int> partners_, collected_, extended_bodies_;  ///< Scratch.
 };
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // Few rows at once: the conditions of contact themselves are the oracle, and sweeps that go on for very long.
 
-#include "engine/response/few_rows_solver.h"
+#include "engine/response/newton_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ std::string told(std::uint64_t seed, int i) {
   return "seed " + std::to_string(seed) + " case " + std::to_string(i);
 }
 
-TEST(SolveFewContacts, HoldsTheConditionsOfContact) {
+TEST(SolveContactsByNewton, HoldsTheConditionsOfContact) {
   const std::uint64_t seed = 301;
   Random random(seed);
   int converged = 0;
@@ -47,7 +47,7 @@ TEST(SolveFewContacts, HoldsTheConditionsOfContact) {
   for (int i = 0; i < cases; ++i) {
     Meeting m =
         randomMeeting(random, random.integer(1, 4), random.uniform(0, 1), random.logUniform(1e-3, 1e3));
-    const SolverReport report = solveFewContacts(m.rows, m.bodies, {60, 1e-12, true});
+    const SolverReport report = solveContactsByNewton(m.rows, m.bodies, {60, 1e-12, true});
     if (report.residual_mps > 1e-12) continue;
     ++converged;
     expectContact(m, 1e-9, told(seed, i));
@@ -58,7 +58,7 @@ TEST(SolveFewContacts, HoldsTheConditionsOfContact) {
 
 // Two points of one face, as near to each other as clipped polygons leave them: sweeps hand the load from one
 // to the other by steps as small as their distance.
-TEST(SolveFewContacts, ConvergesWhereSweepsCreep) {
+TEST(SolveContactsByNewton, ConvergesWhereSweepsCreep) {
   const std::uint64_t seed = 302;
   Random random(seed);
   const int cases = 500;
@@ -69,7 +69,7 @@ TEST(SolveFewContacts, ConvergesWhereSweepsCreep) {
     m.rows[1] = rowAt({.n = m.rows[0].n, .p_W = p_W, .friction = m.rows[0].friction}, m.bodies);
     Meeting swept = m;
     creeps += solveContacts(swept.rows, swept.bodies, {400, 1e-12, true}).residual_mps > 1e-12;
-    const SolverReport report = solveFewContacts(m.rows, m.bodies, {60, 1e-12, true});
+    const SolverReport report = solveContactsByNewton(m.rows, m.bodies, {60, 1e-12, true});
     if (report.residual_mps > 1e-12) continue;
     ++converged;
     expectContact(m, 1e-9, told(seed, i));
@@ -79,13 +79,14 @@ TEST(SolveFewContacts, ConvergesWhereSweepsCreep) {
   EXPECT_GE(converged, cases * 95 / 100);
 }
 
-TEST(SolveFewContacts, WithoutFriction_FindsTheVelocitiesThatSweepsFind) {
+TEST(SolveContactsByNewton, WithoutFriction_FindsTheVelocitiesThatSweepsFind) {
   const std::uint64_t seed = 303;
   Random random(seed);
   for (int i = 0; i < 500; ++i) {
     Meeting m = randomMeeting(random, 3, 0.5, random.logUniform(1e-2, 1e2));
     Meeting swept = m;
-    ASSERT_LE(solveFewContacts(m.rows, m.bodies, {60, 1e-13, false}).residual_mps, 1e-13) << told(seed, i);
+    ASSERT_LE(solveContactsByNewton(m.rows, m.bodies, {60, 1e-13, false}).residual_mps, 1e-13)
+        << told(seed, i);
     if (solveContacts(swept.rows, swept.bodies, {100000, 1e-15, false}).residual_mps > 1e-14) continue;
     for (std::size_t b = 0; b < m.bodies.size(); ++b) {
       ASSERT_LT((m.bodies[b].velocity.linear - swept.bodies[b].velocity.linear).norm(), 1e-9)
@@ -98,7 +99,7 @@ TEST(SolveFewContacts, WithoutFriction_FindsTheVelocitiesThatSweepsFind) {
 }
 
 // Balls on each other on the floor, each a hundred times as heavy as the one below.
-TEST(SolveFewContacts, CarriesAColumnOfVeryUnequalMasses) {
+TEST(SolveContactsByNewton, CarriesAColumnOfVeryUnequalMasses) {
   std::vector<ImpulseBody> bodies{immovable()};
   std::vector<ContactRow> rows;
   double density = 1.0;
@@ -109,17 +110,17 @@ TEST(SolveFewContacts, CarriesAColumnOfVeryUnequalMasses) {
         impulseBody(inertia, Quat::Identity(), Vec3(0, 0, i + 0.5), {Vec3(0, 0, -1), Vec3::Zero()}));
     rows.push_back(rowAt({.a = i, .b = i + 1, .p_W = Vec3(0, 0, i), .friction = {0.5, 0.5}}, bodies));
   }
-  solveFewContacts(rows, bodies, {60, 1e-12, true});
+  solveContactsByNewton(rows, bodies, {60, 1e-12, true});
   for (const ImpulseBody& body : bodies) EXPECT_LT(body.velocity.linear.norm(), 1e-9);
 }
 
-TEST(SolveFewContacts, LeavesWhatPartsAlone) {
+TEST(SolveContactsByNewton, LeavesWhatPartsAlone) {
   Random random(304);
   Meeting m = randomMeeting(random, 2, 0.5, 1.0);
   for (ImpulseBody& body : m.bodies) body.velocity = {};
   m.bodies[1].velocity.linear = m.rows[0].n;
   for (ContactRow& row : m.rows) prepareRow(row, m.bodies);
-  solveFewContacts(m.rows, m.bodies, {60, 1e-12, true});
+  solveContactsByNewton(m.rows, m.bodies, {60, 1e-12, true});
   EXPECT_EQ(m.bodies[1].velocity.linear, m.rows[0].n);
 }
 

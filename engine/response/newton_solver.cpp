@@ -1,4 +1,4 @@
-#include "engine/response/few_rows_solver.h"
+#include "engine/response/newton_solver.h"
 
 #include <algorithm>
 #include <optional>
@@ -12,32 +12,33 @@ namespace {
 
 constexpr int kFirstSweeps = 4;  // they find most rows that press
 constexpr int kLastSweeps = 2;   // they bring impulses back into their cones, and say how far all is
-// Of a row's own response: how far it gives way, for rows that repeat each other. Its square is below
-// rounding, so that two steps leave nothing of it.
-constexpr double kLeastGive = 1e-8;
-// Steps that find who presses and who slides at once, at most. Where they go round in a circle ...
-constexpr int kStraightSteps = 6;
-// ... others give way by a hundredth, each a tenth of the one before: a path to the solution.
-constexpr double kFirstGive = 1e-2;
-constexpr double kGiveShare = 0.1;
-constexpr int kEasedSteps = 16;
+// Of a row's own response. Its square is below rounding, so that two steps leave nothing of it.
+constexpr double kLeastCompliance = 1e-8;
+// Newton steps at the least compliance, at most: they find at once who presses and who slides.
+constexpr int kNewtonSteps = 6;
+// A continuation begins with this compliance where those steps cycle.
+constexpr double kFirstCompliance = 1e-2;
+// Of the compliance of the step before.
+constexpr double kComplianceShare = 0.1;
+// Steps of a continuation, at most.
+constexpr int kContinuationSteps = 16;
 // Of the residual before: steps that leave more have found nothing. Where rows contradict each other, as
 // between a wall and what is driven towards it, they press without measure; sweeps press no more than each
 // takes.
 constexpr double kFoundShare = 1e-3;
 
 // Steps until the rows' conditions hold, or so many.
-void takeSteps(NewtonRows& newton, double first_give, int most, double enough_mps) {
-  double give = first_give;
-  for (int step = 0; step < most && newton.step(give); ++step) {
+void iterate(NewtonRows& newton, double first_compliance, int most, double enough_mps) {
+  double compliance = first_compliance;
+  for (int step = 0; step < most && newton.step(compliance); ++step) {
     if (newton.miss() <= enough_mps) return;
-    give = std::max(kLeastGive, kGiveShare * give);
+    compliance = std::max(kLeastCompliance, kComplianceShare * compliance);
   }
 }
 
-class FewRowsSolver {
+class NewtonSolver {
  public:
-  FewRowsSolver(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings)
+  NewtonSolver(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const SolverSettings& settings)
       : rows_(rows), bodies_(bodies), settings_(settings) {}
 
   // Both say whether the rows have converged.
@@ -51,12 +52,12 @@ class FewRowsSolver {
     report_.residual_mps = report.residual_mps;
     return report.residual_mps <= settings_.residual_mps;
   }
-  bool solveAtOnce(double first_give, int steps) {
+  bool takeSteps(double first_compliance, int steps) {
     if (report_.sweeps >= settings_.sweeps) return false;
     const Solution before(rows_, bodies_);
     const double residual_mps = report_.residual_mps;
     if (!newton_) newton_.emplace(rows_, bodies_, settings_.friction);
-    takeSteps(*newton_, first_give, steps, settings_.residual_mps);
+    iterate(*newton_, first_compliance, steps, settings_.residual_mps);
     applyAnew(before);
     if (sweep(kLastSweeps)) return true;
     if (report_.residual_mps <= kFoundShare * residual_mps) return false;
@@ -87,13 +88,13 @@ class FewRowsSolver {
 
 }  // namespace
 
-SolverReport solveFewContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                              const SolverSettings& settings) {
+SolverReport solveContactsByNewton(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                                   const SolverSettings& settings) {
   if (rows.size() > kMostNewtonRows) return solveContacts(rows, bodies, settings);
-  FewRowsSolver solver(rows, bodies, settings);
-  if (solver.sweep(kFirstSweeps) || solver.solveAtOnce(kLeastGive, kStraightSteps)) return solver.report();
+  NewtonSolver solver(rows, bodies, settings);
+  if (solver.sweep(kFirstSweeps) || solver.takeSteps(kLeastCompliance, kNewtonSteps)) return solver.report();
   for (int sweeps = 2 * kFirstSweeps; solver.report().sweeps < settings.sweeps; sweeps *= 2)
-    if (solver.solveAtOnce(kFirstGive, kEasedSteps) || solver.sweep(sweeps)) break;
+    if (solver.takeSteps(kFirstCompliance, kContinuationSteps) || solver.sweep(sweeps)) break;
   return solver.report();
 }
 
