@@ -72,11 +72,8 @@ int strokesFor(const Environment& environment, const EnvironmentBody& body, cons
 
 void drift(const Inertia& inertia, double dt_s, State& state) {
   state.X_WB.position += dt_s * state.velocity;
-  if (state.angular_momentum.isZero(0.0)) return;
   Quat& R_WB = state.X_WB.rotation;
-  const Vec3 spin =
-      torqueFreeSpin(inertia, R_WB, angularVelocity(inertia, R_WB, state.angular_momentum), dt_s);
-  R_WB = (rotationBy(dt_s * spin) * R_WB).normalized();
+  R_WB = torqueFreeRotation(inertia, R_WB, angularVelocity(inertia, R_WB, state.angular_momentum), dt_s);
 }
 
 // The share of linear drag that is taken at the end of a kick: half, which is second order, but more where
@@ -137,7 +134,12 @@ void findRotation(const PushedBody& pushed, const Pose& from, const Velocity& ve
     return;
   }
   const Vec3 momentum = angularMomentum(inertia, from.rotation, velocity.angular);
-  const Vec3 omega = angularVelocity(inertia, from.rotation, 0.5 * (momentum + flight.angular_momentum_end));
+  const Vec3 mean = 0.5 * (momentum + flight.angular_momentum_end);
+  const Vec3 omega =
+      pushed.environment.isVacuum()
+          ? angularVelocity(inertia, from.rotation, mean)
+          : spinOfEnergy(inertia, from.rotation, mean,
+                         0.25 * dot(velocity.angular, momentum) + 0.5 * flight.turning_energy_end_J);
   flight.spin = omega;
   if (inertia.isIsotropic() || omega.isZero(0.0)) return;
   flight.tumbling = FreeRotation(inertia, from.rotation, omega);
@@ -158,6 +160,9 @@ EnvironmentFlight flyThroughEnvironment(const PushedBody& pushed, const Pose& X_
     drift(inertia, i + 1 < strokes ? k : 0.5 * k, state);
   }
   EnvironmentFlight flight{state.X_WB, state.velocity, state.angular_momentum};
+  flight.turning_energy_end_J =
+      0.5 *
+      dot(state.angular_momentum, angularVelocity(inertia, state.X_WB.rotation, state.angular_momentum));
   flight.strokes = strokes;
   findRotation(pushed, X_WB, velocity, dt_s, flight);
   return flight;

@@ -17,12 +17,14 @@ struct EnvironmentFlight {
   Pose X_end;
   Vec3 velocity_end = Vec3::Zero();          ///< m/s of the centre of mass.
   Vec3 angular_momentum_end = Vec3::Zero();  ///< World frame.
+  double turning_energy_end_J = 0.0;         ///< With X_end; drag has taken its part of it.
   /// The constant spin that leads to X_end in air and fluids, where that is within two radians and near the
   /// body's own way there.
   Vec3 spin = Vec3::Zero();
-  /// Else, unless the inertia is isotropic: the free rotation with the mean of the angular momenta, which
-  /// leads near X_end. Half of what acts then acts before and half after it, which is Strang's splitting as
-  /// well and as free of drift. `spin` is its mean, as far as it has one.
+  /// Else, unless the inertia is isotropic: the free rotation with the mean of the angular momenta, in air
+  /// and fluids the nearest to it that has the mean energy, which leads near X_end. Half of what acts then
+  /// acts before and half after it, which is Strang's splitting as well and as free of drift. `spin` is its
+  /// mean, as far as it has one.
   FreeRotation tumbling = {};
   int strokes = 0;
 };

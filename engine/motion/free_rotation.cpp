@@ -257,6 +257,12 @@ double tumblingMiss(const Inertia& inertia, const Quat& R_WB, const Vec3& angula
   return angularVelocity(inertia, R_WB, torque).norm() * dt_s * dt_s / 8.0;
 }
 
+Quat torqueFreeRotation(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
+  if (angular_velocity.isZero(0.0)) return R_WB;
+  if (inertia.isIsotropic()) return (rotationBy(dt_s * angular_velocity) * R_WB).normalized();
+  return FreeRotation(inertia, R_WB, angular_velocity).after(dt_s);
+}
+
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s) {
   if (angular_velocity.isZero(0.0) || inertia.isIsotropic()) return angular_velocity;
   return FreeRotation(inertia, R_WB, angular_velocity).meanSpin(R_WB, dt_s);

@@ -71,6 +71,9 @@ class FreeRotation {
   Quat R_SB_ = Quat::Identity();  // S: the principal axes in the order of the solution
 };
 
+/// Where torque-free rotation takes the orientation of a body, which may be at rest, in `dt_s` seconds,
+/// however far it turns.
+Quat torqueFreeRotation(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);
 /// The mean spin of a body, which may be at rest, over the next `dt_s` seconds of torque-free rotation. With
 /// omega recomputed from the conserved angular momentum at the end, momentum and energy are exact.
 Vec3 torqueFreeSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_velocity, double dt_s);

@@ -1,6 +1,7 @@
 #pragma once
 // What the world keeps of a body and of its parts. Internal to the simulation floor.
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -35,6 +36,10 @@ struct StepMotion {
   Velocity momentum_velocity;        ///< At path.start_s.
   Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
   Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  /// W, of a body that tumbles through air or fluids: what all that makes of its energy of turning. Near the
+  /// orientation of its flight, which its path leads it to, a slender body with the same angular momentum has
+  /// another energy.
+  std::optional<double> turning_power;
   // The same of its rotation, in its own frame when it had the orientation that its forces were found for:
   // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
@@ -59,12 +64,27 @@ struct StepMotion {
     if (v.angular.isZero(0.0) && torque.isZero(0.0)) return v;
     const Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular) + dt * torque;
     if (travel == Travel::kBallistic) {
-      v.angular = angularVelocity(inertia, R_WB, momentum);
+      if (!turning_power) {
+        v.angular = angularVelocity(inertia, R_WB, momentum);
+      } else {
+        const Vec3 begin = angularMomentum(inertia, path.X_WB.rotation, v.angular);
+        v.angular = spinOfEnergy(inertia, R_WB, momentum,
+                                 std::max(0.0, 0.5 * dot(v.angular, begin) + dt * *turning_power));
+      }
       return v;
     }
     const Vec3 spin_B = solved_spin_B + dt * turning_B;
     v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * dot(spin_B, inertia.tensor_B * spin_B));
     return v;
+  }
+
+  /// What the forces of `dt_s` seconds make of its spin, seen in the orientation R_WB.
+  Vec3 spinGained(const Inertia& inertia, const Quat& R_WB, const Vec3& spin, double dt_s) const {
+    if (torque.isZero(0.0)) return Vec3::Zero();
+    if (travel != Travel::kBallistic || !turning_power) return angularVelocity(inertia, R_WB, dt_s * torque);
+    const Vec3 momentum = angularMomentum(inertia, R_WB, spin);
+    const double energy = std::max(0.0, 0.5 * dot(spin, momentum) + dt_s * *turning_power);
+    return spinOfEnergy(inertia, R_WB, momentum + dt_s * torque, energy) - spin;
   }
 };
 

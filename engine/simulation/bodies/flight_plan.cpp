@@ -77,8 +77,10 @@ bool FlightPlanner::isTouched(int index, const Body& body, double rest_of_step_s
 void FlightPlanner::plan(int index, Body& body) const {
   planPath(index, body);
   const Quat to_body = body.path.X_WB.rotation.conjugate();
+  const double dt = step_s_ - body.path.start_s;
   body.solved_spin_B = to_body * body.momentum_velocity.angular;
-  body.turning_B = body.inertia.inverse_tensor_B * (to_body * body.torque);
+  body.turning_B = Vec3::Zero();
+  if (dt > 0.0) body.turning_B = to_body * gained(body).angular / dt;
 }
 
 // The acceleration by gravity and by a constant force.
@@ -97,6 +99,7 @@ void FlightPlanner::planPath(int index, Body& body) const {
   path.acceleration = parabolaOf(index, body);
   body.acceleration = path.acceleration;
   body.torque.setZero();
+  body.turning_power.reset();
   if (!(dt > 0.0) || surfaces_.empty() || !isTouched(index, body, dt)) {
     turnFreely(body, dt);
     return;
@@ -111,6 +114,8 @@ void FlightPlanner::planPath(int index, Body& body) const {
   body.torque = (flight.angular_momentum_end - momentum) / dt - body.contact_torque;
   path.turnAt(body.locks.turningPart(flight.spin));
   path.tumbling = flight.tumbling;  // of a body whose turning is locked there is none
+  if (!path.tumbling.empty() && !isVacuum())
+    body.turning_power = (flight.turning_energy_end_J - 0.5 * dot(start.angular, momentum)) / dt;
   if (body.locks.any()) {
     mean = body.locks.movingPart(mean);
     path.acceleration = body.locks.movingPart(path.acceleration);
@@ -177,10 +182,19 @@ Velocity FlightPlanner::gained(const Body& body) const {
     if (body.was_stopped) return {};
     return {dt * body.path.acceleration, dt * body.path.spin_change.rate};
   }
-  Velocity gain{gravityImpulsePerMass(body.acceleration, dt), Vec3::Zero()};
-  if (!body.torque.isZero(0.0))
-    gain.angular = inverseTensorInWorld(body.inertia, body.path.X_WB.rotation) * (dt * body.torque);
-  return gain;
+  return {gravityImpulsePerMass(body.acceleration, dt),
+          body.spinGained(body.inertia, body.path.X_WB.rotation, body.momentum_velocity.angular, dt)};
+}
+
+Velocity FlightPlanner::gainedFrom(int index, const Body& body, double start_s,
+                                   const Velocity& velocity) const {
+  Body flying = body;
+  flying.travel = Travel::kBallistic;
+  flying.path.X_WB = body.path.at(start_s);
+  flying.path.start_s = start_s;
+  flying.momentum_velocity = velocity;
+  plan(index, flying);
+  return gained(flying);
 }
 
 Velocity FlightPlanner::pushAtRest(int index, const Body& body) const {

@@ -46,6 +46,9 @@ class FlightPlanner {
   void leaveContacts(int index, Body& body) const;
   /// What the environment gives a body from `path.start_s` to the end of the step.
   Velocity gained(const Body& body) const;
+  /// The same from `start_s` on, of a body that has been given this velocity then, as if it were in
+  /// flight.
+  Velocity gainedFrom(int index, const Body& body, double start_s, const Velocity& velocity) const;
 
   /// The velocity that the environment would give the body in one step from standstill, where there is air or
   /// water.

@@ -110,7 +110,7 @@ int ContactCluster::join(int index) {
   paths_.back().velocity = member.path_before;
   if (body.travel == Travel::kHeld) fixPath(paths_.size() - 1);
   ends_.push_back(momentum_.back());
-  const Velocity gain = gainedByForces(member);
+  const Velocity gain = gainedByForces(member, member.momentum_before);
   ends_.back().velocity = {member.momentum_before.linear + gain.linear,
                            member.momentum_before.angular + gain.angular};
   planned_ends_.push_back(ends_.back().velocity);
@@ -126,7 +126,7 @@ void ContactCluster::fixPath(std::size_t i) {
   paths_[i].inverse_tensor.setZero();
 }
 
-Velocity ContactCluster::gainedByForces(const Member& member) const {
+Velocity ContactCluster::gainedByForces(const Member& member, const Velocity& velocity) const {
   const Body& body = bodies_[at(member.body)];
   if (body.is_static || member.stops) return {};
   Velocity gain{restOfStep() * body.acceleration, Vec3::Zero()};
@@ -134,9 +134,30 @@ Velocity ContactCluster::gainedByForces(const Member& member) const {
     if (body.travel == Travel::kDriven) gain.angular = restOfStep() * body.path.spin_change.rate;
     return gain;
   }
-  if (!body.torque.isZero(0.0))
-    gain.angular = angularVelocity(body.inertia, body.path.at(time_s_).rotation, restOfStep() * body.torque);
+  gain.angular =
+      body.spinGained(body.inertia, body.path.at(time_s_).rotation, velocity.angular, restOfStep());
   return gain;
+}
+
+// What forces make of member i by the end of the step, after the collision. Air and fluids resist the
+// velocity that it has now.
+void ContactCluster::findEnd(std::size_t i) {
+  const Member& member = members_[i];
+  const Body& body = bodies_[at(member.body)];
+  const bool flies = body.yields() && (body.travel == Travel::kBallistic || body.travel == Travel::kCarried);
+  const bool anew = flies && !planner_.isVacuum() && momentumChanged(i);
+  const Velocity gain = anew ? planner_.gainedFrom(member.body, body, time_s_, momentum(i))
+                             : gainedByForces(member, momentum(i));
+  ends_[i].velocity = {momentum(i).linear + gain.linear, momentum(i).angular + gain.angular};
+  if (!anew || body.travel == Travel::kBallistic) return;
+  for (const int p : table_.pairsOf(member.body)) {
+    const ShapePair& pair = table_.pairs()[at(p)];
+    const double sign = (pair.body_a == member.body ? -1.0 : 1.0) * restOfStep();
+    for (const RememberedImpulse& acting : pair.remembered) {
+      ends_[i].apply(sign * acting.force_W, sign < 0.0 ? acting.arm_a : acting.arm_b);
+      ends_[i].turn(sign * acting.torque_W);
+    }
+  }
 }
 
 bool ContactCluster::forcesChanged(std::size_t i) const {
@@ -530,9 +551,7 @@ bool ContactCluster::meetsCarried() const {
 void ContactCluster::support() {
   stage_ = Stage::kSupport;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Velocity gain = gainedByForces(members_[i]);
-    ends_[i].velocity = {momentum_[i].velocity.linear + gain.linear,
-                         momentum_[i].velocity.angular + gain.angular};
+    findEnd(i);
     solve_before_[i] = planned_ends_[i];
   }
   if (isExhausted()) {

@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "engine/simulation/bodies/flight_plan.h"
+#include "engine/simulation/contacts/contact_assembly.h"
 #include "engine/simulation/contacts/contact_rows.h"
 
 namespace carom {
@@ -41,14 +43,15 @@ class ContactCluster {
     Velocity path_before;  ///< The mean over the rest of the step.
   };
 
-  ContactCluster(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, PairTable& table,
-                 const WorldSettings& settings, StepCounters& counters, ClusterMemory& memory)
-      : bodies_(bodies),
-        shapes_(shapes),
-        table_(table),
-        settings_(settings),
+  ContactCluster(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
+                 ClusterMemory& memory)
+      : bodies_(world.bodies),
+        shapes_(world.shapes),
+        table_(world.table),
+        planner_(planner),
+        settings_(world.settings),
         counters_(counters),
-        most_visits_(tolerance::kVisitsPerBody * static_cast<long>(bodies.size())),
+        most_visits_(tolerance::kVisitsPerBody * static_cast<long>(bodies_.size())),
         number_(memory.number),
         body_joined_(memory.body_joined),
         body_member_(memory.body_member),
@@ -114,7 +117,9 @@ class ContactCluster {
   const std::vector<ImpulseBody>& stageBodies() const {
     return stage_ == Stage::kMomentum ? momentum_ : stage_ == Stage::kSupport ? ends_ : paths_;
   }
-  Velocity gainedByForces(const Member& member) const;
+  // From now to the end of the step, of a member that has this velocity now.
+  Velocity gainedByForces(const Member& member, const Velocity& velocity) const;
+  void findEnd(std::size_t i);
   double restOfStep() const { return settings_.step_s - time_s_; }
   bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
   int join(int body);
@@ -153,6 +158,7 @@ class ContactCluster {
   const std::vector<Body>& bodies_;
   const std::vector<Shape>& shapes_;
   PairTable& table_;
+  const FlightPlanner& planner_;
   const WorldSettings& settings_;
   StepCounters& counters_;
 

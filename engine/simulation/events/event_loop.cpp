@@ -62,7 +62,7 @@ class EventLoop {
         counters_(counters),
         clock_(clock),
         watchers_(watchers),
-        cluster_(bodies_, shapes_, table_, settings_, counters, memory.cluster),
+        cluster_(world, planner, counters, memory.cluster),
         paths_(world, planner, counters, watchers.paths),
         searches_(world, cluster_, counters, memory.searches),
         clearing_(memory.clearing),

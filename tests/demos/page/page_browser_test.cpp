@@ -1,6 +1,6 @@
 // Pages that play a run, opened from disk in headless Chromium: a known body's pixels lie where the renderer
 // puts them and have the colours that it gives them, a link gives its moment, keys and controls do what they
-// say, and nothing is asked of anybody. What a frame costs is measured by tests/bench/page_frames.py. Needs
+// say, and nothing is asked of anybody. What a frame costs is measured by tests/bench/pages.py. Needs
 // Debian's chromium; without it the tests are skipped.
 #include "tests/demos/support/program_run.h"
 
