@@ -47,6 +47,20 @@ constexpr double kWakingShare = 0.1;
 }  // namespace
 
 void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time_s) {
+  clear(time_s);
+  event_pair_ = pair;
+  pair_seen_[at(pair)] = number_;
+  closest_[at(pair)] = closest;
+  addPair(pair, closest);
+}
+
+void ContactCluster::begin(int pair, double time_s) {
+  clear(time_s);
+  event_pair_ = pair;
+  addPair(pair, look(pair));
+}
+
+void ContactCluster::clear(double time_s) {
   ++number_;
   body_joined_.resize(bodies_.size(), 0);
   body_member_.resize(bodies_.size(), 0);
@@ -55,7 +69,6 @@ void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time
   closest_.resize(table_.pairs().size());
   pair_released_.resize(table_.pairs().size(), 0);
   time_s_ = time_s;
-  event_pair_ = pair;
   stage_ = Stage::kMomentum;
   stops_short_ = false;
   members_.clear();
@@ -68,9 +81,6 @@ void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time
   solve_before_.clear();
   sources_.clear();
   rows_.clear();
-  pair_seen_[at(pair)] = number_;
-  closest_[at(pair)] = closest;
-  addPair(pair, closest);
 }
 
 const ClosestFeatures* ContactCluster::closestSeen(int pair, double time_s) const {

@@ -62,6 +62,8 @@ class ContactCluster {
 
   /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
   void begin(int pair, const ClosestFeatures& closest, double time_s);
+  /// The same with a pair that is not an event: its closest features are looked up.
+  void begin(int pair, double time_s);
   /// The collision at the contacts, between the bodies of the event alone or with all that they press.
   void collide(bool spreads);
   /// What kinematic bodies did by the impulses of the collision, J.
@@ -122,6 +124,7 @@ class ContactCluster {
   void findEnd(std::size_t i);
   double restOfStep() const { return settings_.step_s - time_s_; }
   bool givesWay(int member) { return stageBodies()[static_cast<std::size_t>(member)].inverse_mass > 0.0; }
+  void clear(double time_s);
   int join(int body);
   const ClosestFeatures& look(int pair);
   void addPair(int pair, const ClosestFeatures& closest);

@@ -155,7 +155,31 @@ class EventLoop {
     paths_.beginNextPiece(index);
     changed_.assign(1, index);
     awaitNextPiece(index);
+    pressAnew(index, time_s);
     searchAgain(time_s);
+  }
+
+  // The forces of a kinematic body's contacts were found for the piece of its path that has ended.
+  void pressAnew(int index, double time_s) {
+    const std::span<const int> known = table_.pairsOf(index);
+    const std::vector<int> pairs(known.begin(), known.end());
+    std::vector<int> pressed{index};
+    for (const int p : pairs) {
+      const ShapePair& pair = table_.pairs()[at(p)];
+      const int other = pair.body_a == index ? pair.body_b : pair.body_a;
+      const bool acts = std::ranges::any_of(
+          pair.remembered, [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
+      if (!acts || !givesWay(other) || std::ranges::find(pressed, other) != pressed.end()) continue;
+      {
+        const PhaseScope phase(clock_, StepPhase::kImpulses);
+        cluster_.begin(p, time_s);
+        cluster_.support();
+      }
+      for (std::size_t i = 0; i < cluster_.size(); ++i)
+        if (cluster_.member(i).expanded) pressed.push_back(cluster_.member(i).body);
+      takeMomentum(time_s, false);
+      takePaths(time_s, false);
+    }
   }
 
   // What can give way to a kinematic body: it moves, or rests and is woken.
