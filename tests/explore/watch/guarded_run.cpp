@@ -151,10 +151,12 @@ class Worker {
       const double begin_s = cpuTime();
       progress_->job = i;
       progress_->step = -1;  // to make the world is the first thing that is clocked
+      double first_step_s = begin_s;
       TrialSettings settings;
       settings.before_step = [&] {
-        ++progress_->step;
-        const double left_s = limits.seed_cpu_s - (cpuTime() - begin_s);
+        if (++progress_->step == 0) return armClock(limits.start_cpu_s);
+        if (progress_->step == 1) first_step_s = cpuTime();
+        const double left_s = limits.seed_cpu_s - (cpuTime() - first_step_s);
         if (!(left_s > 0.0)) raise(SIGPROF);
         armClock(std::min(limits.step_cpu_s, left_s) + 1e-3);
       };

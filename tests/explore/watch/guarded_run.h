@@ -12,8 +12,9 @@
 namespace carom::explore {
 
 struct Limits {
-  double step_cpu_s = 1.0;  ///< Of one step.
-  double seed_cpu_s = 5.0;  ///< Of all steps of a seed.
+  double step_cpu_s = 1.0;    ///< Of one step.
+  double seed_cpu_s = 5.0;    ///< Of all steps of a seed.
+  double start_cpu_s = 20.0;  ///< Of the making of its world, in which meshes are decomposed.
 };
 
 /// A job number's work: told the settings that keep the limits, it reports.

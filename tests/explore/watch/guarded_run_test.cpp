@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <ctime>
 #include <map>
 #include <stdexcept>
 
@@ -41,6 +42,24 @@ TEST(GuardedRun, AHangACrashAndAnExceptionCostOneJobEach) {
   EXPECT_EQ(findings(23).at(0).figure, 0.1);
   EXPECT_TRUE(findings(109).empty());
   EXPECT_EQ(reports.at(109).outcome.totals.steps, 7);
+}
+
+TEST(GuardedRun, TheMakingOfAWorldHasALimitOfItsOwn) {
+  const auto found = [](double start_cpu_s) {
+    return runGuarded({.step_cpu_s = 0.05, .seed_cpu_s = 0.05, .start_cpu_s = start_cpu_s},
+                      [](const TrialSettings& settings) {
+                        settings.before_step();
+                        for (const std::clock_t begin = std::clock();
+                             std::clock() - begin < CLOCKS_PER_SEC / 5;) {
+                        }
+                        settings.before_step();
+                        return SeedReport{};
+                      })
+        .outcome.findings;
+  };
+  EXPECT_TRUE(found(10.0).empty());
+  ASSERT_EQ(found(0.1).size(), 1u);
+  EXPECT_EQ(found(0.1)[0].step, 0);
 }
 
 TEST(GuardedRun, ASeedWhoseStepsAreShortButManyEndsAtItsOwnLimit) {
