@@ -34,7 +34,7 @@ class WorldTrial {
 
  private:
   World makeWorld(int threads) {
-    if (settings_.before_step) settings_.before_step();
+    if (settings_.before_start) settings_.before_start();
     if (settings_.make_world) return settings_.make_world(scene_, threads);
     return demos::makeSceneWorld(scene_, {}, threads).world;
   }

@@ -11,9 +11,10 @@
 namespace carom::explore {
 
 struct TrialSettings {
-  bool replays = false;                    ///< Runs it a second time and compares hashes.
-  bool threads = false;                    ///< Also with two and three threads.
-  std::function<void()> before_step = {};  ///< Arms the clock that ends a step which takes too long.
+  bool replays = false;                     ///< Runs it a second time and compares hashes.
+  bool threads = false;                     ///< Also with two and three threads.
+  std::function<void()> before_start = {};  ///< Arms the clock that ends the making of a world.
+  std::function<void()> before_step = {};   ///< Likewise a step which takes too long.
   /// What makes the world for a number of threads; none: makeSceneWorld.
   std::function<World(const demos::Scene&, int)> make_world = {};
 };

@@ -15,6 +15,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace carom::explore {
 namespace {
@@ -150,13 +151,19 @@ class Worker {
     for (std::uint64_t i = next_; i < end_; ++i) {
       const double begin_s = cpuTime();
       progress_->job = i;
-      progress_->step = -1;  // to make the world is the first thing that is clocked
-      double first_step_s = begin_s;
+      progress_->step = 0;
+      double start_s = begin_s, starting_s = 0.0;  // of the world that was made last, and of all of them
+      bool starts = false;
       TrialSettings settings;
+      settings.before_start = [&] {
+        starts = true;
+        start_s = cpuTime();
+        armClock(limits.start_cpu_s);
+      };
       settings.before_step = [&] {
-        if (++progress_->step == 0) return armClock(limits.start_cpu_s);
-        if (progress_->step == 1) first_step_s = cpuTime();
-        const double left_s = limits.seed_cpu_s - (cpuTime() - first_step_s);
+        if (std::exchange(starts, false)) starting_s += cpuTime() - start_s;
+        ++progress_->step;
+        const double left_s = limits.seed_cpu_s - (cpuTime() - begin_s - starting_s);
         if (!(left_s > 0.0)) raise(SIGPROF);
         armClock(std::min(limits.step_cpu_s, left_s) + 1e-3);
       };

@@ -17,7 +17,7 @@ TEST(GuardedRun, AHangACrashAndAnExceptionCostOneJobEach) {
     SeedReport report;
     report.seed = number;
     report.family = "jobs";
-    settings.before_step();  // the making of a world
+    settings.before_start();
     settings.before_step();
     for (volatile bool hangs = number == 13; hangs;) {
     }
@@ -48,7 +48,7 @@ TEST(GuardedRun, TheMakingOfAWorldHasALimitOfItsOwn) {
   const auto found = [](double start_cpu_s) {
     return runGuarded({.step_cpu_s = 0.05, .seed_cpu_s = 0.05, .start_cpu_s = start_cpu_s},
                       [](const TrialSettings& settings) {
-                        settings.before_step();
+                        settings.before_start();
                         for (const std::clock_t begin = std::clock();
                              std::clock() - begin < CLOCKS_PER_SEC / 5;) {
                         }
