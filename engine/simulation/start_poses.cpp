@@ -161,7 +161,7 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
   const std::vector<IndexPair> before = shapesOfPairs();
   StepCounters counters;
   start.table.updateBounds(start.bodies, start.shapes, start.active, kWay_s, alone);
-  start.table.collect(start.bodies, start.shapes, start.settings, counters, nullptr);
+  start.table.collect({start.bodies, start.shapes, start.settings}, counters, nullptr);
   const std::vector<IndexPair> now = shapesOfPairs();
   return !std::includes(before.begin(), before.end(), now.begin(), now.end());
 }

@@ -185,7 +185,7 @@ void World::Impl::planFlight(PhaseClock* clock) {
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
   table.updateBounds(bodies, shapes, active.list(), substep.step_s, crew);
-  table.collect(bodies, shapes, substep, counters, clock);
+  table.collect({bodies, shapes, substep}, counters, clock);
 }
 
 // Pairs that paths could meet which leave the bounds that bodies were paired by are added; the others keep
@@ -194,7 +194,7 @@ void World::Impl::meetFarther(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
   if (!table.pathsLeaveBounds(bodies, shapes, active.list(), substep.step_s, crew)) return;
   for (const int i : active.list())
-    if (bodies[at(i)].moves()) table.extend(i, 0.0, bodies, shapes, substep, counters, clock);
+    if (bodies[at(i)].moves()) table.extend(i, 0.0, {bodies, shapes, substep}, counters, clock);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
@@ -373,9 +373,9 @@ bool World::Impl::advance(PhaseClock* clock) {
     if (wakePressed(lastingWorld(), contacts)) return std::nullopt;
     return moved;
   };
-  const StepWatchers watchers{view, keeps_paths ? &paths : nullptr};
+  const StepWatchers watchers{clock, view, keeps_paths ? &paths : nullptr};
   event_memory.lifts.begin(bodies.size());
-  return runEvents(lastingWorld(), planner, counters, clock, watchers, event_memory,
+  return runEvents(lastingWorld(), planner, counters, watchers, event_memory,
                    std::ref(solve_landings));  // so that it allocates nothing
 }
 

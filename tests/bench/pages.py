@@ -78,9 +78,13 @@ class Chromium:
 
 
     def opened(self, page):
-        """A session with a new tab that opens the page."""
-        target = self.ask("Target.createTarget", url=page.as_uri())["targetId"]
-        return self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        """A session with a new tab, which opens the page once the browser has started."""
+        target = self.ask("Target.createTarget", url="about:blank")["targetId"]
+        session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.until(session, "document.readyState === 'complete'")
+        time.sleep(1)
+        self.ask("Page.navigate", session, url=page.as_uri())
+        return session
 
     def value(self, session, script):
         told = self.ask("Runtime.evaluate", session, expression=script, awaitPromise=True)
@@ -121,6 +125,7 @@ def frames(program, bodies):
 
 # When the window's first contents were painted, and when the last picture in it had come: ms since the page was asked for.
 FIRST_VIEW = """(async () => {
+  if (location.href === "about:blank") return "";
   const paint = performance.getEntriesByName("first-contentful-paint")[0];
   if (!paint || document.readyState !== "complete") return "";
   const shown = [...document.images].filter(image => image.getBoundingClientRect().top < innerHeight);

@@ -14,12 +14,6 @@ namespace {
 constexpr double kBraking = 4.0;
 constexpr double kSameTime = 1e-9;  // of a step: a piece of a path that ends so soon is over
 
-// Only its room is kept.
-ForceScratch& scratch() {
-  static thread_local ForceScratch scratch;
-  return scratch;
-}
-
 // The integral of the angular velocity over the path, rad. A path that tumbles has the mean of the step's
 // angular momenta: half of what is given to them is given at its start and half at its end, and gives the
 // mean of the spins before and after.
@@ -106,7 +100,7 @@ void FlightPlanner::planPath(int index, Body& body) const {
   }
   const EnvironmentFlight flight = flyThroughEnvironment(
       {environment_, environmentBody(index, body), {body.contact_force, body.contact_torque}}, path.X_WB,
-      start, time_s_ + path.start_s, dt, scratch());
+      start, time_s_ + path.start_s, dt, *scratch_->borrow());
   Vec3 mean = (flight.X_end.position - path.X_WB.position) / dt;
   const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, start.angular);
   path.acceleration = (flight.velocity_end - start.linear) / dt;
@@ -200,7 +194,7 @@ Velocity FlightPlanner::gainedFrom(int index, const Body& body, double start_s,
 Velocity FlightPlanner::pushAtRest(int index, const Body& body) const {
   if (surfaces_.empty()) return {step_s_ * parabolaOf(index, body), Vec3::Zero()};
   const BodyForces forces = bodyForces(environment_, environmentBody(index, body), body.X_WB, Vec6::Zero(),
-                                       time_s_ + step_s_, scratch());
+                                       time_s_ + step_s_, *scratch_->borrow());
   const Vec6 wrench = forces.total(Vec6::Zero());
   const Quat& R_WB = body.X_WB.rotation;
   const Velocity push{step_s_ * body.inertia.inverse_mass * (R_WB * wrench.head<3>()),
@@ -242,8 +236,8 @@ bool FlightPlanner::restless(const Body& body) const {
 double FlightPlanner::potential(int index, const Body& body) const {
   double energy = gravityPotential(body.inertia, environment_.gravity, body.X_WB.position);
   if (surfaces_.empty()) return energy;  // vacuum, or a world not started
-  return energy +
-         buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_, scratch());
+  return energy + buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_,
+                                    *scratch_->borrow());
 }
 
 }  // namespace carom

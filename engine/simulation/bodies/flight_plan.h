@@ -5,11 +5,13 @@
 // short is planned anew from there, and nothing acts twice. Internal to the simulation floor. Tested through
 // tests/engine/simulation/ and tests/physics/.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/environment/environment_flight.h"
+#include "engine/foundation/stock.h"
 #include "engine/simulation/bodies/body.h"
 
 namespace carom {
@@ -78,6 +80,7 @@ class FlightPlanner {
   std::vector<int> solid_of_;
   std::vector<AppliedLoad> loads_;  ///< By body.
   std::vector<std::optional<PrescribedPath>> prescribed_;
+  std::unique_ptr<Stock<ForceScratch>> scratch_ = std::make_unique<Stock<ForceScratch>>();
 };
 
 }  // namespace carom

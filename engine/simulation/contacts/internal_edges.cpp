@@ -51,13 +51,24 @@ double heightOver(const Side& side, const Vec3& p_W) {
   return height - part.radius_m;
 }
 
-// Whether `passing`, which has the edge of `edge` before it, is held on `support` by the contact `other` so
-// that it passes the edge.
-bool passes(const Side& passing, const Side& edge, const ShapePair& contact, const Side& held,
-            const Side& support, const PlacedPair& other, double dt_s, const std::vector<Body>& bodies) {
+// A contact between `passing` and the edge of `edge` before it, and `other`, which holds the same body on
+// `support`.
+struct Passage {
+  const PlacedPair& contact;
+  Side passing, edge;
+  const PlacedPair& other;
+  Side held, support;
+};
+
+// Whether it is held so that it passes the edge.
+bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies) {
+  const Side& passing = passage.passing;
+  const Side& edge = passage.edge;
+  const Side& support = passage.support;
+  const PlacedPair& other = passage.other;
   if (support.body != edge.body && !bodies[at(passing.body)].moves()) return false;
   // What is round is held below its core, wherever the edge is.
-  const Vec3& up = held.outwards_W;
+  const Vec3& up = passage.held.outwards_W;
   const Vec3 lowest = passing.witness_W + passing.shape.part->radius_m * (passing.outwards_W - up);
   if (heightOver(support, lowest) > other.pair.window.manifold) return false;
   const double height = -reachAlong(passing, -up) - reachAlong(edge, up);
@@ -68,7 +79,7 @@ bool passes(const Side& passing, const Side& edge, const ShapePair& contact, con
   };
   const double closes =
       support.body == edge.body ? 0.0 : std::max(0.0, rising(edge) - rising(support)) * dt_s;
-  return height - sinks - closes >= contact.window.floor;
+  return height - sinks - closes >= passage.contact.pair.window.floor;
 }
 
 }  // namespace
@@ -95,7 +106,7 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
       const Side held = sideOf(other, other_b, shapes);
       if (held.body != passing.body) continue;
       const Side support = sideOf(other, !other_b, shapes);
-      if (passes(passing, edge, contact.pair, held, support, other, dt_s, bodies)) return true;
+      if (passes({contact, passing, edge, other, held, support}, dt_s, bodies)) return true;
     }
   }
   return false;

@@ -137,8 +137,8 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   });
 }
 
-ShapePair PairTable::makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
-                              const std::vector<Shape>& shapes, const WorldSettings& settings) const {
+ShapePair PairTable::makePair(IndexPair shapes_of_pair, const PairedWorld& world) const {
+  const auto& [bodies, shapes, settings] = world;
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   pair.rank = rankOf(shapes_of_pair);
@@ -216,8 +216,9 @@ void PairTable::takeInExtended(const std::vector<Body>& bodies) {
     std::sort(active_.begin(), active_.end(), before);
 }
 
-void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                        const WorldSettings& settings, StepCounters& counters, PhaseClock* clock) {
+void PairTable::collect(const PairedWorld& world, StepCounters& counters, PhaseClock* clock) {
+  const std::vector<Body>& bodies = world.bodies;
+  const std::vector<Shape>& shapes = world.shapes;
   const std::vector<IndexPair>& wanted = finder_.find(proxies_, active_shapes_);
   restPairs(bodies);
   takeInExtended(bodies);
@@ -226,11 +227,11 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
   for (const IndexPair& shapes_of_pair : wanted) {
     for (; old != active_.end() && pairAt(*old).shapes < shapes_of_pair; ++old) remove(*old, bodies);
     if (old != active_.end() && pairAt(*old).shapes == shapes_of_pair) {
-      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, settings);
+      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, world.settings);
       collected_.push_back(*old++);
       continue;
     }
-    ShapePair pair = makePair(shapes_of_pair, bodies, shapes, settings);
+    ShapePair pair = makePair(shapes_of_pair, world);
     const PhaseScope phase(clock, StepPhase::kClosestFeatures);
     pair.closest =
         closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
@@ -245,14 +246,15 @@ void PairTable::collect(const std::vector<Body>& bodies, const std::vector<Shape
   counters.active_pairs = static_cast<int>(active_.size());
 }
 
-void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
-                       const std::vector<Shape>& shapes, const WorldSettings& settings,
-                       StepCounters& counters, PhaseClock* clock) {
+void PairTable::extend(int body, double time_s, const PairedWorld& world, StepCounters& counters,
+                       PhaseClock* clock) {
+  const std::vector<Body>& bodies = world.bodies;
+  const std::vector<Shape>& shapes = world.shapes;
   for (int shape = first_shape_[at(body)]; shape < first_shape_[at(body) + 1]; ++shape) {
     const std::size_t i = at(shape);
     const Trajectory& path = bodies[at(body)].path;
     starts_[i] = boundsAt(*shapes[i].part, path.X_WB);
-    const Bounds swept = sweptBounds(starts_[i], shapes[i], path, settings.step_s);
+    const Bounds swept = sweptBounds(starts_[i], shapes[i], path, world.settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
     const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
@@ -263,7 +265,7 @@ void PairTable::extend(int body, double time_s, const std::vector<Body>& bodies,
       const IndexPair both{std::min(shape, partner), std::max(shape, partner)};
       const std::vector<int>& known = of_body_[at(body)];
       if (std::any_of(known.begin(), known.end(), [&](int p) { return pairAt(p).shapes == both; })) continue;
-      ShapePair pair = makePair(both, bodies, shapes, settings);
+      ShapePair pair = makePair(both, world);
       pair.rank = kAddedWithinAStep + extended_.size();
       const PhaseScope phase(clock, StepPhase::kClosestFeatures);
       pair.closest =

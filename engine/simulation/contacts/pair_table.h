@@ -76,6 +76,13 @@ struct RememberedPoints {
 /// So many pairs are worked on by one thread: to wait for another takes as long.
 inline constexpr std::size_t kFewPairs = 500;
 
+/// What pairs are made of.
+struct PairedWorld {
+  const std::vector<Body>& bodies;
+  const std::vector<Shape>& shapes;
+  const WorldSettings& settings;
+};
+
 class PairTable {
  public:
   /// The bounds that each shape of the active bodies (ascending) sweeps from its path's start to `end_s`,
@@ -84,11 +91,9 @@ class PairTable {
                     std::span<const int> active, double end_s, Crew& crew);
   /// Makes the pairs of active bodies those whose bounds overlap, keeping what was remembered; new ones are
   /// queried at the bodies' poses of the last finished step. The pairs of others stay as they are.
-  void collect(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-               const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+  void collect(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
   /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
-  void extend(int body, double time_s, const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-              const WorldSettings& settings, StepCounters& counters, PhaseClock* clock);
+  void extend(int body, double time_s, const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
   /// The pairs of a body that rested are active from now on, until the next `collect`.
   void activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings);
   /// For a step of another length: what was remembered of the impulses, so many times, a power of two.
@@ -120,8 +125,7 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  ShapePair makePair(IndexPair shapes_of_pair, const std::vector<Body>& bodies,
-                     const std::vector<Shape>& shapes, const WorldSettings& settings) const;
+  ShapePair makePair(IndexPair shapes_of_pair, const PairedWorld& world) const;
   ShapePair& pairAt(int place) { return pairs_[static_cast<std::size_t>(place)]; }
   const ShapePair& pairAt(int place) const { return pairs_[static_cast<std::size_t>(place)]; }
   bool isBefore(int place, int other) const { return pairAt(place).rank < pairAt(other).rank; }

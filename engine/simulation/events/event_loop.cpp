@@ -51,7 +51,7 @@ struct Later {
 class EventLoop {
  public:
   EventLoop(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-            PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory)
+            const StepWatchers& watchers, EventMemory& memory)
       : bodies_(world.bodies),
         shapes_(world.shapes),
         table_(world.table),
@@ -60,7 +60,7 @@ class EventLoop {
         settings_(world.settings),
         crew_(world.crew),
         counters_(counters),
-        clock_(clock),
+        clock_(watchers.clock),
         watchers_(watchers),
         cluster_(world, planner, counters, memory.cluster),
         paths_(world, planner, counters, watchers.paths),
@@ -442,7 +442,7 @@ class EventLoop {
 
   void extendPairs(double time_s) {
     const PhaseScope phase(clock_, StepPhase::kBroadPhase);
-    for (int body : changed_) table_.extend(body, time_s, bodies_, shapes_, settings_, counters_, clock_);
+    for (int body : changed_) table_.extend(body, time_s, {bodies_, shapes_, settings_}, counters_, clock_);
   }
 
   std::vector<Body>& bodies_;
@@ -468,9 +468,8 @@ class EventLoop {
 }  // namespace
 
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
-               const LandingSolver& solve_landings) {
-  return EventLoop(world, planner, counters, clock, watchers, memory).run(solve_landings);
+               const StepWatchers& watchers, EventMemory& memory, const LandingSolver& solve_landings) {
+  return EventLoop(world, planner, counters, watchers, memory).run(solve_landings);
 }
 
 }  // namespace carom

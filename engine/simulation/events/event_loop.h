@@ -28,8 +28,9 @@ namespace carom {
 
 /// Who is told of a step, each unless null.
 struct StepWatchers {
-  StepView* view = nullptr;    ///< Of the collisions.
-  StepPaths* paths = nullptr;  ///< Of the paths that events have ended.
+  PhaseClock* clock = nullptr;  ///< Of the step's phases.
+  StepView* view = nullptr;     ///< Of the collisions.
+  StepPaths* paths = nullptr;   ///< Of the paths that events have ended.
 };
 
 /// Kept from step to step for its room: nothing of it says what happens in a step.
@@ -49,7 +50,6 @@ using LandingSolver = std::function<std::optional<std::vector<int>>(std::span<co
 /// where it began, if lower) throughout. The bodies' paths then end at `X_end`. Whether it could; if not, the
 /// step must be planned anew.
 bool runEvents(const LastingWorld& world, const FlightPlanner& planner, StepCounters& counters,
-               PhaseClock* clock, const StepWatchers& watchers, EventMemory& memory,
-               const LandingSolver& solve_landings);
+               const StepWatchers& watchers, EventMemory& memory, const LandingSolver& solve_landings);
 
 }  // namespace carom

@@ -35,7 +35,7 @@ class ManyBodies {
       body.X_WB = body.path.X_WB;
     }
     table_.updateBounds(bodies_, shapes_, all_, settings_.step_s, crew_);
-    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+    table_.collect({bodies_, shapes_, settings_}, counters_, nullptr);
   }
 
   // A body goes elsewhere; the pairs that this adds.
@@ -45,7 +45,7 @@ class ManyBodies {
     const double speed_mps = random_.logUniform(1.0, 100.0);
     body.path = Trajectory{time_s, X_WB, speed_mps * random_.direction()};
     const std::size_t before = table_.active().size();
-    table_.extend(index, time_s, bodies_, shapes_, settings_, counters_, nullptr);
+    table_.extend(index, time_s, {bodies_, shapes_, settings_}, counters_, nullptr);
     std::vector<IndexPair> added;
     for (const int place : std::span(table_.active()).subspan(before))
       added.push_back(table_.pairs()[static_cast<std::size_t>(place)].shapes);
@@ -81,7 +81,7 @@ class ManyBodies {
       if (b.active) active.push_back(body);
     }
     table_.updateBounds(bodies_, shapes_, active, settings_.step_s, crew_);
-    table_.collect(bodies_, shapes_, settings_, counters_, nullptr);
+    table_.collect({bodies_, shapes_, settings_}, counters_, nullptr);
   }
   void wake(int body) {
     bodies_[static_cast<std::size_t>(body)].active = true;
