@@ -93,8 +93,7 @@ SolverReport solveContactsByNewton(std::span<ContactRow> rows, std::span<Impulse
   if (rows.size() > kMostNewtonRows) return solveContacts(rows, bodies, settings);
   NewtonSolver solver(rows, bodies, settings);
   if (solver.sweep(kFirstSweeps) || solver.takeSteps(kLeastCompliance, kNewtonSteps)) return solver.report();
-  for (int sweeps = 2 * kFirstSweeps; solver.report().sweeps < settings.sweeps; sweeps *= 2)
-    if (solver.takeSteps(kFirstCompliance, kContinuationSteps) || solver.sweep(sweeps)) break;
+  solver.takeSteps(kFirstCompliance, kContinuationSteps);  // where this finds nothing, others hardly do
   return solver.report();
 }
 

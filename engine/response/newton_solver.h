@@ -11,7 +11,7 @@ namespace carom {
 inline constexpr std::size_t kMostNewtonRows = 32;
 
 /// As solveContacts, which it is for more rows than `kMostNewtonRows`; rows whose turning is resisted are
-/// solved as if it were not. What steps do not converge to is left to sweeps.
+/// solved as if it were not. What two rounds of steps do not converge to is left as sweeps have it.
 SolverReport solveContactsByNewton(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                    const SolverSettings& settings);
 
