@@ -13,6 +13,7 @@ namespace {
 
 // Of each of the two phases, at most; of few rows it is steps of Newton's method that converge.
 constexpr int kCollisionSweeps = 400;
+constexpr int kSweepsOfFew = 60;
 constexpr double kConverged = 1e-12;      // of the approach speed: a sweep that changes less is the last
 constexpr double kLeastApproach = 1e-10;  // of the approach speed: points that approach more slowly are left
 
@@ -49,8 +50,12 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
   setShare(low);
 }
 
+int mostSweeps(std::span<const ContactRow> rows) {
+  return rows.size() <= kMostNewtonRows ? kSweepsOfFew : kCollisionSweeps;
+}
+
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  solveContactsByNewton(rows, bodies, {kCollisionSweeps, kConverged * approach_mps, true});
+  solveContactsByNewton(rows, bodies, {mostSweeps(rows), kConverged * approach_mps, true});
 }
 
 // What the solves have left approaching, where they have not converged (rough ground that rows contradict
@@ -68,7 +73,7 @@ void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, d
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
   if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
-    solveContacts(stops, bodies, {kCollisionSweeps, tolerated_mps, false});
+    solveContacts(stops, bodies, {mostSweeps(rows), tolerated_mps, false});
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse += stops[i].impulse;
 }
 
