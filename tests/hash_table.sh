@@ -41,13 +41,15 @@ field() { cut -d'|' -f"$2" <<<"${cells[$1]}"; }
 
 # system_root CELL: the folder with that architecture's libraries, made where it is not there.
 system_root() {
-  local architecture release root
+  local architecture release root archive
   architecture=$(field "$1" 3) release=$(field "$1" 5)
   root=${CAROM_SYSTEM_ROOTS:-$work/roots}/$architecture
   if [ ! -d "$root/usr" ]; then
     mkdir -p "$(dirname "$root")"
+    # The main archive alone, where this machine has it from: that of security updates may not hold together while it changes.
+    archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
     mmdebstrap --quiet --variant=extract --architectures="$architecture" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev \
-      "${release:-bookworm}" "$root" >&2 || { rm -rf "$root"; return 1; }
+      "${release:-bookworm}" "$root" ${archive:+"$archive"} >&2 || { rm -rf "$root"; return 1; }
     # What names places from the root up means this one.
     sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
     find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
