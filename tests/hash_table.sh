@@ -97,7 +97,7 @@ hash_world() {
   name=$(basename "$2" .json)
   if [ "$target" = state_hashes ]; then echo "$(run_cell "$1" "$3" "$2" 2>/dev/null || echo "$name failed by $1") -"; return; fi
   hash=$(run_cell "$1" simulate "$2" --duration "$3" --fps 20 -q -o "$record/$name.carom" 2>/dev/null | head -n 1) || true
-  echo "$name ${hash:-refused} $(sha256sum <"$record/$name.carom" 2>/dev/null | cut -c1-16)"
+  echo "$name ${hash:-refused} $(cat "$record/$name.carom" 2>/dev/null | sha256sum | cut -c1-16)"
 }
 
 # hash_worlds CELL: a line a world, into CELL.hashes.
@@ -149,7 +149,8 @@ for cell in "${wanted[@]}"; do
     [ ! -s "$work/$cell.differs" ] || code=1
     continue
   fi
-  sum=$(run_cell "$cell" export "$work/$first.recordings/resting.carom" -q --csv /dev/stdout | sha256sum | cut -c1-16)
+  # One of shapes alone: assimp reads no binary STL where bytes are the other way round.
+  sum=$({ run_cell "$cell" export "$work/$first.recordings/dominoes.carom" -q --csv /dev/stdout || true; } | sha256sum | cut -c1-16)
   [ "$cell" != "$first" ] || first_sum=$sum
   echo "| $cell | $(wc -l <"$work/$cell.hashes") | $states | $recordings | $([ "$sum" = "$first_sum" ] && echo yes || echo no) |"
   [ ! -s "$work/$cell.differs" ] && [ "$sum" = "$first_sum" ] || code=1
