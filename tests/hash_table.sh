@@ -50,6 +50,7 @@ system_root() {
     archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
     mmdebstrap --quiet --variant=extract --architectures="$architecture" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev \
       "${release:-bookworm}" "$root" ${archive:+"$archive"} >&2 || { rm -rf "$root"; return 1; }
+    [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"  # later releases make it when they are installed
     # What names places from the root up means this one.
     sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
     find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
@@ -69,6 +70,8 @@ build() {
     more=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$(field "$1" 4)" -DCMAKE_SYSROOT="$root"
       -DCMAKE_FIND_ROOT_PATH="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
       -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
+    # Libraries of a newer release than the compiler's find what they need where they run.
+    [ -z "$(field "$1" 5)" ] || more+=(-DCMAKE_EXE_LINKER_FLAGS=-Wl,--allow-shlib-undefined)
     export PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_LIBDIR
     PKG_CONFIG_LIBDIR=$(find "$root/usr" -name pkgconfig -type d | paste -sd:)
   else
