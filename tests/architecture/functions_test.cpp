@@ -19,8 +19,9 @@ TEST(Functions, TakeNoMoreThanSixParameters) {
 TEST(Functions, KeepNoMemoryOfTheirThread) {
   for (const auto& [path, text] : sourcesOfTheTree())
     for (const int line : threadLocalLines(text))
-      ADD_FAILURE() << path << ":" << line
-                    << ": thread_local; lists of one call go in a StackArena, or are borrowed of a Stock";
+      ADD_FAILURE()
+          << path << ":" << line
+          << ": thread_local; lists of one call go in a StackArena, or are borrowed of an ObjectPool";
 }
 
 // The reader of the lists itself.

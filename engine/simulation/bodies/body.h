@@ -62,15 +62,11 @@ struct StepMotion {
       return v;
     }
     if (v.angular.isZero(0.0) && torque.isZero(0.0)) return v;
-    const Vec3 momentum = angularMomentum(inertia, path.X_WB.rotation, v.angular) + dt * torque;
+    const Vec3 before = angularMomentum(inertia, path.X_WB.rotation, v.angular);
+    const Vec3 momentum = before + dt * torque;
     if (travel == Travel::kBallistic) {
-      if (!turning_power) {
-        v.angular = angularVelocity(inertia, R_WB, momentum);
-      } else {
-        const Vec3 begin = angularMomentum(inertia, path.X_WB.rotation, v.angular);
-        v.angular = spinOfEnergy(inertia, R_WB, momentum,
-                                 std::max(0.0, 0.5 * dot(v.angular, begin) + dt * *turning_power));
-      }
+      v.angular = turning_power ? tumblingSpin(inertia, R_WB, v.angular, before, dt)
+                                : angularVelocity(inertia, R_WB, momentum);
       return v;
     }
     const Vec3 spin_B = solved_spin_B + dt * turning_B;
@@ -82,9 +78,15 @@ struct StepMotion {
   Vec3 spinGained(const Inertia& inertia, const Quat& R_WB, const Vec3& spin, double dt_s) const {
     if (torque.isZero(0.0)) return Vec3::Zero();
     if (travel != Travel::kBallistic || !turning_power) return angularVelocity(inertia, R_WB, dt_s * torque);
-    const Vec3 momentum = angularMomentum(inertia, R_WB, spin);
+    return tumblingSpin(inertia, R_WB, spin, angularMomentum(inertia, R_WB, spin), dt_s) - spin;
+  }
+
+ private:
+  // What torque and power make in `dt_s` of a spin and its angular momentum, in the orientation R_WB.
+  Vec3 tumblingSpin(const Inertia& inertia, const Quat& R_WB, const Vec3& spin, const Vec3& momentum,
+                    double dt_s) const {
     const double energy = std::max(0.0, 0.5 * dot(spin, momentum) + dt_s * *turning_power);
-    return spinOfEnergy(inertia, R_WB, momentum + dt_s * torque, energy) - spin;
+    return spinOfEnergy(inertia, R_WB, momentum + dt_s * torque, energy);
   }
 };
 

@@ -70,11 +70,12 @@ bool FlightPlanner::isTouched(int index, const Body& body, double rest_of_step_s
 
 void FlightPlanner::plan(int index, Body& body) const {
   planPath(index, body);
-  const Quat to_body = body.path.X_WB.rotation.conjugate();
+  const Quat& R_WB = body.path.X_WB.rotation;
+  const Vec3& spin = body.momentum_velocity.angular;
   const double dt = step_s_ - body.path.start_s;
-  body.solved_spin_B = to_body * body.momentum_velocity.angular;
+  body.solved_spin_B = R_WB.conjugate() * spin;
   body.turning_B = Vec3::Zero();
-  if (dt > 0.0) body.turning_B = to_body * gained(body).angular / dt;
+  if (dt > 0.0) body.turning_B = R_WB.conjugate() * body.spinGained(body.inertia, R_WB, spin, dt) / dt;
 }
 
 // The acceleration by gravity and by a constant force.
@@ -100,7 +101,7 @@ void FlightPlanner::planPath(int index, Body& body) const {
   }
   const EnvironmentFlight flight = flyThroughEnvironment(
       {environment_, environmentBody(index, body), {body.contact_force, body.contact_torque}}, path.X_WB,
-      start, time_s_ + path.start_s, dt, *scratch_->borrow());
+      start, time_s_ + path.start_s, dt, *scratch_->acquire());
   Vec3 mean = (flight.X_end.position - path.X_WB.position) / dt;
   const Vec3 momentum = angularMomentum(body.inertia, path.X_WB.rotation, start.angular);
   path.acceleration = (flight.velocity_end - start.linear) / dt;
@@ -194,7 +195,7 @@ Velocity FlightPlanner::gainedFrom(int index, const Body& body, double start_s,
 Velocity FlightPlanner::pushAtRest(int index, const Body& body) const {
   if (surfaces_.empty()) return {step_s_ * parabolaOf(index, body), Vec3::Zero()};
   const BodyForces forces = bodyForces(environment_, environmentBody(index, body), body.X_WB, Vec6::Zero(),
-                                       time_s_ + step_s_, *scratch_->borrow());
+                                       time_s_ + step_s_, *scratch_->acquire());
   const Vec6 wrench = forces.total(Vec6::Zero());
   const Quat& R_WB = body.X_WB.rotation;
   const Velocity push{step_s_ * body.inertia.inverse_mass * (R_WB * wrench.head<3>()),
@@ -237,7 +238,7 @@ double FlightPlanner::potential(int index, const Body& body) const {
   double energy = gravityPotential(body.inertia, environment_.gravity, body.X_WB.position);
   if (surfaces_.empty()) return energy;  // vacuum, or a world not started
   return energy + buoyancyPotential(environment_, surfaces_[at(solid_of_[at(index)])], body.X_WB, time_s_,
-                                    *scratch_->borrow());
+                                    *scratch_->acquire());
 }
 
 }  // namespace carom

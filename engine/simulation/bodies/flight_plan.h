@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/environment/environment_flight.h"
-#include "engine/foundation/stock.h"
+#include "engine/foundation/object_pool.h"
 #include "engine/simulation/bodies/body.h"
 
 namespace carom {
@@ -80,7 +80,7 @@ class FlightPlanner {
   std::vector<int> solid_of_;
   std::vector<AppliedLoad> loads_;  ///< By body.
   std::vector<std::optional<PrescribedPath>> prescribed_;
-  std::unique_ptr<Stock<ForceScratch>> scratch_ = std::make_unique<Stock<ForceScratch>>();
+  std::unique_ptr<ObjectPool<ForceScratch>> scratch_ = std::make_unique<ObjectPool<ForceScratch>>();
 };
 
 }  // namespace carom

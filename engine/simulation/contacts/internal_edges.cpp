@@ -55,9 +55,11 @@ double heightOver(const Side& side, const Vec3& p_W) {
 // `support`.
 struct Passage {
   const PlacedPair& contact;
-  Side passing, edge;
+  const Side& passing;
+  const Side& edge;
   const PlacedPair& other;
-  Side held, support;
+  const Side& held;
+  const Side& support;
 };
 
 // Whether it is held so that it passes the edge.

@@ -3,6 +3,7 @@
 // closest features at the current time, and the impulses of its contact points. Internal to the simulation
 // floor. Tested through tests/engine/simulation/.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -57,6 +58,11 @@ struct ShapePair {
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 
   bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
+  /// Whether a force of its contacts acts.
+  bool presses() const {
+    return std::ranges::any_of(remembered,
+                               [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
+  }
 };
 
 /// The ids of the points that a pair remembers.

@@ -44,6 +44,12 @@ constexpr double kPathShare = 0.01;
 // Of the resting mode's speed: forces that make less of it in a step wake no body.
 constexpr double kWakingShare = 0.1;
 
+// A remembered force, which is the one on B, acts on one of the two bodies: on A for a negative time.
+void act(const RememberedImpulse& acting, const Vec3& arm, double dt_s, ImpulseBody& body) {
+  body.apply(dt_s * acting.force_W, arm);
+  body.turn(dt_s * acting.torque_W);
+}
+
 }  // namespace
 
 void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time_s) {
@@ -162,11 +168,9 @@ void ContactCluster::findEnd(std::size_t i) {
   if (!anew || body.travel == Travel::kBallistic) return;
   for (const int p : table_.pairsOf(member.body)) {
     const ShapePair& pair = table_.pairs()[at(p)];
-    const double sign = (pair.body_a == member.body ? -1.0 : 1.0) * restOfStep();
-    for (const RememberedImpulse& acting : pair.remembered) {
-      ends_[i].apply(sign * acting.force_W, sign < 0.0 ? acting.arm_a : acting.arm_b);
-      ends_[i].turn(sign * acting.torque_W);
-    }
+    const bool on_a = pair.body_a == member.body;
+    for (const RememberedImpulse& acting : pair.remembered)
+      act(acting, on_a ? acting.arm_a : acting.arm_b, on_a ? -restOfStep() : restOfStep(), ends_[i]);
   }
 }
 
@@ -486,10 +490,8 @@ void ContactCluster::releaseForces(int index) {
   ImpulseBody& a = ends_[at(member_a)];
   ImpulseBody& b = ends_[at(member_b)];
   for (const RememberedImpulse& acting : pair.remembered) {
-    a.apply(restOfStep() * acting.force_W, acting.arm_a);
-    b.apply(-restOfStep() * acting.force_W, acting.arm_b);
-    a.turn(restOfStep() * acting.torque_W);
-    b.turn(-restOfStep() * acting.torque_W);
+    act(acting, acting.arm_a, restOfStep(), a);
+    act(acting, acting.arm_b, -restOfStep(), b);
   }
 }
 
@@ -600,10 +602,8 @@ void ContactCluster::keepPlannedForces() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (!bodies_[at(members_[i].body)].yields()) continue;
     const std::span<const int> pairs = table_.pairsOf(members_[i].body);
-    const bool is_pressed = std::any_of(pairs.begin(), pairs.end(), [&](int pair) {
-      return std::ranges::any_of(table_.pairs()[at(pair)].remembered,
-                                 [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
-    });
+    const bool is_pressed =
+        std::any_of(pairs.begin(), pairs.end(), [&](int pair) { return table_.pairs()[at(pair)].presses(); });
     pressed_[i] = is_pressed ? 1 : 0;
   }
   findBends();

@@ -167,9 +167,7 @@ class EventLoop {
     for (const int p : pairs) {
       const ShapePair& pair = table_.pairs()[at(p)];
       const int other = pair.body_a == index ? pair.body_b : pair.body_a;
-      const bool acts = std::ranges::any_of(
-          pair.remembered, [](const RememberedImpulse& acting) { return !acting.force_W.isZero(0.0); });
-      if (!acts || !givesWay(other) || std::ranges::find(pressed, other) != pressed.end()) continue;
+      if (!pair.presses() || !givesWay(other) || std::ranges::find(pressed, other) != pressed.end()) continue;
       {
         const PhaseScope phase(clock_, StepPhase::kImpulses);
         cluster_.begin(p, time_s);

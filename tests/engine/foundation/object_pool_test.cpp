@@ -1,6 +1,6 @@
 // What is given back is lent again; two that borrow at once have two.
 
-#include "engine/foundation/stock.h"
+#include "engine/foundation/object_pool.h"
 
 #include <gtest/gtest.h>
 
@@ -11,27 +11,27 @@
 namespace carom {
 namespace {
 
-TEST(Stock, LendsAgainWhatWasGivenBack) {
-  Stock<std::vector<int>> stock;
+TEST(ObjectPool, GivesAgainWhatWasReleased) {
+  ObjectPool<std::vector<int>> pool;
   const int* room = nullptr;
   {
-    const auto lent = stock.borrow();
+    const auto lent = pool.acquire();
     (*lent).reserve(100);
     room = (*lent).data();
-    EXPECT_NE((*stock.borrow()).data(), room);
+    EXPECT_NE((*pool.acquire()).data(), room);
   }
   // The one that came back last.
-  EXPECT_EQ((*stock.borrow()).data(), room);
+  EXPECT_EQ((*pool.acquire()).data(), room);
 }
 
-TEST(Stock, GivesEachThreadItsOwn) {
-  Stock<int> stock;
+TEST(ObjectPool, GivesEachThreadItsOwn) {
+  ObjectPool<int> pool;
   std::atomic<bool> shared = false;
   std::vector<std::thread> threads;
   for (int mark = 1; mark <= 4; ++mark)
     threads.emplace_back([&, mark] {
       for (int i = 0; i < 2000; ++i) {
-        const auto lent = stock.borrow();
+        const auto lent = pool.acquire();
         *lent = mark;
         std::this_thread::yield();
         if (*lent != mark) shared = true;

@@ -1,7 +1,7 @@
 #pragma once
 // Things that calls borrow for their own time, such as lists of which only the room is kept: no call makes
 // its own, no thread keeps one, and two that run at once have two. Tested in
-// tests/engine/foundation/stock_test.cpp.
+// tests/engine/foundation/object_pool_test.cpp.
 
 #include <memory>
 #include <mutex>
@@ -11,24 +11,24 @@
 namespace carom {
 
 template <typename T>
-class Stock {
+class ObjectPool {
  public:
   /// Gives back at its end what was borrowed.
-  class Loan {
+  class Lease {
    public:
-    Loan(Stock& stock, std::unique_ptr<T> thing) : stock_(stock), thing_(std::move(thing)) {}
-    ~Loan() { stock_.takeBack(std::move(thing_)); }
-    Loan(const Loan&) = delete;
-    Loan& operator=(const Loan&) = delete;
+    Lease(ObjectPool& pool, std::unique_ptr<T> thing) : pool_(pool), thing_(std::move(thing)) {}
+    ~Lease() { pool_.release(std::move(thing_)); }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
     T& operator*() const { return *thing_; }
 
    private:
-    Stock& stock_;
+    ObjectPool& pool_;
     std::unique_ptr<T> thing_;
   };
 
   /// From any thread. In the state in which it was last given back, or new.
-  Loan borrow() {
+  Lease acquire() {
     const std::scoped_lock lock(mutex_);
     if (things_.empty()) return {*this, std::make_unique<T>()};
     std::unique_ptr<T> thing = std::move(things_.back());
@@ -37,7 +37,7 @@ class Stock {
   }
 
  private:
-  void takeBack(std::unique_ptr<T> thing) {
+  void release(std::unique_ptr<T> thing) {
     const std::scoped_lock lock(mutex_);
     things_.push_back(std::move(thing));
   }
