@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -19,6 +20,8 @@
 #include <assimp/scene.h>
 
 #include "demos/asset/asset_path.h"
+#include "demos/asset/binary_stl.h"
+#include "demos/asset/gltf_nodes.h"
 #include "demos/asset/mesh_header.h"
 #include "demos/asset/picture_file.h"
 #include "demos/format/written_precision.h"
@@ -34,19 +37,21 @@ constexpr std::size_t kMostParts = 1024;
 constexpr double kRounding = 0x1p-24;  // of assimp's single-precision coordinates
 
 /// What reading a file of `size` bytes may take: a second for each four megabytes is a tenth of assimp's
-/// usual speed, and ten million vertices in single precision fit into the answer.
+/// usual speed, and ten million vertices fit into the answer.
 ProcessBounds boundsFor(std::uintmax_t size) {
   const int cpu_s = 5 + static_cast<int>(std::min<std::uintmax_t>(size >> 22, 1000));
   return {.memory_bytes = std::size_t{1} << 30,
           .cpu_s = cpu_s,
           .wall_s = 10 * cpu_s,
-          .answer_bytes = std::size_t{128} << 20};
+          .answer_bytes = std::size_t{256} << 20};
 }
 
 using Point = std::array<float, 3>;  // as assimp has it
+using Place = std::array<double, 3>;
 using Corners = std::array<std::uint32_t, 3>;
 struct Part {
-  std::vector<Point> vertices, normals, colors, uv;  // Of the last the third number is 0.
+  std::vector<Place> vertices;
+  std::vector<Point> normals, colors, uv;  // Of the last the third number is 0.
   std::vector<Corners> triangles;
   std::int32_t picture = -1;
 };
@@ -58,12 +63,16 @@ class Unsuitable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::vector<Point> placedVertices(const aiMesh& mesh, const aiMatrix4x4& X_FM) {
-  std::vector<Point> points;
+Vec3 vectorOf(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::vector<Place> placedVertices(const aiMesh& mesh, const AffineMap& X_FM) {
+  std::vector<Place> points;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D p = X_FM * mesh.mVertices[i];
-    points.push_back({p.x, p.y, p.z});
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    const Vec3 p = X_FM * vectorOf(mesh.mVertices[i]);
+    points.push_back({p.x(), p.y(), p.z()});
+    if (!p.allFinite())
       throw Unsuitable("vertex " + std::to_string(i) + " of mesh \"" + mesh.mName.C_Str() +
                        "\" is not finite; accepted: finite coordinates");
   }
@@ -71,15 +80,16 @@ std::vector<Point> placedVertices(const aiMesh& mesh, const aiMatrix4x4& X_FM) {
 }
 
 /// Turned by the inverse transpose, as a plane is; none where one of them is no direction.
-std::vector<Point> placedNormals(const aiMesh& mesh, const aiMatrix4x4& X_FM) {
+std::vector<Point> placedNormals(const aiMesh& mesh, const AffineMap& X_FM) {
   std::vector<Point> normals;
   if (!mesh.HasNormals()) return normals;
-  const aiMatrix3x3 turn = aiMatrix3x3(X_FM).Inverse().Transpose();
+  const Mat3 turn = X_FM.linear.inverse().transpose();
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D n = turn * mesh.mNormals[i];
-    const float length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    if (!std::isfinite(length) || !(length > 0.0f)) return {};
-    normals.push_back({n.x / length, n.y / length, n.z / length});
+    const Vec3 n = turn * vectorOf(mesh.mNormals[i]);
+    const double length = n.norm();
+    if (!std::isfinite(length) || !(length > 0.0)) return {};
+    const Eigen::Vector3f unit = (n / length).cast<float>();
+    normals.push_back({unit.x(), unit.y(), unit.z()});
   }
   return normals;
 }
@@ -202,12 +212,12 @@ std::vector<Point> placesOnPicture(const aiMesh& mesh, unsigned set) {
   return places;
 }
 
-Part placedPart(const aiMesh& mesh, const aiScene& scene, const aiMatrix4x4& X_FM, PictureBook& book) {
+Part placedPart(const aiMesh& mesh, const aiScene& scene, const AffineMap& X_FM, PictureBook& book) {
   Part part{placedVertices(mesh, X_FM),
             placedNormals(mesh, X_FM),
             colorsOf(mesh, scene),
             {},
-            trianglesOf(mesh, aiMatrix3x3(X_FM).Determinant() < 0.0f)};
+            trianglesOf(mesh, X_FM.linear.determinant() < 0.0)};
   const PictureBook::Choice choice = book.of(mesh);
   part.picture = choice.picture;
   if (part.picture >= 0) part.uv = placesOnPicture(mesh, choice.set);
@@ -219,27 +229,73 @@ bool hasFaces(const aiMesh& mesh) {
   return (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) != 0;
 }
 
+/// Where assimp's nodes stand: as a glTF file writes it, else as assimp has it.
+class NodePlacements {
+ public:
+  explicit NodePlacements(GltfNodes written) : written_(std::move(written)) {}
+
+  /// A node of assimp's, and which of the written ones it is, or -1.
+  struct Node {
+    const aiNode* read;
+    int written;
+  };
+  Node root(const aiScene& scene) const { return same(scene.mRootNode, written_.root); }
+  Node child(const Node& node, unsigned i) const {
+    const aiNode* read = node.read->mChildren[i];
+    if (node.written < 0) return {read, -1};
+    const std::vector<int>& children = at(node.written).children;
+    return same(read, children.size() == node.read->mNumChildren ? children[i] : -1);
+  }
+  AffineMap placement(const Node& node) const {
+    return node.written < 0 ? asRead(*node.read) : at(node.written).X_PN;
+  }
+
+ private:
+  const GltfNode& at(int written) const { return written_.nodes[static_cast<std::size_t>(written)]; }
+  static AffineMap asRead(const aiNode& node) {
+    const aiMatrix4x4& m = node.mTransformation;
+    AffineMap X_PN;
+    X_PN.linear << m.a1, m.a2, m.a3, m.b1, m.b2, m.b3, m.c1, m.c2, m.c3;
+    X_PN.origin = Vec3(m.a4, m.b4, m.c4);
+    return X_PN;
+  }
+  /// The written one, where it stands about as assimp has it: rotations are written with three digits too.
+  Node same(const aiNode* read, int written) const {
+    constexpr double kDigits = 1e-3;
+    if (written < 0 || static_cast<std::size_t>(written) >= written_.nodes.size()) return {read, -1};
+    const AffineMap theirs = asRead(*read), ours = at(written).X_PN;
+    const double size = std::max(ours.linear.cwiseAbs().maxCoeff(), ours.origin.cwiseAbs().maxCoeff());
+    const bool agree = (theirs.linear - ours.linear).cwiseAbs().maxCoeff() <= kDigits * size &&
+                       (theirs.origin - ours.origin).cwiseAbs().maxCoeff() <= kDigits * size;
+    return {read, agree ? written : -1};
+  }
+
+  GltfNodes written_;
+};
+
 /// Walks the node tree from the root with a list in place of recursion: files may be deep.
-Parts collectParts(const aiScene& scene, PictureBook& book) {
+Parts collectParts(const aiScene& scene, const NodePlacements& placements, PictureBook& book) {
   struct Visit {
-    const aiNode* node;
-    aiMatrix4x4 X_FN;  // node frame in the file's frame
+    NodePlacements::Node node;
+    AffineMap X_FN;  // node frame in the file's frame
   };
   Parts parts;
   std::vector<Visit> visits;
-  visits.push_back({scene.mRootNode, scene.mRootNode->mTransformation});
+  const NodePlacements::Node root = placements.root(scene);
+  visits.push_back({root, placements.placement(root)});
   while (!visits.empty()) {
     const Visit visit = visits.back();
     visits.pop_back();
-    for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
-      const aiMesh& mesh = *scene.mMeshes[visit.node->mMeshes[i]];
+    const aiNode& node = *visit.node.read;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
       if (hasFaces(mesh)) parts.push_back(placedPart(mesh, scene, visit.X_FN, book));
     }
     if (parts.size() > kMostParts)
       throw Unsuitable("more than " + std::to_string(kMostParts) + " meshes; accepted: at most that many");
-    for (unsigned i = visit.node->mNumChildren; i > 0; --i) {
-      const aiNode* child = visit.node->mChildren[i - 1];
-      visits.push_back({child, visit.X_FN * child->mTransformation});
+    for (unsigned i = node.mNumChildren; i > 0; --i) {
+      const NodePlacements::Node child = placements.child(visit.node, i - 1);
+      visits.push_back({child, visit.X_FN * placements.placement(child)});
     }
   }
   return parts;
@@ -296,15 +352,17 @@ Bytes partsBytes(const Parts& parts, const PictureBook& book) {
 Bytes readFile(const fs::path& path) {
   try {
     Assimp::Importer importer;
-    const aiScene* scene =
-        importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices | aiProcess_Triangulate);
+    constexpr unsigned kSteps = aiProcess_JoinIdenticalVertices | aiProcess_Triangulate;
+    const std::string stl = binaryStlInOrderOf(std::endian::native, path);
+    const aiScene* scene = stl.empty() ? importer.ReadFile(path.string(), kSteps)
+                                       : importer.ReadFileFromMemory(stl.data(), stl.size(), kSteps, "stl");
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (scene == nullptr) tryInputFile(path);  // assimp does not say whether the system refused the file
     if (scene == nullptr || scene->mRootNode == nullptr)
       return errorBytes("cannot be read as a mesh: " + reason);
     PictureBook book(*scene, path.parent_path());
-    const Parts parts = collectParts(*scene, book);
+    const Parts parts = collectParts(*scene, NodePlacements(gltfNodes(path)), book);
     return partsBytes(parts, book);
   } catch (const Unsuitable& error) {
     return errorBytes(error.what());
@@ -325,7 +383,8 @@ class AnswerReader {
     for (std::size_t i = 0; i < *parts; ++i) {
       MeshPart part;
       std::vector<Vec3> places;
-      if (!points(part.vertices) || !points(part.normals) || !points(part.colors) || !points(places))
+      if (!points<Place>(part.vertices) || !points<Point>(part.normals) || !points<Point>(part.colors) ||
+          !points<Point>(places))
         return std::nullopt;
       const std::size_t vertices = part.vertices.size();
       if (!part.normals.empty() && part.normals.size() != vertices) return std::nullopt;
@@ -351,11 +410,12 @@ class AnswerReader {
   }
 
  private:
+  template <typename Written>
   bool points(std::vector<Vec3>& into) {
     const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size() / sizeof(Point)) return false;
+    if (!number || *number > rest_.size() / sizeof(Written)) return false;
     for (std::size_t k = 0; k < *number; ++k) {
-      Point p;
+      Written p;
       take(&p, sizeof p);
       into.emplace_back(p[0], p[1], p[2]);
       if (!into.back().allFinite()) return false;
