@@ -20,15 +20,6 @@ std::uint32_t littleEndian(std::string_view bytes) {
   return number;
 }
 
-/// The JSON of a binary glTF file is its first chunk, after a header of twelve bytes and the chunk's own of
-/// eight.
-std::string_view jsonOf(std::string_view file) {
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  if (!file.starts_with("glTF")) return file;
-  if (file.size() < kHeader + kChunkHeader) return {};
-  return file.substr(kHeader + kChunkHeader, littleEndian(file.substr(kHeader, 4)));
-}
-
 template <std::size_t N>
 std::array<double, N> numbersOf(const Json& node, const char* key, std::array<double, N> otherwise) {
   const Json* list = node.find(key);
@@ -86,10 +77,19 @@ GltfNodes nodesOf(const Json& file) {
 
 }  // namespace
 
+std::string gltfText(const fs::path& path) {
+  std::string file = readTextFile(path);
+  // A header of twelve bytes, then the chunk's own of eight, which begins with its length.
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (!file.starts_with("glTF")) return file;
+  if (file.size() < kHeader + kChunkHeader) return {};
+  return file.substr(kHeader + kChunkHeader, littleEndian(std::string_view(file).substr(kHeader, 4)));
+}
+
 GltfNodes gltfNodes(const fs::path& path) {
   if (path.extension() != ".gltf" && path.extension() != ".glb") return {};
   try {
-    return nodesOf(Json::parse(jsonOf(readTextFile(path)), path.string()));
+    return nodesOf(Json::parse(gltfText(path), path.string()));
   } catch (const InputError&) {
     return {};
   }

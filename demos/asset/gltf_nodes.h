@@ -5,6 +5,7 @@
 // Tested in tests/demos/asset/gltf_nodes_test.cpp.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/foundation/frames.h"
@@ -29,6 +30,9 @@ struct GltfNodes {
   std::vector<GltfNode> nodes;
   int root = -1;  ///< That of the file's scene, or one more that holds all of them; -1 for none.
 };
+
+/// The JSON of such a file, which is a chunk of a binary one.
+std::string gltfText(const std::filesystem::path& path);
 
 /// None for a file of another format, and for one that is not as its format says.
 GltfNodes gltfNodes(const std::filesystem::path& path);

@@ -20,7 +20,7 @@
 #include <assimp/scene.h>
 
 #include "demos/asset/asset_path.h"
-#include "demos/asset/binary_stl.h"
+#include "demos/asset/byte_order.h"
 #include "demos/asset/gltf_nodes.h"
 #include "demos/asset/mesh_header.h"
 #include "demos/asset/picture_file.h"
@@ -353,9 +353,11 @@ Bytes readFile(const fs::path& path) {
   try {
     Assimp::Importer importer;
     constexpr unsigned kSteps = aiProcess_JoinIdenticalVertices | aiProcess_Triangulate;
-    const std::string stl = binaryStlInOrderOf(std::endian::native, path);
-    const aiScene* scene = stl.empty() ? importer.ReadFile(path.string(), kSteps)
-                                       : importer.ReadFileFromMemory(stl.data(), stl.size(), kSteps, "stl");
+    const TurnedFile turned = inOrderOf(std::endian::native, path);
+    const aiScene* scene = turned.bytes.empty()
+                               ? importer.ReadFile(path.string(), kSteps)
+                               : importer.ReadFileFromMemory(turned.bytes.data(), turned.bytes.size(), kSteps,
+                                                             turned.ending.c_str());
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (scene == nullptr) tryInputFile(path);  // assimp does not say whether the system refused the file
