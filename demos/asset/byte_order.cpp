@@ -10,6 +10,7 @@
 #include "demos/asset/gltf_nodes.h"
 #include "demos/format/base64.h"
 #include "demos/format/json.h"
+#include "engine/foundation/contract.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
@@ -138,8 +139,11 @@ TurnedFile turnedGltf(const fs::path& path) {
 TurnedFile inOrderOf(std::endian order, const fs::path& path) {
   if (order == std::endian::little) return {};
   const std::string ending = path.extension().string();
-  if (ending == ".stl") return turnedStl(path);
-  if (ending == ".gltf" || ending == ".glb") return turnedGltf(path);
+  try {
+    if (ending == ".stl") return turnedStl(path);
+    if (ending == ".gltf" || ending == ".glb") return turnedGltf(path);
+  } catch (const InputError&) {  // assimp says it in its own words
+  }
   return {};
 }
 

@@ -16,7 +16,7 @@ struct TurnedFile {
 };
 
 /// The file with its numbers in that order; empty where it has them so already, where it has none but in
-/// text, and where it is not as its format says. Throws InputError where it cannot be read.
+/// text, and where it cannot be read or is not as its format says.
 TurnedFile inOrderOf(std::endian order, const std::filesystem::path& path);
 
 }  // namespace carom::demos

@@ -1,15 +1,11 @@
 #include "demos/asset/mesh_import.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <new>
-#include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -22,6 +18,7 @@
 #include "demos/asset/asset_path.h"
 #include "demos/asset/byte_order.h"
 #include "demos/asset/gltf_nodes.h"
+#include "demos/asset/mesh_answer.h"
 #include "demos/asset/mesh_header.h"
 #include "demos/asset/picture_file.h"
 #include "demos/format/written_precision.h"
@@ -33,7 +30,6 @@ namespace carom::demos {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostParts = 1024;
 constexpr double kRounding = 0x1p-24;  // of assimp's single-precision coordinates
 
 /// What reading a file of `size` bytes may take: a second for each four megabytes is a tenth of assimp's
@@ -46,16 +42,9 @@ ProcessBounds boundsFor(std::uintmax_t size) {
           .answer_bytes = std::size_t{256} << 20};
 }
 
-using Point = std::array<float, 3>;  // as assimp has it
-using Place = std::array<double, 3>;
-using Corners = std::array<std::uint32_t, 3>;
-struct Part {
-  std::vector<Place> vertices;
-  std::vector<Point> normals, colors, uv;  // Of the last the third number is 0.
-  std::vector<Corners> triangles;
-  std::int32_t picture = -1;
-};
-using Parts = std::vector<Part>;
+using Place = ReadPart::Place;
+using Point = ReadPart::Point;
+using Corners = ReadPart::Corners;
 
 /// A file that was read, but is none of ours.
 class Unsuitable : public std::runtime_error {
@@ -212,12 +201,12 @@ std::vector<Point> placesOnPicture(const aiMesh& mesh, unsigned set) {
   return places;
 }
 
-Part placedPart(const aiMesh& mesh, const aiScene& scene, const AffineMap& X_FM, PictureBook& book) {
-  Part part{placedVertices(mesh, X_FM),
-            placedNormals(mesh, X_FM),
-            colorsOf(mesh, scene),
-            {},
-            trianglesOf(mesh, X_FM.linear.determinant() < 0.0)};
+ReadPart placedPart(const aiMesh& mesh, const aiScene& scene, const AffineMap& X_FM, PictureBook& book) {
+  ReadPart part{placedVertices(mesh, X_FM),
+                placedNormals(mesh, X_FM),
+                colorsOf(mesh, scene),
+                {},
+                trianglesOf(mesh, X_FM.linear.determinant() < 0.0)};
   const PictureBook::Choice choice = book.of(mesh);
   part.picture = choice.picture;
   if (part.picture >= 0) part.uv = placesOnPicture(mesh, choice.set);
@@ -274,12 +263,13 @@ class NodePlacements {
 };
 
 /// Walks the node tree from the root with a list in place of recursion: files may be deep.
-Parts collectParts(const aiScene& scene, const NodePlacements& placements, PictureBook& book) {
+std::vector<ReadPart> collectParts(const aiScene& scene, const NodePlacements& placements,
+                                   PictureBook& book) {
   struct Visit {
     NodePlacements::Node node;
     AffineMap X_FN;  // node frame in the file's frame
   };
-  Parts parts;
+  std::vector<ReadPart> parts;
   std::vector<Visit> visits;
   const NodePlacements::Node root = placements.root(scene);
   visits.push_back({root, placements.placement(root)});
@@ -291,8 +281,9 @@ Parts collectParts(const aiScene& scene, const NodePlacements& placements, Pictu
       const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
       if (hasFaces(mesh)) parts.push_back(placedPart(mesh, scene, visit.X_FN, book));
     }
-    if (parts.size() > kMostParts)
-      throw Unsuitable("more than " + std::to_string(kMostParts) + " meshes; accepted: at most that many");
+    if (parts.size() > kMostMeshParts)
+      throw Unsuitable("more than " + std::to_string(kMostMeshParts) +
+                       " meshes; accepted: at most that many");
     for (unsigned i = node.mNumChildren; i > 0; --i) {
       const NodePlacements::Node child = placements.child(visit.node, i - 1);
       visits.push_back({child, visit.X_FN * placements.placement(child)});
@@ -301,55 +292,8 @@ Parts collectParts(const aiScene& scene, const NodePlacements& placements, Pictu
   return parts;
 }
 
-// The answer of the process that reads: a letter, then an error's text, or the number of parts and of each
-// its five lists and its picture's number, the pictures, and the notes; a list begins with the number of its
-// items.
-constexpr std::uint8_t kError = 'e', kParts = 'p', kRefused = 'r';  // of the last: the system's number
-
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes errorBytes(const std::string& text) {
-  Bytes bytes(1 + text.size(), kError);
-  std::copy(text.begin(), text.end(), bytes.begin() + 1);
-  return bytes;
-}
-
-Bytes partsBytes(const Parts& parts, const PictureBook& book) {
-  Bytes bytes(1, kParts);
-  const auto put = [&bytes](const void* from, std::size_t count) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + count);
-    if (count > 0) std::memcpy(bytes.data() + before, from, count);
-  };
-  const auto putList = [&put](const auto& list) {
-    const std::size_t count = list.size();
-    put(&count, sizeof count);
-    put(list.data(), count * sizeof list[0]);
-  };
-  const std::size_t count = parts.size();
-  put(&count, sizeof count);
-  for (const Part& part : parts) {
-    putList(part.vertices);
-    putList(part.normals);
-    putList(part.colors);
-    putList(part.uv);
-    putList(part.triangles);
-    put(&part.picture, sizeof part.picture);
-  }
-  const std::size_t pictures = book.pictures.size(), notes = book.notes.size();
-  put(&pictures, sizeof pictures);
-  for (const SurfacePicture& picture : book.pictures) {
-    put(&picture.width, sizeof picture.width);
-    put(&picture.height, sizeof picture.height);
-    putList(picture.rgb);
-  }
-  put(&notes, sizeof notes);
-  for (const std::string& note : book.notes) putList(note);
-  return bytes;
-}
-
 /// In the process that reads.
-Bytes readFile(const fs::path& path) {
+std::vector<std::uint8_t> readFile(const fs::path& path) {
   try {
     Assimp::Importer importer;
     constexpr unsigned kSteps = aiProcess_JoinIdenticalVertices | aiProcess_Triangulate;
@@ -364,136 +308,25 @@ Bytes readFile(const fs::path& path) {
     if (scene == nullptr || scene->mRootNode == nullptr)
       return errorBytes("cannot be read as a mesh: " + reason);
     PictureBook book(*scene, path.parent_path());
-    const Parts parts = collectParts(*scene, NodePlacements(gltfNodes(path)), book);
-    return partsBytes(parts, book);
+    std::vector<ReadPart> parts = collectParts(*scene, NodePlacements(gltfNodes(path)), book);
+    return answerBytes({std::move(parts), std::move(book.pictures), std::move(book.notes)});
   } catch (const Unsuitable& error) {
     return errorBytes(error.what());
   } catch (const std::system_error& error) {
-    return {kRefused, static_cast<std::uint8_t>(error.code().value())};
+    return refusalBytes(error.code());
   }
 }
 
-/// Takes the answer apart; nothing where it is no answer.
-class AnswerReader {
- public:
-  explicit AnswerReader(std::span<const std::uint8_t> rest) : rest_(rest) {}
-
-  std::optional<ImportedMesh> mesh() {
-    ImportedMesh mesh;
-    const std::optional<std::size_t> parts = count();
-    if (!parts || *parts > kMostParts + 1) return std::nullopt;
-    for (std::size_t i = 0; i < *parts; ++i) {
-      MeshPart part;
-      std::vector<Vec3> places;
-      if (!points<Place>(part.vertices) || !points<Point>(part.normals) || !points<Point>(part.colors) ||
-          !points<Point>(places))
-        return std::nullopt;
-      const std::size_t vertices = part.vertices.size();
-      if (!part.normals.empty() && part.normals.size() != vertices) return std::nullopt;
-      if (!part.colors.empty() && part.colors.size() != vertices) return std::nullopt;
-      if (!places.empty() && places.size() != vertices) return std::nullopt;
-      for (const Vec3& place : places) part.uv.push_back(place.head<2>());
-      const std::optional<std::size_t> triangles = count();
-      if (!triangles || *triangles > rest_.size() / sizeof(Corners)) return std::nullopt;
-      for (std::size_t k = 0; k < *triangles; ++k) {
-        Corners c;
-        take(&c, sizeof c);
-        if (std::max({c[0], c[1], c[2]}) >= vertices) return std::nullopt;
-        part.triangles.push_back({static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2])});
-      }
-      std::int32_t picture = -1;
-      if (rest_.size() < sizeof picture) return std::nullopt;
-      take(&picture, sizeof picture);
-      if (picture >= 0 && !part.uv.empty()) part.picture_of.assign(part.triangles.size(), picture);
-      mesh.parts.push_back(std::move(part));
-    }
-    if (!pictures(mesh) || !notes(mesh) || !rest_.empty()) return std::nullopt;
-    return mesh;
-  }
-
- private:
-  template <typename Written>
-  bool points(std::vector<Vec3>& into) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size() / sizeof(Written)) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      Written p;
-      take(&p, sizeof p);
-      into.emplace_back(p[0], p[1], p[2]);
-      if (!into.back().allFinite()) return false;
-    }
-    return true;
-  }
-  bool pictures(ImportedMesh& mesh) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size()) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      SurfacePicture picture;
-      if (rest_.size() < 2 * sizeof(int)) return false;
-      take(&picture.width, sizeof picture.width);
-      take(&picture.height, sizeof picture.height);
-      const std::optional<std::size_t> bytes = count();
-      if (!bytes || *bytes > rest_.size() || picture.width < 1 || picture.height < 1 ||
-          *bytes != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
-        return false;
-      picture.rgb.resize(*bytes);
-      take(picture.rgb.data(), *bytes);
-      mesh.pictures.push_back(std::move(picture));
-    }
-    for (const MeshPart& part : mesh.parts)
-      for (const int picture : part.picture_of)
-        if (picture >= static_cast<int>(mesh.pictures.size())) return false;
-    return true;
-  }
-  bool notes(ImportedMesh& mesh) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size()) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      const std::optional<std::size_t> length = count();
-      if (!length || *length > rest_.size()) return false;
-      std::string note(*length, ' ');
-      take(note.data(), *length);
-      mesh.notes.push_back(std::move(note));
-    }
-    return true;
-  }
-  std::optional<std::size_t> count() {
-    std::size_t value = 0;
-    if (rest_.size() < sizeof value) return std::nullopt;
-    take(&value, sizeof value);
-    return value;
-  }
-  void take(void* to, std::size_t size) {
-    std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
-  }
-
-  std::span<const std::uint8_t> rest_;
-};
-
 /// assimp's readers may crash, run for ever or allocate by a file's word: another process runs them.
 ImportedMesh readApart(const fs::path& path) {
-  const std::string place = path.string() + ": ";
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(path, failed);
   const ProcessAnswer answer =
       answerOfProcess([&path] { return readFile(path); }, boundsFor(failed ? 0 : size));
   if (!answer.failure.empty())
-    throw InputError(place + "cannot be read as a mesh: its reader " + answer.failure);
-  const std::span<const std::uint8_t> bytes(answer.bytes);
-  if (!bytes.empty() && bytes[0] == kError)
-    throw InputError(place + std::string(bytes.begin() + 1, bytes.end()));
-  if (bytes.size() == 2 && bytes[0] == kRefused)
-    throw std::system_error(bytes[1], std::generic_category(), "cannot read '" + path.string() + "'");
-  std::optional<ImportedMesh> mesh;
-  if (!bytes.empty() && bytes[0] == kParts) mesh = AnswerReader(bytes.subspan(1)).mesh();
-  if (!mesh) throw InputError(place + "cannot be read as a mesh: its reader gave no answer");
-  return *std::move(mesh);
+    throw InputError(path.string() + ": cannot be read as a mesh: its reader " + answer.failure);
+  return meshOfAnswer(answer.bytes, path);
 }
-
-}  // namespace
-
-namespace {
 
 /// The digits of a text in place of assimp's rounding.
 void takeText(const fs::path& path, ImportedMesh& mesh) {

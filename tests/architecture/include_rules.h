@@ -82,15 +82,16 @@ struct Library {
 };
 
 inline const std::vector<Library>& guardedLibraries() {
-  static const std::vector<Library> libraries{{"GL", "GL/", {"renderer/gl/gl_functions.h"}},
-                                              {"EGL", "EGL/", {"renderer/gl/egl_context.cpp"}},
-                                              {"ISA-L", "isa-l", {"renderer/image/quick_deflate.cpp"}},
-                                              {"libpng", "png", {"renderer/image/png.cpp"}},
-                                              {"Cairo", "cairo", {"renderer/drawing/canvas.cpp"}},
-                                              {"libjpeg", "jpeglib.h", {"demos/asset/jpeg_picture.cpp"}},
-                                              {"assimp", "assimp/", {"demos/asset/mesh_import.cpp"}},
-                                              {"tinygltf", "tiny_gltf.h", {"demos/record/motion_gltf.cpp"}},
-                                              {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
+  static const std::vector<Library> libraries{
+      {"GL", "GL/", {"renderer/gl/gl_functions.h"}},
+      {"EGL", "EGL/", {"renderer/gl/egl_context.cpp"}},
+      {"ISA-L", "isa-l", {"renderer/image/quick_deflate.cpp"}},
+      {"libpng", "png", {"renderer/image/png.cpp"}},
+      {"Cairo", "cairo", {"renderer/drawing/canvas.cpp"}},
+      {"libjpeg", "jpeglib.h", {"demos/asset/jpeg_picture.cpp"}},
+      {"assimp", "assimp/", {"demos/asset/mesh_import.cpp"}},
+      {"tinygltf", "tiny_gltf.h", {"demos/asset/byte_order.cpp", "demos/record/motion_gltf.cpp"}},
+      {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
   return libraries;
 }
 
