@@ -52,8 +52,8 @@ system_root() {
       "${release:-bookworm}" "$root" ${archive:+"$archive"} >&2 || { rm -rf "$root"; return 1; }
     [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"  # later releases make it when they are installed
     # What names places from the root up means this one.
-    sed -i "s|/usr/|$root/usr/|g" "$root"/usr/lib/*/cmake/{draco,assimp-*}/*.cmake
-    find "$root/lib" "$root/usr/lib" -type l -lname '/*' | while read -r link; do
+    find "$root"/usr/{lib,share} -path '*/cmake/draco/*.cmake' -o -path '*/cmake/assimp-*/*.cmake' | xargs sed -i "s|/usr/|$root/usr/|g"
+    find "$root"/lib*/ "$root/usr/lib" -type l -lname '/*' | while read -r link; do
       ln -sfn "$root$(readlink "$link")" "$link"
     done
   fi

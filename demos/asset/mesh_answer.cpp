@@ -111,6 +111,40 @@ class AnswerReader {
 
 }  // namespace
 
+ReadPart joinedPart(const ReadPart& part, const std::vector<unsigned>& named) {
+  const auto isLess = [&part](unsigned a, unsigned b) {
+    if (part.vertices[a] != part.vertices[b]) return part.vertices[a] < part.vertices[b];
+    for (const auto* list : {&part.normals, &part.colors, &part.uv})
+      if (!list->empty() && (*list)[a] != (*list)[b]) return (*list)[a] < (*list)[b];
+    return false;
+  };
+  std::vector<unsigned> sorted = named, first(part.vertices.size()), number(part.vertices.size());
+  std::vector<std::uint32_t> place(part.vertices.size(), 0);
+  for (std::uint32_t i = 0; i < named.size(); ++i) place[named[i]] = i;
+  std::sort(sorted.begin(), sorted.end(), [&](unsigned a, unsigned b) {
+    if (isLess(a, b) || isLess(b, a)) return isLess(a, b);
+    return place[a] < place[b];
+  });
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const bool is_alike = i > 0 && !isLess(sorted[i - 1], sorted[i]);
+    first[sorted[i]] = is_alike ? first[sorted[i - 1]] : sorted[i];
+  }
+  ReadPart joined;
+  joined.picture = part.picture;
+  for (const unsigned vertex : named) {
+    number[vertex] =
+        first[vertex] == vertex ? static_cast<unsigned>(joined.vertices.size()) : number[first[vertex]];
+    if (first[vertex] != vertex) continue;
+    joined.vertices.push_back(part.vertices[vertex]);
+    if (!part.normals.empty()) joined.normals.push_back(part.normals[vertex]);
+    if (!part.colors.empty()) joined.colors.push_back(part.colors[vertex]);
+    if (!part.uv.empty()) joined.uv.push_back(part.uv[vertex]);
+  }
+  for (const ReadPart::Corners& c : part.triangles)
+    joined.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+  return joined;
+}
+
 std::vector<std::uint8_t> answerBytes(const ReadMeshes& read) {
   std::vector<std::uint8_t> bytes(1, kParts);
   const auto put = [&bytes](const void* from, std::size_t count) {

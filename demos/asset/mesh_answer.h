@@ -1,7 +1,7 @@
 #pragma once
-// What the process that reads a mesh file answers: bytes. A letter, then an error's text, or the number of a
-// system's refusal, or the number of parts and of each its five lists and its picture's number, the pictures,
-// and the notes; a list begins with the number of its items. Tested in
+// The meshes that the process that reads a file has, and what it answers: bytes. A letter, then an error's
+// text, or the number of a system's refusal, or the number of parts and of each its five lists and its
+// picture's number, the pictures, and the notes; a list begins with the number of its items. Tested in
 // tests/demos/asset/mesh_answer_test.cpp.
 
 #include <array>
@@ -30,6 +30,10 @@ struct ReadPart {
   std::vector<Corners> triangles;
   std::int32_t picture = -1;
 };
+
+/// The part with those of its vertices that are named, in that order; what is alike in place, normal, colour
+/// and place on the picture is one vertex. All that triangles name must be named.
+ReadPart joinedPart(const ReadPart& part, const std::vector<unsigned>& named);
 
 /// All that is read of a file.
 struct ReadMeshes {

@@ -1,6 +1,7 @@
 #include "demos/asset/mesh_import.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,11 +13,10 @@
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include "demos/asset/asset_path.h"
-#include "demos/asset/byte_order.h"
+#include "demos/asset/assimp_file.h"
 #include "demos/asset/gltf_nodes.h"
 #include "demos/asset/mesh_answer.h"
 #include "demos/asset/mesh_header.h"
@@ -25,6 +25,7 @@
 #include "demos/system/bounded_process.h"
 #include "engine/foundation/contract.h"
 #include "engine/foundation/input_file.h"
+#include "engine/solid/decomposition/polygon_triangles.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
@@ -107,18 +108,49 @@ std::vector<Point> colorsOf(const aiMesh& mesh, const aiScene& scene) {
   return colors;
 }
 
-/// Of what assimp has triangulated: points and lines are left out.
+/// The corners of a face's triangles. Each version of assimp cuts polygons in another way.
+std::vector<std::array<int, 3>> cutFace(const std::vector<Vec3>& corners) {
+  const int count = static_cast<int>(corners.size());
+  if (count == 3) return {{0, 1, 2}};
+  constexpr double kFlat = 1e-7;  // of the face's size: corners in single precision
+  Vec3 twice_area = Vec3::Zero();
+  double size = 0.0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice_area += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+    size = std::max(size, (corners[i] - corners[0]).norm());
+  }
+  if (const double length = twice_area.norm(); length > 0.0) {
+    const PlaneCoordinates inPlane{tangentBasis(twice_area / length)};
+    std::vector<int> ring;
+    std::vector<Vec2> points;
+    for (int i = 0; i < count; ++i) {
+      ring.push_back(i);
+      points.push_back(inPlane(corners[static_cast<std::size_t>(i)] - corners[0]));
+    }
+    if (auto cut = polygonTriangles({ring}, points, kFlat * size)) return std::move(cut->triangles);
+  }
+  std::vector<std::array<int, 3>> fan;
+  for (int i = 1; i + 1 < count; ++i) fan.push_back({0, i, i + 1});
+  return fan;
+}
+
+/// Points and lines are left out.
 std::vector<Corners> trianglesOf(const aiMesh& mesh, bool mirrored) {
   std::vector<Corners> triangles;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices != 3) continue;
-    Corners corners{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-    if (mirrored) std::swap(corners[1], corners[2]);
-    if (std::max({corners[0], corners[1], corners[2]}) >= mesh.mNumVertices)
-      throw Unsuitable("a face of mesh \"" + std::string(mesh.mName.C_Str()) +
-                       "\" names a vertex that is not there");
-    triangles.push_back(corners);
+    if (face.mNumIndices < 3) continue;
+    std::vector<Vec3> corners;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      if (face.mIndices[k] >= mesh.mNumVertices)
+        throw Unsuitable("a face of mesh \"" + std::string(mesh.mName.C_Str()) +
+                         "\" names a vertex that is not there");
+      corners.push_back(vectorOf(mesh.mVertices[face.mIndices[k]]));
+    }
+    for (const std::array<int, 3>& t : cutFace(corners)) {
+      triangles.push_back({face.mIndices[t[0]], face.mIndices[t[1]], face.mIndices[t[2]]});
+      if (mirrored) std::swap(triangles.back()[1], triangles.back()[2]);
+    }
   }
   return triangles;
 }
@@ -218,6 +250,22 @@ bool hasFaces(const aiMesh& mesh) {
   return (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) != 0;
 }
 
+/// Its vertices in the order in which faces name them: assimp's own numbers are others in each version.
+std::vector<unsigned> namedVertices(const aiMesh& mesh) {
+  std::vector<unsigned> named;
+  std::vector<bool> is_named(mesh.mNumVertices, false);
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    for (unsigned k = 0; face.mNumIndices >= 3 && k < face.mNumIndices; ++k) {
+      const unsigned vertex = face.mIndices[k];
+      if (is_named[vertex]) continue;
+      is_named[vertex] = true;
+      named.push_back(vertex);
+    }
+  }
+  return named;
+}
+
 /// Where assimp's nodes stand: as a glTF file writes it, else as assimp has it.
 class NodePlacements {
  public:
@@ -279,7 +327,8 @@ std::vector<ReadPart> collectParts(const aiScene& scene, const NodePlacements& p
     const aiNode& node = *visit.node.read;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-      if (hasFaces(mesh)) parts.push_back(placedPart(mesh, scene, visit.X_FN, book));
+      if (hasFaces(mesh))
+        parts.push_back(joinedPart(placedPart(mesh, scene, visit.X_FN, book), namedVertices(mesh)));
     }
     if (parts.size() > kMostMeshParts)
       throw Unsuitable("more than " + std::to_string(kMostMeshParts) +
@@ -296,12 +345,11 @@ std::vector<ReadPart> collectParts(const aiScene& scene, const NodePlacements& p
 std::vector<std::uint8_t> readFile(const fs::path& path) {
   try {
     Assimp::Importer importer;
-    constexpr unsigned kSteps = aiProcess_JoinIdenticalVertices | aiProcess_Triangulate;
-    const TurnedFile turned = inOrderOf(std::endian::native, path);
-    const aiScene* scene = turned.bytes.empty()
-                               ? importer.ReadFile(path.string(), kSteps)
-                               : importer.ReadFileFromMemory(turned.bytes.data(), turned.bytes.size(), kSteps,
-                                                             turned.ending.c_str());
+    const AssimpFile file = assimpFile(path, std::endian::native);
+    const aiScene* scene =
+        file.bytes.empty()
+            ? importer.ReadFile(path.string(), 0)
+            : importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(), 0, file.ending.c_str());
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (scene == nullptr) tryInputFile(path);  // assimp does not say whether the system refused the file

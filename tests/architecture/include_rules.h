@@ -90,7 +90,7 @@ inline const std::vector<Library>& guardedLibraries() {
       {"Cairo", "cairo", {"renderer/drawing/canvas.cpp"}},
       {"libjpeg", "jpeglib.h", {"demos/asset/jpeg_picture.cpp"}},
       {"assimp", "assimp/", {"demos/asset/mesh_import.cpp"}},
-      {"tinygltf", "tiny_gltf.h", {"demos/asset/byte_order.cpp", "demos/record/motion_gltf.cpp"}},
+      {"tinygltf", "tiny_gltf.h", {"demos/asset/assimp_file.cpp", "demos/record/motion_gltf.cpp"}},
       {"qhull", "libqhull", {"engine/solid/convex_hull.cpp"}}};
   return libraries;
 }

@@ -1,4 +1,5 @@
-// What the process that reads a mesh answers: whole, cut off anywhere, and changed anywhere.
+// What the process that reads a mesh answers: whole, cut off anywhere, and changed anywhere; and vertices
+// that are alike, which become one.
 
 #include "demos/asset/mesh_answer.h"
 
@@ -13,6 +14,8 @@
 
 namespace carom::demos {
 namespace {
+
+using Point = ReadPart::Point;
 
 ReadMeshes triangle() {
   ReadPart part;
@@ -80,6 +83,38 @@ TEST(MeshAnswer, OfAnErrorIsItsText) {
     FAIL();
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code().value(), static_cast<int>(std::errc::permission_denied));
+  }
+}
+
+TEST(MeshAnswer, JoinsWhatIsAlikeInTheOrderInWhichItIsNamed) {
+  ReadPart part;
+  part.vertices = {{5, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, -0.0, 3}, {0, 0, 3}, {1, 0, 0}};
+  part.triangles = {{3, 5, 2}, {1, 2, 4}};
+  part.picture = 7;
+  const ReadPart joined = joinedPart(part, {3, 5, 2, 1, 4});
+  const std::vector<ReadPart::Place> places{{0, 0, 3}, {1, 0, 0}, {0, 2, 0}};
+  EXPECT_EQ(joined.vertices, places) << "none that is not named";
+  const std::vector<ReadPart::Corners> triangles{{0, 1, 2}, {1, 2, 0}};
+  EXPECT_EQ(joined.triangles, triangles);
+  EXPECT_EQ(joined.picture, 7);
+}
+
+TEST(MeshAnswer, KeepsApartWhatLooksAnother) {
+  ReadPart part;
+  part.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  part.triangles = {{0, 1, 2}, {3, 2, 1}};
+  const std::vector<Point> alike(4, Point{0, 0, 1});
+  std::vector<Point> another = alike;
+  another[3] = {0, 0, -1};
+  const std::vector<unsigned> named{0, 1, 2, 3};
+  part.normals = part.colors = part.uv = alike;
+  EXPECT_EQ(joinedPart(part, named).vertices.size(), 3u);
+  for (std::vector<Point> ReadPart::*list : {&ReadPart::normals, &ReadPart::colors, &ReadPart::uv}) {
+    ReadPart changed = part;
+    changed.*list = another;
+    const ReadPart joined = joinedPart(changed, named);
+    EXPECT_EQ(joined.vertices.size(), 4u);
+    EXPECT_EQ((joined.*list)[3], another[3]);
   }
 }
 

@@ -1,7 +1,8 @@
-#include "demos/asset/byte_order.h"
+#include "demos/asset/assimp_file.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <sstream>
 #include <vector>
 
 #include <tiny_gltf.h>
@@ -28,7 +29,7 @@ bool isBinaryStl(const std::string& bytes) {
   return bytes.size() == kHead + kCount + triangles * kTriangle;
 }
 
-TurnedFile turnedStl(const fs::path& path) {
+AssimpFile turnedStl(const fs::path& path) {
   std::string bytes = readTextFile(path);
   if (!isBinaryStl(bytes)) return {};
   auto at = bytes.begin() + kHead;
@@ -112,7 +113,7 @@ class Buffers {
 };
 
 /// Its buffers are embedded, so that one text is all of it.
-TurnedFile turnedGltf(const fs::path& path) {
+AssimpFile turnedGltf(const fs::path& path) {
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
                            int, void*) { return true; },
@@ -134,12 +135,28 @@ TurnedFile turnedGltf(const fs::path& path) {
   return {file.text(), "gltf"};
 }
 
+/// Of a binary one assimp reads the head alone.
+AssimpFile offWithoutComments(const fs::path& path) {
+  std::istringstream lines(readTextFile(path));
+  std::string text;
+  bool is_changed = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t comment = line.find('#');
+    is_changed = is_changed || comment != std::string::npos;
+    line.resize(std::min(line.size(), comment));
+    if (line.find_first_not_of(" \t\r") != std::string::npos) text += line + '\n';
+  }
+  if (!is_changed) return {};
+  return {std::move(text), "off"};
+}
+
 }  // namespace
 
-TurnedFile inOrderOf(std::endian order, const fs::path& path) {
-  if (order == std::endian::little) return {};
+AssimpFile assimpFile(const fs::path& path, std::endian order) {
   const std::string ending = path.extension().string();
   try {
+    if (ending == ".off") return offWithoutComments(path);
+    if (order == std::endian::little) return {};
     if (ending == ".stl") return turnedStl(path);
     if (ending == ".gltf" || ending == ".glb") return turnedGltf(path);
   } catch (const InputError&) {  // assimp says it in its own words

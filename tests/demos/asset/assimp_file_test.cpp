@@ -1,6 +1,6 @@
-// Meshes whose numbers are turned round for a big-endian processor.
+// Meshes whose numbers are turned round for a big-endian processor, and OFF without comments.
 
-#include "demos/asset/byte_order.h"
+#include "demos/asset/assimp_file.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "demos/asset/mesh_import.h"
 #include "demos/format/base64.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,9 +27,9 @@ std::filesystem::path shipped(const char* name) {
   return std::filesystem::path(CAROM_SOURCE_DIR) / "assets/meshes" / name;
 }
 
-TEST(ByteOrder, EachNumberOfABinaryStl) {
+TEST(AssimpFile, EachNumberOfABinaryStl) {
   const std::string before = bytesOf(shipped("pyramid.stl"));
-  const TurnedFile turned = inOrderOf(std::endian::big, shipped("pyramid.stl"));
+  const AssimpFile turned = assimpFile(shipped("pyramid.stl"), std::endian::big);
   const std::string& after = turned.bytes;
   EXPECT_EQ(turned.ending, "stl");
   ASSERT_EQ(after.size(), before.size());
@@ -44,17 +45,17 @@ TEST(ByteOrder, EachNumberOfABinaryStl) {
   }
 }
 
-TEST(ByteOrder, LeavesWhatNeedsNone) {
-  EXPECT_EQ(inOrderOf(std::endian::little, shipped("pyramid.stl")).bytes, "");
-  EXPECT_EQ(inOrderOf(std::endian::little, shipped("dumbbell.gltf")).bytes, "");
-  EXPECT_EQ(inOrderOf(std::endian::big, shipped("wedge.stl")).bytes, "") << "text";
-  EXPECT_EQ(inOrderOf(std::endian::big, shipped("prism.ply")).bytes, "") << "says its order itself";
+TEST(AssimpFile, LeavesWhatNeedsNone) {
+  EXPECT_EQ(assimpFile(shipped("pyramid.stl"), std::endian::little).bytes, "");
+  EXPECT_EQ(assimpFile(shipped("dumbbell.gltf"), std::endian::little).bytes, "");
+  EXPECT_EQ(assimpFile(shipped("wedge.stl"), std::endian::big).bytes, "") << "text";
+  EXPECT_EQ(assimpFile(shipped("prism.ply"), std::endian::big).bytes, "") << "says its order itself";
   const TemporaryFolder folder;
   const std::string whole = bytesOf(shipped("pyramid.stl"));
   const auto cut = folder.file("cut.stl", whole.substr(0, whole.size() - 1));
-  EXPECT_EQ(inOrderOf(std::endian::big, cut).bytes, "");
-  EXPECT_EQ(inOrderOf(std::endian::big, folder.file("none.gltf", "{")).bytes, "");
-  EXPECT_EQ(inOrderOf(std::endian::big, folder.file("none.glb", "glTF")).bytes, "");
+  EXPECT_EQ(assimpFile(cut, std::endian::big).bytes, "");
+  EXPECT_EQ(assimpFile(folder.file("none.gltf", "{"), std::endian::big).bytes, "");
+  EXPECT_EQ(assimpFile(folder.file("none.glb", "glTF"), std::endian::big).bytes, "");
 }
 
 std::string embedded(const std::string& bytes) {
@@ -64,7 +65,7 @@ std::string embedded(const std::string& bytes) {
 
 // Two numbers of four bytes twice, one array within the other; then two of two, two of one, a sparse index
 // and its value.
-TEST(ByteOrder, EachNumberOfGltfOnce) {
+TEST(AssimpFile, EachNumberOfGltfOnce) {
   const TemporaryFolder folder;
   const auto path = folder.file("a.gltf", R"({"asset": {"version": "2.0"},
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC2"},
@@ -77,10 +78,23 @@ TEST(ByteOrder, EachNumberOfGltfOnce) {
      {"buffer": 0, "byteOffset": 12, "byteLength": 2}, {"buffer": 0, "byteOffset": 14, "byteLength": 6}],
     "buffers": [{"byteLength": 20, "uri": "data:application/octet-stream;base64,)" +
                                               embedded("abcdefghijklmnopqrst") + R"("}]})");
-  const TurnedFile turned = inOrderOf(std::endian::big, path);
+  const AssimpFile turned = assimpFile(path, std::endian::big);
   EXPECT_EQ(turned.ending, "gltf");
   EXPECT_NE(turned.bytes.find(embedded("dcbahgfejilkmnpotsrq")), std::string::npos) << turned.bytes;
   EXPECT_EQ(turned.bytes.find(embedded("abcdefghijklmnopqrst")), std::string::npos) << turned.bytes;
+}
+
+TEST(AssimpFile, OffHasNoCommentsAndNoEmptyLines) {
+  const TemporaryFolder folder;
+  const auto path =
+      folder.file("a.off", "OFF\n# by hand\n3 1 0 # counts\n\n0 0 0\r\n1 0 0\n#\n0 1 0\n3 0 1 2\n");
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const AssimpFile file = assimpFile(path, order);
+    EXPECT_EQ(file.bytes, "OFF\n3 1 0 \n0 0 0\r\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_EQ(file.ending, "off");
+  }
+  EXPECT_EQ(importMesh(path).parts.size(), 1u);
+  EXPECT_EQ(assimpFile(shipped("icosahedron.off"), std::endian::little).bytes, "") << "has none";
 }
 
 }  // namespace
