@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "demos/cli/help_formatter.h"
 #include "demos/cli/shared_options.h"
 #include "demos/system/build_info.h"
 
@@ -37,6 +38,7 @@ void CommandLine::groupOptions() {
 }
 
 CommandLine::CommandLine() {
+  app.formatter(helpFormatter());  // which commands inherit when they are added
   app.set_version_flag("-V,--version", "carom " + programVersion() + " (" + buildName() + ")");
   app.footer(
       "Example: carom render sliding -o out/frame_%04d.png\n"
@@ -80,6 +82,7 @@ CommandLine::CommandLine() {
   version_command = app.add_subcommand("version", "The version and the build; the same as --version");
   version_command->footer("Example: carom version");
   groupOptions();
+  headOtherOptions(app);
   for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
   app.allow_extras();
   app.require_subcommand(0, 1);

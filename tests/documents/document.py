@@ -30,10 +30,13 @@ class Block:
 
 def documents_of(root):
     """The paths of all Markdown files that belong to the tree, from the root."""
-    out = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard", "*.md"],
-                         capture_output=True, text=True)
-    if out.returncode == 0 and out.stdout:
-        return sorted(line for line in out.stdout.splitlines() if (root / line).exists())
+    try:
+        out = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard", "*.md"],
+                             capture_output=True, text=True)
+        if out.returncode == 0 and out.stdout:
+            return sorted(line for line in out.stdout.splitlines() if (root / line).exists())
+    except FileNotFoundError:  # no git: a tree of an archive
+        pass
     folders = (".github", "assets", "demos", "engine", "renderer", "tests")
     found = [*root.glob("*.md"), *(path for folder in folders for path in (root / folder).rglob("*.md"))]
     return sorted(path.relative_to(root).as_posix() for path in found)

@@ -226,7 +226,7 @@ TEST_F(Failures, ARunWhoseNumbersGiveOutEndsWith5AndSaysWhenAndWhose) {
 TEST_F(Failures, NoRendererEndsWith6AndLeavesNothing) {
   for (const Words& words : {commands().at("render"), commands().at("budget"), Words{"doctor"}}) {
     const Program without(words, {"MESA_GL_VERSION_OVERRIDE=2.1"});
-    expectOneLine(without.wait(), 6, "OSMesa offers no OpenGL core context here");
+    expectOneLine(without.wait(), 6, "EGL offers no OpenGL core context here");
     EXPECT_TRUE(fs::is_empty(without.folder()));
     const Program slow(words, {"GALLIUM_DRIVER=softpipe"});
     expectOneLine(slow.wait(), 6, "softpipe");

@@ -114,7 +114,8 @@ TEST_F(Workers, AnyNumberOfThemGivesTheSameFilesAndRecords) {
 
 TEST_F(Workers, EitherBackEndGivesTheSameFiles) {
   try {
-    renderer::createOffscreenContext(renderer::PixelPolicy::kFast, renderer::GlBackend::kEgl);
+    for (const auto backend : {renderer::GlBackend::kEgl, renderer::GlBackend::kOsmesa})
+      renderer::createOffscreenContext(renderer::PixelPolicy::kFast, backend);
   } catch (const renderer::NoRenderer& error) {
     GTEST_SKIP() << error.what();
   }
