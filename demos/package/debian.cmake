@@ -25,7 +25,7 @@ frames on machines without display or graphics card.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "carom (= ${PROJECT_VERSION}), libeigen3-dev, libqhull-dev, libpng-dev, libcairo2-dev, pkg-config")
+  "carom (= ${PROJECT_VERSION}), libeigen3-dev, libqhull-dev, libpng-dev, libcairo2-dev, pkgconf | pkg-config")
 if(ISAL_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libisal-dev")
 endif()
