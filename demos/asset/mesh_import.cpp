@@ -250,7 +250,8 @@ bool hasFaces(const aiMesh& mesh) {
   return (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) != 0;
 }
 
-/// Its vertices in the order in which faces name them: assimp's own numbers are others in each version.
+/// Its vertices in the order in which faces name them, all of which are there: assimp's own numbers are
+/// others in each version.
 std::vector<unsigned> namedVertices(const aiMesh& mesh) {
   std::vector<unsigned> named;
   std::vector<bool> is_named(mesh.mNumVertices, false);
@@ -327,8 +328,9 @@ std::vector<ReadPart> collectParts(const aiScene& scene, const NodePlacements& p
     const aiNode& node = *visit.node.read;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-      if (hasFaces(mesh))
-        parts.push_back(joinedPart(placedPart(mesh, scene, visit.X_FN, book), namedVertices(mesh)));
+      if (!hasFaces(mesh)) continue;
+      const ReadPart part = placedPart(mesh, scene, visit.X_FN, book);
+      parts.push_back(joinedPart(part, namedVertices(mesh)));
     }
     if (parts.size() > kMostMeshParts)
       throw Unsuitable("more than " + std::to_string(kMostMeshParts) +

@@ -146,6 +146,35 @@ TEST(MeshImport, AppliesTheTransformsOfNodes) {
   EXPECT_NEAR(low, -0.6, 1e-6);
 }
 
+// An L that is extruded, its caps one polygon of six corners each, and named from a corner that no fan may
+// begin at; the vertices are numbered as faces name them.
+TEST(MeshImport, CutsPolygonsThatAreNotConvex) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("l.obj",
+                                "v 9 9 9\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+                                "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
+                                "f 13 8 9 10 11 12\nf 7 6 5 4 3 2\n"
+                                "f 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 7 13 12\nf 7 2 8 13\n");
+  const ImportedMesh mesh = importMesh(path);
+  ASSERT_EQ(mesh.parts.size(), 1u);
+  const MeshPart& part = mesh.parts[0];
+  ASSERT_EQ(part.vertices.size(), 12u);
+  EXPECT_EQ(part.vertices[0], Vec3(0, 2, 1));
+  EXPECT_EQ(part.vertices[1], Vec3(0, 0, 1));
+  ASSERT_EQ(part.triangles.size(), 20u);
+  double cap = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = [&](std::size_t k) {
+      return part.vertices[static_cast<std::size_t>(part.triangles[static_cast<std::size_t>(i)][k])];
+    };
+    const double area = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).z();
+    EXPECT_GT(area, 0.0) << "none is turned over";
+    cap += area;
+  }
+  EXPECT_DOUBLE_EQ(cap, 3.0);
+  EXPECT_NEAR(meshSolid(path).report.volume_m3, 3.0, 1e-12);
+}
+
 TEST(MeshImport, FitsTheLongestSideAndCentres) {
   const std::vector<ConvexPart> parts = meshSolid(shipped("hammer.obj"), {.fit_m = 0.3}).parts;
   Eigen::AlignedBox3d bounds;
