@@ -10,6 +10,7 @@
 #include "demos/asset/asset_path.h"
 #include "demos/asset/gltf_nodes.h"
 #include "demos/format/base64.h"
+#include "demos/format/byte_message.h"
 #include "demos/format/json.h"
 #include "engine/foundation/contract.h"
 
@@ -22,11 +23,8 @@ constexpr std::size_t kHead = 80, kCount = 4, kCoordinate = 4, kCoordinates = 12
 constexpr std::size_t kTriangle = kCoordinates * kCoordinate + kColor;
 
 bool isBinaryStl(const std::string& bytes) {
-  if (bytes.size() < kHead + kCount) return false;
-  std::uint64_t triangles = 0;
-  for (std::size_t i = kCount; i > 0; --i)
-    triangles = triangles << 8 | static_cast<std::uint8_t>(bytes[kHead + i - 1]);
-  return bytes.size() == kHead + kCount + triangles * kTriangle;
+  return bytes.size() >= kHead + kCount &&
+         bytes.size() == kHead + kCount + littleEndianWord(&bytes[kHead], kCount) * kTriangle;
 }
 
 AssimpFile turnedStl(const fs::path& path) {
@@ -135,7 +133,7 @@ AssimpFile turnedGltf(const fs::path& path) {
   return {file.text(), "gltf"};
 }
 
-/// Of a binary one assimp reads the head alone.
+/// In text: assimp reads no binary one.
 AssimpFile offWithoutComments(const fs::path& path) {
   std::istringstream lines(readTextFile(path));
   std::string text;

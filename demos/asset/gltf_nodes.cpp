@@ -1,24 +1,17 @@
 #include "demos/asset/gltf_nodes.h"
 
 #include <array>
-#include <cstdint>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/byte_message.h"
 #include "demos/format/json.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
 namespace fs = std::filesystem;
 namespace {
-
-std::uint32_t littleEndian(std::string_view bytes) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 4; i > 0; --i) number = number << 8 | static_cast<std::uint8_t>(bytes[i - 1]);
-  return number;
-}
 
 template <std::size_t N>
 std::array<double, N> numbersOf(const Json& node, const char* key, std::array<double, N> otherwise) {
@@ -83,7 +76,7 @@ std::string gltfText(const fs::path& path) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   if (!file.starts_with("glTF")) return file;
   if (file.size() < kHeader + kChunkHeader) return {};
-  return file.substr(kHeader + kChunkHeader, littleEndian(std::string_view(file).substr(kHeader, 4)));
+  return file.substr(kHeader + kChunkHeader, littleEndianWord(&file[kHeader], 4));
 }
 
 GltfNodes gltfNodes(const fs::path& path) {

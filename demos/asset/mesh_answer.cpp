@@ -4,79 +4,71 @@
 #include <cstring>
 #include <utility>
 
+#include "demos/format/byte_message.h"
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
 namespace {
 
-constexpr std::uint8_t kError = 'e', kParts = 'p', kRefused = 'r';  // of the last: the system's number
+constexpr std::uint8_t kError = 'e', kParts = 'p', kRefused = 'r';
 
-/// Takes the answer apart; nothing where it is no answer.
+/// Takes the answer apart; nothing where it is no answer, for who wrote it may have gone astray.
 class AnswerReader {
  public:
   explicit AnswerReader(std::span<const std::uint8_t> rest) : rest_(rest) {}
 
   std::optional<ImportedMesh> mesh() {
     ImportedMesh mesh;
-    const std::optional<std::size_t> parts = count();
+    const auto parts = number<std::size_t>();
     if (!parts || *parts > kMostMeshParts) return std::nullopt;
-    for (std::size_t i = 0; i < *parts; ++i) {
-      MeshPart part;
-      std::vector<Vec3> places;
-      if (!points<ReadPart::Place>(part.vertices) || !points<ReadPart::Point>(part.normals) ||
-          !points<ReadPart::Point>(part.colors) || !points<ReadPart::Point>(places))
-        return std::nullopt;
-      const std::size_t vertices = part.vertices.size();
-      if (!part.normals.empty() && part.normals.size() != vertices) return std::nullopt;
-      if (!part.colors.empty() && part.colors.size() != vertices) return std::nullopt;
-      if (!places.empty() && places.size() != vertices) return std::nullopt;
-      for (const Vec3& place : places) part.uv.push_back(place.head<2>());
-      const std::optional<std::size_t> triangles = count();
-      if (!triangles || *triangles > rest_.size() / sizeof(ReadPart::Corners)) return std::nullopt;
-      for (std::size_t k = 0; k < *triangles; ++k) {
-        ReadPart::Corners c;
-        take(&c, sizeof c);
-        if (std::max({c[0], c[1], c[2]}) >= vertices) return std::nullopt;
-        part.triangles.push_back({static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2])});
-      }
-      std::int32_t picture = -1;
-      if (rest_.size() < sizeof picture) return std::nullopt;
-      take(&picture, sizeof picture);
-      if (picture >= 0 && !part.uv.empty()) part.picture_of.assign(part.triangles.size(), picture);
-      mesh.parts.push_back(std::move(part));
-    }
+    for (std::size_t i = 0; i < *parts; ++i)
+      if (!part(mesh.parts.emplace_back())) return std::nullopt;
     if (!pictures(mesh) || !notes(mesh) || !rest_.empty()) return std::nullopt;
     return mesh;
   }
 
  private:
+  bool part(MeshPart& part) {
+    std::vector<Vec3> places;
+    const auto isOfEach = [&part](const auto& of_vertices) {
+      return of_vertices.empty() || of_vertices.size() == part.vertices.size();
+    };
+    if (!points<ReadPart::Place>(part.vertices) || !points<ReadPart::Point>(part.normals) ||
+        !points<ReadPart::Point>(part.colors) || !points<ReadPart::Point>(places) ||
+        !isOfEach(part.normals) || !isOfEach(part.colors) || !isOfEach(places))
+      return false;
+    for (const Vec3& place : places) part.uv.push_back(place.head<2>());
+    const auto triangles = list<ReadPart::Corners>();
+    if (!triangles) return false;
+    for (const ReadPart::Corners& c : *triangles) {
+      if (std::max({c[0], c[1], c[2]}) >= part.vertices.size()) return false;
+      part.triangles.push_back({static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2])});
+    }
+    const auto picture = number<std::int32_t>();
+    if (!picture) return false;
+    if (*picture >= 0 && !part.uv.empty()) part.picture_of.assign(part.triangles.size(), *picture);
+    return true;
+  }
   template <typename Written>
   bool points(std::vector<Vec3>& into) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size() / sizeof(Written)) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      Written p;
-      take(&p, sizeof p);
+    const auto written = list<Written>();
+    if (!written) return false;
+    for (const Written& p : *written) {
       into.emplace_back(p[0], p[1], p[2]);
       if (!into.back().allFinite()) return false;
     }
     return true;
   }
   bool pictures(ImportedMesh& mesh) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size()) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      SurfacePicture picture;
-      if (rest_.size() < 2 * sizeof(int)) return false;
-      take(&picture.width, sizeof picture.width);
-      take(&picture.height, sizeof picture.height);
-      const std::optional<std::size_t> bytes = count();
-      if (!bytes || *bytes > rest_.size() || picture.width < 1 || picture.height < 1 ||
-          *bytes != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+    const auto count = number<std::size_t>();
+    if (!count || *count > rest_.size()) return false;
+    for (std::size_t k = 0; k < *count; ++k) {
+      const auto width = number<int>(), height = number<int>();
+      auto rgb = list<std::uint8_t>();
+      if (!width || !height || !rgb || *width < 1 || *height < 1 ||
+          rgb->size() != 3 * static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height))
         return false;
-      picture.rgb.resize(*bytes);
-      take(picture.rgb.data(), *bytes);
-      mesh.pictures.push_back(std::move(picture));
+      mesh.pictures.push_back({*width, *height, *std::move(rgb)});
     }
     for (const MeshPart& part : mesh.parts)
       for (const int picture : part.picture_of)
@@ -84,30 +76,40 @@ class AnswerReader {
     return true;
   }
   bool notes(ImportedMesh& mesh) {
-    const std::optional<std::size_t> number = count();
-    if (!number || *number > rest_.size()) return false;
-    for (std::size_t k = 0; k < *number; ++k) {
-      const std::optional<std::size_t> length = count();
-      if (!length || *length > rest_.size()) return false;
-      std::string note(*length, ' ');
-      take(note.data(), *length);
-      mesh.notes.push_back(std::move(note));
+    const auto count = number<std::size_t>();
+    if (!count || *count > rest_.size()) return false;
+    for (std::size_t k = 0; k < *count; ++k) {
+      const auto note = list<char>();
+      if (!note) return false;
+      mesh.notes.emplace_back(note->begin(), note->end());
     }
     return true;
   }
-  std::optional<std::size_t> count() {
-    std::size_t value = 0;
+  template <typename Number>
+  std::optional<Number> number() {
+    Number value{};
     if (rest_.size() < sizeof value) return std::nullopt;
-    take(&value, sizeof value);
+    std::memcpy(&value, rest_.data(), sizeof value);
+    rest_ = rest_.subspan(sizeof value);
     return value;
   }
-  void take(void* to, std::size_t size) {
-    std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
+  template <typename Item>
+  std::optional<std::vector<Item>> list() {
+    const auto bytes = number<std::size_t>();
+    if (!bytes || *bytes > rest_.size() || *bytes % sizeof(Item) != 0) return std::nullopt;
+    std::vector<Item> items(*bytes / sizeof(Item));
+    if (!items.empty()) std::memcpy(items.data(), rest_.data(), *bytes);
+    rest_ = rest_.subspan(*bytes);
+    return items;
   }
 
   std::span<const std::uint8_t> rest_;
 };
+
+template <typename Item>
+std::span<const std::uint8_t> bytesOf(const std::vector<Item>& list) {
+  return {reinterpret_cast<const std::uint8_t*>(list.data()), list.size() * sizeof(Item)};
+}
 
 }  // namespace
 
@@ -119,12 +121,8 @@ ReadPart joinedPart(const ReadPart& part, const std::vector<unsigned>& named) {
     return false;
   };
   std::vector<unsigned> sorted = named, first(part.vertices.size()), number(part.vertices.size());
-  std::vector<std::uint32_t> place(part.vertices.size(), 0);
-  for (std::uint32_t i = 0; i < named.size(); ++i) place[named[i]] = i;
-  std::sort(sorted.begin(), sorted.end(), [&](unsigned a, unsigned b) {
-    if (isLess(a, b) || isLess(b, a)) return isLess(a, b);
-    return place[a] < place[b];
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   isLess);  // of what is alike, the first that is named comes first
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const bool is_alike = i > 0 && !isLess(sorted[i - 1], sorted[i]);
     first[sorted[i]] = is_alike ? first[sorted[i - 1]] : sorted[i];
@@ -146,37 +144,21 @@ ReadPart joinedPart(const ReadPart& part, const std::vector<unsigned>& named) {
 }
 
 std::vector<std::uint8_t> answerBytes(const ReadMeshes& read) {
-  std::vector<std::uint8_t> bytes(1, kParts);
-  const auto put = [&bytes](const void* from, std::size_t count) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + count);
-    if (count > 0) std::memcpy(bytes.data() + before, from, count);
-  };
-  const auto putList = [&put](const auto& list) {
-    const std::size_t count = list.size();
-    put(&count, sizeof count);
-    put(list.data(), count * sizeof list[0]);
-  };
-  const std::size_t count = read.parts.size();
-  put(&count, sizeof count);
+  MessageWriter answer;
+  answer.put(kParts).put(read.parts.size());
   for (const ReadPart& part : read.parts) {
-    putList(part.vertices);
-    putList(part.normals);
-    putList(part.colors);
-    putList(part.uv);
-    putList(part.triangles);
-    put(&part.picture, sizeof part.picture);
+    answer.put(bytesOf(part.vertices))
+        .put(bytesOf(part.normals))
+        .put(bytesOf(part.colors))
+        .put(bytesOf(part.uv));
+    answer.put(bytesOf(part.triangles)).put(part.picture);
   }
-  const std::size_t pictures = read.pictures.size(), notes = read.notes.size();
-  put(&pictures, sizeof pictures);
-  for (const SurfacePicture& picture : read.pictures) {
-    put(&picture.width, sizeof picture.width);
-    put(&picture.height, sizeof picture.height);
-    putList(picture.rgb);
-  }
-  put(&notes, sizeof notes);
-  for (const std::string& note : read.notes) putList(note);
-  return bytes;
+  answer.put(read.pictures.size());
+  for (const SurfacePicture& picture : read.pictures)
+    answer.put(picture.width).put(picture.height).put(bytesOf(picture.rgb));
+  answer.put(read.notes.size());
+  for (const std::string& note : read.notes) answer.put(note);
+  return std::move(answer).bytes();
 }
 
 std::vector<std::uint8_t> errorBytes(const std::string& text) {

@@ -1,7 +1,7 @@
 #pragma once
 // The meshes that the process that reads a file has, and what it answers: bytes. A letter, then an error's
 // text, or the number of a system's refusal, or the number of parts and of each its five lists and its
-// picture's number, the pictures, and the notes; a list begins with the number of its items. Tested in
+// picture's number, the pictures, and the notes; a list begins with the number of its bytes. Tested in
 // tests/demos/asset/mesh_answer_test.cpp.
 
 #include <array>

@@ -112,13 +112,11 @@ std::vector<Point> colorsOf(const aiMesh& mesh, const aiScene& scene) {
 std::vector<std::array<int, 3>> cutFace(const std::vector<Vec3>& corners) {
   const int count = static_cast<int>(corners.size());
   if (count == 3) return {{0, 1, 2}};
-  constexpr double kFlat = 1e-7;  // of the face's size: corners in single precision
   Vec3 twice_area = Vec3::Zero();
-  double size = 0.0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
     twice_area += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
-    size = std::max(size, (corners[i] - corners[0]).norm());
-  }
+  double reach = 0.0;
+  for (const Vec3& corner : corners) reach = std::max(reach, corner.cwiseAbs().maxCoeff());
   if (const double length = twice_area.norm(); length > 0.0) {
     const PlaneCoordinates inPlane{tangentBasis(twice_area / length)};
     std::vector<int> ring;
@@ -127,7 +125,7 @@ std::vector<std::array<int, 3>> cutFace(const std::vector<Vec3>& corners) {
       ring.push_back(i);
       points.push_back(inPlane(corners[static_cast<std::size_t>(i)] - corners[0]));
     }
-    if (auto cut = polygonTriangles({ring}, points, kFlat * size)) return std::move(cut->triangles);
+    if (auto cut = polygonTriangles({ring}, points, kRounding * reach)) return std::move(cut->triangles);
   }
   std::vector<std::array<int, 3>> fan;
   for (int i = 1; i + 1 < count; ++i) fan.push_back({0, i, i + 1});

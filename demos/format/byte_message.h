@@ -1,17 +1,27 @@
 #pragma once
 // Values one after another as bytes, for messages between processes of this program: the same build writes
-// and reads them, so nothing is converted. Tested in tests/demos/format/byte_message_test.cpp.
+// and reads them, so nothing is converted; and numbers of files, whose bytes have an order of their own.
+// Tested in tests/demos/format/byte_message_test.cpp.
 
 #include <cstdint>
 #include <cstring>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/foundation/contract.h"
 
 namespace carom::demos {
+
+/// The number that a file's bytes are, at most eight, the least first.
+inline std::uint64_t littleEndianWord(const void* bytes, std::size_t count) {
+  const auto* at = static_cast<const unsigned char*>(bytes);
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < count; ++i) word |= static_cast<std::uint64_t>(at[i]) << (8 * i);
+  return word;
+}
 
 class MessageWriter {
  public:
@@ -30,7 +40,8 @@ class MessageWriter {
   MessageWriter& put(const std::string& text) {
     return put(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
   }
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  const std::vector<std::uint8_t>& bytes() const& { return bytes_; }
+  std::vector<std::uint8_t> bytes() && { return std::move(bytes_); }
 
  private:
   std::vector<std::uint8_t> bytes_;

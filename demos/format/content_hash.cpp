@@ -1,16 +1,8 @@
 #include "demos/format/content_hash.h"
 
+#include "demos/format/byte_message.h"
+
 namespace carom::demos {
-namespace {
-
-inline std::uint64_t littleEndianWord(const unsigned char* at, std::size_t width) {
-  std::uint64_t word = 0;
-  for (std::size_t i = 0; i < width; ++i) word |= static_cast<std::uint64_t>(at[i]) << (8 * i);
-  return word;
-}
-
-}  // namespace
-
 void ContentHash::mix(std::uint64_t word) {
   state_ = (state_ ^ word) *
            0x9e3779b97f4a7c15ull;  // odd, bits of the golden ratio: every input bit reaches the top

@@ -34,5 +34,13 @@ TEST(ByteMessage, TakingMoreThanThereIsIsABug) {
   EXPECT_THROW(MessageReader(message.bytes()).takeText(), ContractViolation);
 }
 
+TEST(LittleEndianWord, BeginsWithTheLeastByte) {
+  const unsigned char bytes[] = {0x01, 0x02, 0xff, 0x04, 0, 0, 0, 0x80};
+  EXPECT_EQ(littleEndianWord(bytes, 0), 0u);
+  EXPECT_EQ(littleEndianWord(bytes, 2), 0x0201u);
+  EXPECT_EQ(littleEndianWord(bytes, 4), 0x04ff0201u);
+  EXPECT_EQ(littleEndianWord(bytes, 8), 0x8000000004ff0201u);
+}
+
 }  // namespace
 }  // namespace carom::demos
