@@ -1,4 +1,5 @@
 // carom: carries out the command line; what it throws becomes one line on stderr and an exit code.
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -24,6 +25,12 @@ void occupyStandardDescriptors() {
     if (::fcntl(descriptor, F_GETFD) != -1) continue;
     if (::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY) != descriptor) std::abort();
   }
+}
+
+/// A file that grows beyond the process's limit (`ulimit -f`) is an error of its write, whichever file it is:
+/// also what a library keeps for the next time.
+void takeFileLimitsAsErrors() {
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 /// What one frame frees serves the next: given back to the system, its pages would be fetched and cleared
@@ -53,6 +60,7 @@ void tell(const std::string& message) {
 
 int main(int argc, char** argv) {
   occupyStandardDescriptors();
+  takeFileLimitsAsErrors();
   tellCrashesOfLimitedMemory();
   keepFreedMemory();
   try {

@@ -94,7 +94,7 @@ WorkerProcess::WorkerProcess(const Work& work, std::span<const WorkerProcess> si
   if (id_ == 0) {
     ::close(sockets[0]);
     for (const WorkerProcess& sibling : siblings) ::close(sibling.descriptor_);
-    for (const int ignored : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) std::signal(ignored, SIG_IGN);
+    for (const int ignored : {SIGINT, SIGTERM, SIGPIPE}) std::signal(ignored, SIG_IGN);
     sigprocmask(SIG_SETMASK, &held.before(), nullptr);
     runChild(work, sockets[1]);
   }

@@ -384,6 +384,10 @@ TEST_F(LongJob, AFullDiskEndsItWith4AndLeavesNothingPartial) {
                 "cannot write to standard output: No space left on device");
   expectOneLine(shell("ulimit -f 1;", arguments("limited")), 4, "f_0000.png: File too large");
   EXPECT_FALSE(fs::exists(folder.path() / "limited"));
+  // The shaders that are kept for the next time are a file as well, written before the first frame.
+  expectOneLine(shell("ulimit -f 1; XDG_CACHE_HOME=\"$PWD/none-kept\"", arguments("limited")), 4,
+                "f_0000.png: File too large");
+  EXPECT_FALSE(fs::exists(folder.path() / "limited"));
   expectOneLine(shell("ulimit -f 2;", {"simulate", scene.string(), "-q", "-o", "run.carom"}), 4,
                 "cannot write run.carom: File too large");
   EXPECT_FALSE(fs::exists(folder.path() / "run.carom"));
