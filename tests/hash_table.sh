@@ -4,25 +4,26 @@
 # explorer with each, and prints a table of what equals the first cell's. hash_table.sh [CELL...]; without cells, those
 # that can be built here; the cell `release` is the release build as it is. Scenes run for SCENE_S seconds (1), SEEDS random
 # worlds (200) for SEED_S (0.25). hash_table.sh --states [CELL...] builds half of the program and looks at the states of the
-# scenes alone.
+# scenes alone (SEEDS worlds more, where it is set).
 #
 # A cell's libraries come from a folder made by mmdebstrap, once, from Debian 12's packages (13's for riscv64, which 12 has no
 # release for); what is needed:
 #   apt-get install clang mmdebstrap qemu-user g++-{aarch64,i686,powerpc64le,riscv64,s390x}-linux-gnu
-# WebAssembly has no cell: Debian packages neither assimp nor qhull for emscripten.
+# The cell wasm-O2, for --states, is WebAssembly by emscripten and node, in a system of its own (hashes/webassembly.sh; root).
 # Exit 1: a cell differs; each difference is a line of build/hashes/CELL.differs. Exit 77: a cell's libraries cannot be had.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
 
-SCENE_S=${SCENE_S:-1} SEED_S=${SEED_S:-0.25} SEEDS=${SEEDS:-200} JOBS=${JOBS:-$(nproc)}
+SCENE_S=${SCENE_S:-1} SEED_S=${SEED_S:-0.25} JOBS=${JOBS:-$(nproc)}
 work=${CAROM_BUILD:-build}/hashes
 mkdir -p "$work"
 target=carom program=demos/carom
 if [ "${1-}" = --states ]; then
-  target=state_hashes program=tests/hashes/state_hashes SEEDS=0
+  target=state_hashes program=tests/hashes/state_hashes SEEDS=${SEEDS:-0}
   shift
 fi
+SEEDS=${SEEDS:-200}
 work=$(realpath "$work")
 
 # cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
@@ -32,7 +33,7 @@ declare -A cells=(
   [i686-O3]="i686-linux-gnu-g++|-O3 -msse2 -mfpmath=sse|i386|i386" [aarch64-O3]="aarch64-linux-gnu-g++|-O3|arm64|aarch64"
   [aarch64-O2]="aarch64-linux-gnu-g++|-O2|arm64|aarch64" [ppc64el-O3]="powerpc64le-linux-gnu-g++|-O3|ppc64el|ppc64le"
   [s390x-O3]="s390x-linux-gnu-g++|-O3|s390x|s390x"
-  [riscv64-O3]="riscv64-linux-gnu-g++|-O3|riscv64|riscv64|trixie")
+  [riscv64-O3]="riscv64-linux-gnu-g++|-O3|riscv64|riscv64|trixie" [wasm-O2]="em++|-O2|wasm|node")
 order=(gcc-O3 gcc-O2 gcc-O0 gcc-O3-avx2 clang-O3 clang-O2 clang-O0 clang-O3-avx2 i686-O3 aarch64-O3 aarch64-O2 ppc64el-O3
   s390x-O3 riscv64-O3)
 
@@ -44,7 +45,9 @@ system_root() {
   local architecture release root archive
   architecture=$(field "$1" 3) release=$(field "$1" 5)
   root=${CAROM_SYSTEM_ROOTS:-$work/roots}/$architecture
-  if [ ! -d "$root/usr" ]; then
+  if [ ! -d "$root/usr" ] && [ "$architecture" = wasm ]; then
+    bash tests/hashes/webassembly.sh make "$root" || return 1
+  elif [ ! -d "$root/usr" ]; then
     mkdir -p "$(dirname "$root")"
     # The main archive alone, where this machine has it from: that of security updates may not hold together while it changes.
     archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
@@ -67,6 +70,11 @@ build() {
   debian=$(field "$1" 3)
   if [ -n "$debian" ]; then
     root=$(system_root "$1") || { echo "the libraries of $1 cannot be had" >&2; exit 77; }
+    if [ "$debian" = wasm ]; then
+      [ "$target" = state_hashes ] || { echo "$1 is for --states" >&2; return 1; }
+      bash tests/hashes/webassembly.sh build "$root" "$folder" "$(field "$1" 2)" >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
+      return
+    fi
     more=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$(field "$1" 4)" -DCMAKE_SYSROOT="$root"
       -DCMAKE_FIND_ROOT_PATH="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
       -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
@@ -89,6 +97,8 @@ run_cell() {
   [ "$cell" != release ] || folder=$release
   if [ -z "$(field "$cell" 3)" ]; then
     "$folder/$program" "$@"
+  elif [ "$(field "$cell" 3)" = wasm ]; then
+    bash tests/hashes/webassembly.sh run "$(system_root "$cell")" "$folder/$program.js" "$@"
   else
     "qemu-$(field "$cell" 4)" -L "$(system_root "$cell")" "$folder/$program" "$@"
   fi

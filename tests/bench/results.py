@@ -30,6 +30,7 @@ TABLES = {
                " gcc-O3-avx2 clang-O3 clang-O2 clang-O0 clang-O3-avx2", True),
     "hashes-processors": ("One state hash: other processors", "bash tests/hash_table.sh gcc-O3 i686-O3 s390x-O3 riscv64-O3"
                           " ppc64el-O3 aarch64-O3 aarch64-O2", True),
+    "hashes-webassembly": ("One state hash: WebAssembly", "SEEDS=200 bash tests/hash_table.sh --states gcc-O3 wasm-O2", True),
     "piles-all": ("Piles, with the large ones", "bash tests/bench/pile.sh --all", True),
     "physics-all": ("Closed forms, with the long rows", "bash tests/bench/physics.sh --all", True),
     "stress": ("Contact, the long suite", "bash tests/bench/stress.sh", True),
