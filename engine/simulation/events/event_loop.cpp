@@ -180,6 +180,15 @@ class EventLoop {
     }
   }
 
+  // What a kinematic body presses was to go with it until the end of the step; the event has stopped it.
+  void pressAnewWhatStops(double time_s) {
+    if (time_s >= settings_.step_s) return;
+    for (std::size_t k = 0, count = changed_.size(); k < count; ++k) {  // pressAnew adds to them
+      const int i = changed_[k];
+      if (bodies_[at(i)].is_kinematic && bodies_[at(i)].travel == Travel::kHeld) pressAnew(i, time_s);
+    }
+  }
+
   // What can give way to a kinematic body: it moves, or rests and is woken.
   bool givesWay(int index) const {
     const Body& body = bodies_[at(index)];
@@ -190,21 +199,11 @@ class EventLoop {
   void stopDrivenOf(const ShapePair& pair, double time_s) {
     changed_.clear();
     for (const int i : {pair.body_a, pair.body_b}) stopDriven(i, time_s);
-    endForcesOfStopped(time_s);
     searchAgain(time_s);
   }
 
   void stopDriven(int index, double time_s) {
-    if (!paths_.stopDriven(index, time_s)) return;
-    changed_.push_back(index);
-    stopped_.push_back(index);
-  }
-
-  // What a kinematic body pressed was to go with it until the end of the step.
-  void endForcesOfStopped(double time_s) {
-    if (time_s < settings_.step_s)
-      for (const int i : stopped_) pressAnew(i, time_s);
-    stopped_.clear();
+    if (paths_.stopDriven(index, time_s)) changed_.push_back(index);
   }
 
   void predict(int index) {
@@ -301,7 +300,6 @@ class EventLoop {
     if (changed_.size() == others) return false;
     for (const int body : std::span(changed_).first(others))
       if (bodies_[at(body)].travel == Travel::kBallistic) planner_.plan(body, bodies_[at(body)]);
-    endForcesOfStopped(time_s);
     searchAgain(time_s);
     return true;
   }
@@ -345,7 +343,6 @@ class EventLoop {
         cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
     for (int i : both)
       if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) paths_.hold(i);
-    endForcesOfStopped(time_s);
     searchAgain(time_s);
   }
 
@@ -434,6 +431,7 @@ class EventLoop {
   }
 
   void searchAgain(double time_s) {
+    pressAnewWhatStops(time_s);
     for (const int pair : pairsWithNewPaths(time_s)) predict(pair);
   }
 
@@ -471,7 +469,6 @@ class EventLoop {
   PathClearing& clearing_;
   PathLifts& lifts_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::vector<int> stopped_;  ///< Kinematic bodies that the event stopped.
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::vector<Event> alike_;  ///< Scratch.
 };
