@@ -9,30 +9,19 @@
 # folder, removed at the end).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tests/clean_system.sh
 
 suite=${1:-bookworm} packages=${2-}
 if [ -n "${CHROOTS-}" ]; then systems=$(realpath -m "$CHROOTS"); else systems=$(mktemp -d); trap 'rm -rf "$systems"' EXIT; fi
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 
-# make NAME: a clean system.
-make() {
-  rm -rf "${systems:?}/$1"
-  mkdir -p "$systems"
-  # A mirror that has not been brought up to date for a while will do.
-  mmdebstrap --quiet --variant=minbase --aptopt='Acquire::Check-Valid-Until "false"' "$suite" "$systems/$1" >&2
-  cp /etc/resolv.conf "$systems/$1/etc/resolv.conf"
-}
-# inside NAME COMMAND: with what programs expect to find. In a room of its own, so that nothing stays mounted.
-inside() {
-  unshare --mount --pid --fork bash -ec 'mount -t proc none "$0/proc"; mount --rbind /dev "$0/dev"; exec chroot "$0" bash -ec "$1"' \
-    "$systems/$1" "$2"
-}
+inside() { inside_system "$systems/$1" "$2"; }
 # steps STAGE: the RUN lines of the Containerfile's first or second stage.
 steps() { awk -v stage="$1" '/^FROM/ { at++ } at == stage && sub(/^RUN /, "")' demos/package/Containerfile; }
 run_steps() { steps "$2" | while read -r step; do echo "[$1] $step"; inside "$1" "cd ${3:-/}; $step" </dev/null; done; }
 
 if [ -z "$packages" ]; then
-  make build
+  make_clean_system "$systems/build" "$suite"
   mkdir "$systems/build/src"
   git archive HEAD | tar -x -C "$systems/build/src"
   run_steps build 1 /src
@@ -41,7 +30,7 @@ if [ -z "$packages" ]; then
   packages=$systems/build/packages
 fi
 
-make use
+make_clean_system "$systems/use" "$suite"
 mkdir "$systems/use/packages"
 cp "$packages"/*.deb "$systems/use/packages"
 run_steps use 2

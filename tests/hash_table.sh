@@ -14,16 +14,17 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source demos/packages.sh
+source tests/clean_system.sh
 
 SCENE_S=${SCENE_S:-1} SEED_S=${SEED_S:-0.25} JOBS=${JOBS:-$(nproc)}
 work=${CAROM_BUILD:-build}/hashes
 mkdir -p "$work"
-target=carom program=demos/carom
+target=carom program=demos/carom random_worlds=200
 if [ "${1-}" = --states ]; then
-  target=state_hashes program=tests/hashes/state_hashes SEEDS=${SEEDS:-0}
+  target=state_hashes program=tests/hashes/state_hashes random_worlds=0
   shift
 fi
-SEEDS=${SEEDS:-200}
+SEEDS=${SEEDS:-$random_worlds}
 work=$(realpath "$work")
 
 # cell: compiler | flags | Debian's architecture | qemu-user's | Debian's release, where it is not bookworm
@@ -49,8 +50,8 @@ system_root() {
     bash tests/hashes/webassembly.sh make "$root" || return 1
   elif [ ! -d "$root/usr" ]; then
     mkdir -p "$(dirname "$root")"
-    # The main archive alone, where this machine has it from: that of security updates may not hold together while it changes.
-    archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
+    # The main archive alone: that of security updates may not hold together while it changes.
+    archive=$(main_archive)
     mmdebstrap --quiet --variant=extract --architectures="$architecture" --include=libc6-dev,libstdc++-12-dev,libassimp-dev,draco,libqhull-dev,libpng-dev,libtinygltf-dev,nlohmann-json3-dev,libcli11-dev,libeigen3-dev \
       "${release:-bookworm}" "$root" ${archive:+"$archive"} >&2 || { rm -rf "$root"; return 1; }
     [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"  # later releases make it when they are installed
@@ -120,7 +121,7 @@ hash_worlds() {
     [ "$SEEDS" -eq 0 ] || find "$work/worlds" -name '*.json' | sort -V | sed "s/\$/ $SEED_S/"; } |
     xargs -d '\n' -P "$JOBS" -n 1 bash -c 'hash_world "$0" "${1% *}" "${1##* }"' "$1" | sort >"$work/$1.hashes"
 }
-export -f hash_world run_cell field system_root
+export -f hash_world run_cell field system_root main_archive
 release=$(realpath -m "$(build_folder release)")
 export work release target program
 

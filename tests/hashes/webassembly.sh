@@ -7,30 +7,17 @@
 # Of assimp, the readers of what the shipped scenes hold: OBJ, OFF, PLY, STL and glTF.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source tests/clean_system.sh
 
 command=$1 system=$(realpath -m "$2")
 shift 2
 common="-fwasm-exceptions -ffp-contract=off"
 
-# inside COMMAND [FOLDER...]: in the system, where these folders of this one are to be seen, in a room of its own.
-inside() {
-  unshare --mount --pid --fork bash -ec 'system=$0 command=$1; shift
-    mount -t proc none "$system/proc"; mount --rbind /dev "$system/dev"
-    for folder in "$@"; do mkdir -p "$system$folder"; mount --bind "$folder" "$system$folder"; done
-    exec chroot "$system" bash -ec "$command"' "$system" "$@"
-}
-
-# archive: where this machine has Debian's main archive from.
-archive() { apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1; }
-
 make_system() {
-  mkdir -p "$(dirname "$system")"
-  mmdebstrap --quiet --variant=minbase --aptopt='Acquire::Check-Valid-Until "false"' \
-    --include=emscripten,nodejs,cmake,ninja-build,dpkg-dev,pkg-config,libeigen3-dev,nlohmann-json3-dev,libcli11-dev,libutfcpp-dev,libstb-dev \
-    trixie "$system" >&2
-  cp /etc/resolv.conf "$system/etc/resolv.conf"
-  echo "deb-src $(archive) bookworm main" >"$system/etc/apt/sources.list.d/sources.list"
-  inside "$(declare -f unpack_sources build_small build_assimp describe_small); common='$common'
+  make_clean_system "$system" trixie emscripten nodejs cmake ninja-build dpkg-dev pkg-config libeigen3-dev nlohmann-json3-dev \
+    libcli11-dev libutfcpp-dev libstb-dev
+  echo "deb-src $(main_archive) bookworm main" >"$system/etc/apt/sources.list.d/sources.list"
+  inside_system "$system" "$(declare -f unpack_sources build_small build_assimp describe_small); common='$common'
     unpack_sources; build_small; build_assimp; describe_small" >&2
 }
 
@@ -46,9 +33,8 @@ unpack_sources() {
 
 # Libraries of a few files: compiled as they are.
 build_small() {
-  local zlib png qhull gltf
+  local zlib png qhull gltf compile
   zlib=$(echo /sources/zlib-*/) png=$(echo /sources/libpng1.6-*/) qhull=$(echo /sources/qhull-*/src) gltf=$(echo /sources/tinygltf-*/)
-  local compile
   read -ra compile <<<"-O2 -w $common -I/prefix/include -c"
   cp "$zlib"/*.h "$png"/*.h /prefix/include
   cp "$png/scripts/pnglibconf.h.prebuilt" /prefix/include/pnglibconf.h
@@ -92,7 +78,7 @@ describe_small() {
 build_program() {
   local folder=$1 flags=$2
   mkdir -p "$folder"
-  inside "export PKG_CONFIG_LIBDIR=/prefix/lib/pkgconfig EM_PKG_CONFIG_PATH=/prefix/lib/pkgconfig
+  inside_system "$system" "export PKG_CONFIG_LIBDIR=/prefix/lib/pkgconfig EM_PKG_CONFIG_PATH=/prefix/lib/pkgconfig
     emcmake cmake -S '$PWD' -B '$folder' -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=/prefix -DCMAKE_FIND_ROOT_PATH=/prefix \
       -DCMAKE_CXX_FLAGS='$common -D_LIBCPP_ENABLE_EXPERIMENTAL -include $PWD/tests/hashes/webassembly.h' \
       -DCMAKE_CXX_FLAGS_RELEASE='$flags -DNDEBUG' -DCMAKE_UNITY_BUILD=ON -DCAROM_RENDERER=OFF -DCAROM_BUILD_TESTS=OFF \
@@ -104,12 +90,16 @@ build_program() {
 }
 
 case $command in
-  make) make_system || { rm -rf "$system"; exit 1; } ;;
+  make)
+    trap 'rm -rf "$system"' EXIT  # half of one is none
+    make_system
+    trap - EXIT
+    ;;
   build) build_program "$(realpath -m "$1")" "$2" ;;
   run)
     program=$(realpath "$1")
     shift
-    inside "cd '$PWD'; node '$program' ${*@Q}" "$PWD" "$(dirname "$program")"
+    inside_system "$system" "cd '$PWD'; node '$program' ${*@Q}" "$PWD" "$(dirname "$program")"
     ;;
   *) echo "webassembly.sh make, build or run" >&2; exit 2 ;;
 esac
