@@ -23,12 +23,14 @@ class LeapWatch {
 
   /// `kinetic_J`: of all bodies, before and after the step, added up.
   void after(std::span<const BodyState> states, Real kinetic_J, int step, Findings& findings) {
-    const Real fallen = gravity_ * dt_s_;
-    const Real energy_J = kinetic_J + mass_ * (kOpening * kOpening + fallen * fallen);
+    // Speeds weighted by the roots of masses are a vector whose length energy gives, and to which gravity
+    // adds.
+    const Real fallen = std::sqrt(mass_) * gravity_ * dt_s_;
+    const Real length = std::sqrt(2 * (kinetic_J + mass_ * kOpening * kOpening)) + fallen;
     for (const OwnBody& body : bodies_) {
       const auto i = static_cast<std::size_t>(body.index);
       const Vec3R gone = (states[i].X_WB.position - before_[i].X_WB.position).cast<Real>();
-      const Real most = dt_s_ * std::sqrt(2 * energy_J / body.mass);
+      const Real most = dt_s_ * length / std::sqrt(body.mass);
       if (gone.norm() > most)
         findings.add("leap", static_cast<double>(gone.norm() / most), step,
                      shown(static_cast<double>(gone.norm())) + " m in a step, at most " +

@@ -48,6 +48,10 @@ const char* const kFalling = R"({"format": 1, "rate": 100, "bodies": [
   {"name": "floor", "static": true, "shape": {"box": [9, 9, 1]}, "position": [0, 0, -0.5]},
   {"name": "ball", "shape": {"sphere": {"radius": 0.5}}, "position": [0, 0, 5], "angularVelocity": [0, 1, 2]}]})";
 
+const char* const kThrownDown = R"({"format": 1, "rate": 100, "bodies": [
+  {"name": "floor", "static": true, "shape": {"box": [9, 9, 1]}, "position": [0, 0, -0.5]},
+  {"name": "ball", "shape": {"sphere": {"radius": 0.5}}, "position": [0, 0, 5], "linearVelocity": [0, 0, -3]}]})";
+
 // A frictionless box in the middle of one tile, between two others.
 const char* const kGliding = R"({"format": 1, "rate": 100, "description": "glide",
   "materials": {"ice": {"staticFriction": 0, "density": 1000}}, "bodies": [
@@ -93,6 +97,8 @@ TEST(WorldJudge, SeesABodyLeap) {
   EXPECT_TRUE(of(judged(kFalling, beside), "leap"));
   const auto opened = [](std::vector<BodyState>& s, StepCounters&) { s[1].X_WB.position.y() += 1e-3; };
   EXPECT_FALSE(of(judged(kFalling, opened), "leap")) << "as far as a gap opens in a step";
+  const auto landed = [](std::vector<BodyState>& s, StepCounters&) { s[1].linear_velocity.setZero(); };
+  EXPECT_FALSE(of(judged(kThrownDown, landed, 5), "leap")) << "it fell all of the step";
 }
 
 TEST(WorldJudge, SeesMomentumOfAClosedSystemChange) {
