@@ -33,10 +33,12 @@ inline constexpr double kLyingSine = 0.087;
 
 // Substeps of bodies that move in contact.
 
-/// Seconds: a step is halved into substeps until they are no longer than this.
+/// Seconds: a step is halved into substeps until they are no longer than this ...
 inline constexpr double kFineStep = 1.0 / 240.0;
-/// Substeps of a step, at most.
-inline constexpr int kMostSubsteps = 8;
+/// ... nor than that this share of its radius is what pushes a body, times the substep's square: a rod that
+/// tips over keeps its energy to 1e-4, whatever its size (h^2 g / r is all that its motion in steps depends
+/// on).
+inline constexpr double kFineFall = 2.0e-3;
 /// Pairs that are awake, times substeps: where this is exceeded, the step has fewer substeps.
 inline constexpr int kFinePairs = 300;
 

@@ -75,6 +75,7 @@ struct World::Impl {
   void makeShapes();
   void wakeDriven();
   void planSubstep(double begin_s, double length_s, PhaseClock* clock);
+  double fineStep(const Body& body) const;
   int substepsWanted();
   void divideStep(int count);
   bool advance(PhaseClock* clock);
@@ -283,27 +284,35 @@ void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock
   wakeDriven();
 }
 
+// How long a substep may be for a body that is pushed as in the planned step.
+double World::Impl::fineStep(const Body& body) const {
+  const Velocity push = planner.gained(body);
+  const double acceleration = (push.linear.norm() + body.radius_m * push.angular.norm()) / settings.step_s;
+  return std::min(tolerance::kFineStep, std::sqrt(tolerance::kFineFall * body.radius_m / acceleration));
+}
+
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
 // is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
 int World::Impl::substepsWanted() {
-  int wanted = 1;
-  while (wanted < tolerance::kMostSubsteps &&
-         settings.step_s > wanted * tolerance::kFineStep * (1.0 + kSameLength))
-    wanted *= 2;
-  const std::span<const int> list = active.list();
   // At its apex a body in flight is as slow as one that lies, and so is one that has just been put down.
-  const bool stirred = std::any_of(list.begin(), list.end(), [&](int i) {
-    return !bodies[at(i)].liesStill() || !bodies[at(i)].supported;
-  });
-  if (wanted == 1 || !stirred) return 1;
+  const auto stirs = [](const Body& body) { return !body.liesStill() || !body.supported; };
+  const std::span<const int> list = active.list();
+  if (std::none_of(list.begin(), list.end(), [&](int i) { return stirs(bodies[at(i)]); })) return 1;
+  double length_s = tolerance::kFineStep;
   int awake = 0;
   for (const int place : table.active()) {
     const ShapePair& pair = table.pairs()[at(place)];
-    awake += bodies[at(pair.body_a)].moves() || bodies[at(pair.body_b)].moves();
-    if (2 * awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
+    const Body& a = bodies[at(pair.body_a)];
+    const Body& b = bodies[at(pair.body_b)];
+    if (!a.moves() && !b.moves()) continue;
+    if (2 * ++awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
+    for (const Body* body : {&a, &b})
+      if (body->moves() && stirs(*body)) length_s = std::min(length_s, fineStep(*body));
   }
-  if (awake == 0) return 1;
-  while (wanted > 1 && wanted * awake > tolerance::kFinePairs) wanted /= 2;
+  int wanted = 1;
+  while (settings.step_s > wanted * length_s * (1.0 + kSameLength) &&
+         2 * wanted * awake <= tolerance::kFinePairs && awake > 0)
+    wanted *= 2;
   return wanted;
 }
 
@@ -447,7 +456,7 @@ void World::step(PhaseClock* clock) {
   w.counters = {};
   w.active.beginStep(w.bodies);
   w.counters.active_bodies = static_cast<int>(w.active.list().size());
-  for (const int i : w.active.list()) w.bodies[at(i)].collided = false;
+  for (const int i : w.active.list()) w.bodies[at(i)].collided = w.bodies[at(i)].frozen = false;
   w.planSubstep(time(), w.settings.step_s, clock);
   w.divideStep(w.substepsWanted());
   const double length_s = w.settings.step_s / w.substeps;

@@ -36,10 +36,10 @@ class World {
   /// and all that follows are those of the poses that `states` then has.
   std::vector<Overlap> start();
   /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome. While
-  /// few bodies are in contact and move, a step longer than 1/240 s is made in substeps that are not longer.
-  /// Throws TooManyPairs, as does `start`, where more bodies come near each other than it can keep in mind;
-  /// the world must then not be stepped any more. Nor must it after a step that ends with a state that is not
-  /// finite, which is the step's last.
+  /// few bodies are in contact and move, it is made in substeps: of 1/240 s at most, and shorter for small
+  /// ones. Throws TooManyPairs, as does `start`, where more bodies come near each other than it can keep in
+  /// mind; the world must then not be stepped any more. Nor must it after a step that ends with a state that
+  /// is not finite, which is the step's last.
   void step(PhaseClock* clock = nullptr);
 
   /// From now on `view` is told of every step (and at once of the pairs and bounds of the start), which

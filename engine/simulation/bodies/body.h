@@ -125,6 +125,7 @@ struct Body : StepMotion {
   int events = 0;
   int cleared = 0;  ///< How often its path was led clear of another body.
   bool collided = false;
+  bool frozen = false;  ///< In some substep of this step: it is counted once.
 
   /// Whether impulses can move it.
   bool yields() const { return !is_static && !is_kinematic; }

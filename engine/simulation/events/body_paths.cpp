@@ -104,7 +104,8 @@ void BodyPaths::hold(int index) {
   }
   countLift(body, body.path.meanVelocity(body.path.start_s, restOf(body)), Vec3::Zero());
   endPath(body);
-  ++counters_.stopped_bodies;
+  counters_.stopped_bodies += !body.frozen;
+  body.frozen = true;
 }
 
 // From now on the body goes on at another mean velocity than it would have.
