@@ -54,16 +54,31 @@ void act(const RememberedImpulse& acting, const Vec3& arm, double dt_s, ImpulseB
 
 void ContactCluster::begin(int pair, const ClosestFeatures& closest, double time_s) {
   clear(time_s);
-  event_pair_ = pair;
-  pair_seen_[at(pair)] = number_;
-  closest_[at(pair)] = closest;
-  addPair(pair, closest);
+  addEvent(pair, closest);
 }
 
 void ContactCluster::begin(int pair, double time_s) {
   clear(time_s);
-  event_pair_ = pair;
-  addPair(pair, look(pair));
+  addEvent(pair, look(pair));
+}
+
+void ContactCluster::addEvent(int pair, const ClosestFeatures& closest) {
+  collided_.insert(collided_.end(), sources_.begin(), sources_.end());
+  sources_.clear();
+  rows_.clear();
+  event_pairs_.push_back(pair);
+  pair_seen_[at(pair)] = number_;
+  closest_[at(pair)] = closest;
+  addPair(pair, closest);
+  for (const int body : {table_.pairs()[at(pair)].body_a, table_.pairs()[at(pair)].body_b})
+    members_[at(join(body))].struck = true;
+}
+
+bool ContactCluster::hasRoomFor(const ShapePair& pair) const {
+  const auto joined = [this](int body) {
+    return bodies_[at(body)].yields() && body_joined_[at(body)] == number_;
+  };
+  return !joined(pair.body_a) && !joined(pair.body_b) && collided_.size() + sources_.size() < kCrowdRows;
 }
 
 void ContactCluster::clear(double time_s) {
@@ -85,6 +100,8 @@ void ContactCluster::clear(double time_s) {
   bends_.clear();
   paths_.clear();
   solve_before_.clear();
+  event_pairs_.clear();
+  collided_.clear();
   sources_.clear();
   rows_.clear();
 }
@@ -185,7 +202,7 @@ double ContactCluster::lowestSpeed(const SourcedRow& sourced) const {
   const ShapePair& pair = table_.pairs()[at(sourced.pair)];
   const GapSpeeds bounds = gapSpeeds(sourced.gap_m, pair, restOfStep());
   if (stage_ == Stage::kPath) return bounds.path;
-  if (sourced.pair == event_pair_) return 0.0;
+  if (sourced.pair == presentEvent()) return 0.0;
   const bool in_window = sourced.gap_m <= pair.window.ceiling;
   return in_window ? std::max(bounds.momentum, -kSlowShare * pair.collision_speed_mps) : bounds.momentum;
 }
@@ -205,10 +222,10 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
               .X_WA = bodies_[at(pair.body_a)].path.at(time_s_),
               .X_WB = bodies_[at(pair.body_b)].path.at(time_s_),
               .former = remembered.view(),
-              .struck = index == event_pair_},
+              .struck = index == presentEvent()},
              pair, bodies_, shapes_, stageBodies(), sources_);
   const double highest =
-      std::max(closest.distance_m, index == event_pair_ ? pair.window.ceiling : pair.window.manifold);
+      std::max(closest.distance_m, index == presentEvent() ? pair.window.ceiling : pair.window.manifold);
   std::erase_if(sources_, [&](const SourcedRow& s) { return s.pair == index && s.gap_m > highest; });
   for (std::size_t i = first; i < sources_.size(); ++i) {
     rows_.push_back(sources_[i].row);
@@ -273,19 +290,22 @@ bool ContactCluster::isNear(const ShapePair& pair) const {
 
 // Bodies may meet several others at the same instant and speed (a ball two that touch): one collision, so
 // that its outcome does not depend on who is asked first.
-void ContactCluster::joinSimultaneous(double approach_mps) {
+void ContactCluster::joinSimultaneous(double approach_mps, std::span<const int> alike) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (!bodies_[at(members_[i].body)].yields()) continue;
     for (int p : table_.pairsOf(members_[i].body)) {
       const ShapePair& pair = table_.pairs()[at(p)];
-      if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
+      if (pair_joined_[at(p)] == number_ || (!isNear(pair) && std::ranges::find(alike, p) == alike.end()))
+        continue;
       pair_joined_[at(p)] = number_;
       const Body& a = bodies_[at(pair.body_a)];
       const Body& b = bodies_[at(pair.body_b)];
       const ClosestFeatures& closest = look(p);
       const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
                             a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
-      if (closest.distance_m <= pair.window.ceiling && sameApproach(dot(closest.n_W, relative), approach_mps))
+      const bool together =
+          closest.distance_m <= pair.window.ceiling || std::ranges::find(alike, p) != alike.end();
+      if (together && sameApproach(dot(closest.n_W, relative), approach_mps))
         addPair(p, closest);
       else
         pair_joined_[at(p)] = 0;  // it may still join as a support
@@ -294,13 +314,13 @@ void ContactCluster::joinSimultaneous(double approach_mps) {
 }
 
 double ContactCluster::safeResidual() const {
-  return carom::safeResidual(table_.pairs()[at(event_pair_)].window, settings_.step_s);
+  return carom::safeResidual(table_.pairs()[at(presentEvent())].window, settings_.step_s);
 }
 
 double ContactCluster::noticeableSpeed() const {
   if (!isCrowd() || stage_ == Stage::kPath) return safeResidual();
   const double crowds = static_cast<double>(rows_.size()) / static_cast<double>(kCrowdRows);
-  return kCrowdRestGaps * crowds * crowds * table_.pairs()[at(event_pair_)].window.rest / settings_.step_s;
+  return kCrowdRestGaps * crowds * crowds * table_.pairs()[at(presentEvent())].window.rest / settings_.step_s;
 }
 
 bool ContactCluster::isCrowd() const {
@@ -432,10 +452,10 @@ std::vector<double> ContactCluster::findRestitution() {
   return restitution;
 }
 
-void ContactCluster::collide(bool spreads) {
+void ContactCluster::collide(bool spreads, std::span<const int> alike) {
   double approach = 0.0;
   for (const ContactRow& row : rows_) approach = std::min(approach, rowVelocity(row, momentum_).x());
-  if (!spreads && approach < 0.0) joinSimultaneous(approach);
+  if (!spreads && approach < 0.0) joinSimultaneous(approach, alike);
   std::vector<double> restitution = findRestitution();
   if (approach >= 0.0) return;
   const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });
@@ -454,7 +474,7 @@ void ContactCluster::collide(bool spreads) {
 void ContactCluster::startAgain() {
   for (std::size_t i = 0; i < members_.size(); ++i) momentum_[i].velocity = members_[i].momentum_before;
   std::erase_if(sources_, [&](const SourcedRow& s) {
-    return s.pair != event_pair_ && s.gap_m > table_.pairs()[at(s.pair)].window.ceiling;
+    return s.pair != presentEvent() && s.gap_m > table_.pairs()[at(s.pair)].window.ceiling;
   });
   rows_.clear();
   for (const SourcedRow& sourced : sources_) rows_.push_back(sourced.row);
@@ -532,24 +552,26 @@ void ContactCluster::takeOverForces(std::size_t first, std::size_t count) {
 
 // Points of the event's pair that press, but that the manifold of this instant does not show (of five corners
 // it keeps four): else two corners struck in turn would each undo what holds the other.
-void ContactCluster::recallPoints() {
-  if (sources_.empty() || sources_.front().pair != event_pair_) return;
-  const ShapePair& pair = table_.pairs()[at(event_pair_)];
-  std::size_t shown = 0;
-  while (shown < sources_.size() && sources_[shown].pair == event_pair_) ++shown;
+void ContactCluster::recallPoints(int event_pair) {
+  const auto of_event = [&](const SourcedRow& s) { return s.pair == event_pair; };
+  const auto begin = std::ranges::find_if(sources_, of_event);
+  if (begin == sources_.end()) return;
+  const auto first = static_cast<std::size_t>(begin - sources_.begin());
+  std::size_t end = first;
+  while (end < sources_.size() && of_event(sources_[end])) ++end;
+  const ShapePair& pair = table_.pairs()[at(event_pair)];
   for (const RememberedImpulse& acting : pair.remembered) {
-    if (shown >= ContactManifold::kMaxPoints) break;
-    const auto known = std::find_if(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(shown),
-                                    [&](const SourcedRow& s) { return s.id == acting.id; });
-    if (acting.force_W.isZero(0.0) || known != sources_.begin() + static_cast<std::ptrdiff_t>(shown))
-      continue;
-    SourcedRow recalled = sources_.front();
+    if (end - first >= ContactManifold::kMaxPoints) break;
+    const std::span<const SourcedRow> shown(&sources_[first], end - first);
+    const bool known = std::ranges::any_of(shown, [&](const SourcedRow& s) { return s.id == acting.id; });
+    if (acting.force_W.isZero(0.0) || known) continue;
+    SourcedRow recalled = sources_[first];
     recalled.id = acting.id;
     recalled.gap_m = pair.window.rest;  // held as it is
     recalled.row.r_a = acting.arm_a;
     recalled.row.r_b = acting.arm_b;
     if (rowVelocity(recalled.row, momentum_).x() > pair.collision_speed_mps) continue;
-    sources_.insert(sources_.begin() + static_cast<std::ptrdiff_t>(shown++), recalled);
+    sources_.insert(sources_.begin() + static_cast<std::ptrdiff_t>(end++), recalled);
   }
 }
 
@@ -570,7 +592,9 @@ void ContactCluster::support() {
     keepPlannedForces();
     return;
   }
-  recallPoints();
+  sources_.insert(sources_.begin(), collided_.begin(), collided_.end());
+  collided_.clear();
+  for (const int pair : event_pairs_) recallPoints(pair);
   rows_.clear();
   for (const SourcedRow& sourced : sources_) {
     rows_.push_back(sourced.row);
@@ -584,7 +608,7 @@ void ContactCluster::support() {
     if (!bodies_[at(members_[i].body)].yields()) continue;
     if (members_[i].expanded) {
       releaseDistant(members_[i].body);
-    } else if (i < 2) {
+    } else if (members_[i].struck) {
       members_[i].expanded = true;
       expand(members_[i].body);
     }

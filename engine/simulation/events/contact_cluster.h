@@ -37,6 +37,7 @@ class ContactCluster {
   struct Member {
     int body = -1;
     bool collided = false;  ///< Met another fast enough for restitution.
+    bool struck = false;    ///< One of an event's two bodies.
     bool expanded = false;  ///< All contacts of the body have joined.
     bool stops = false;     ///< Kinematic, and leaves others no room: solved as if it stopped now.
     Velocity momentum_before;
@@ -62,10 +63,17 @@ class ContactCluster {
 
   /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
   void begin(int pair, const ClosestFeatures& closest, double time_s);
+  /// After a collision: gives it the pair of another event of this instant, whose collision comes next; they
+  /// are supported together.
+  void addEvent(int pair, const ClosestFeatures& closest);
+  /// Whether it has room for that: its bodies have not joined, and there are few rows.
+  bool hasRoomFor(const ShapePair& pair) const;
   /// The same with a pair that is not an event: its closest features are looked up.
   void begin(int pair, double time_s);
-  /// The collision at the contacts, between the bodies of the event alone or with all that they press.
-  void collide(bool spreads);
+  /// The collision at the contacts, between the bodies of the event alone or with all that they press. Of the
+  /// pairs `alike`, which collide at this instant and speed as well, those of the same bodies take part in
+  /// it.
+  void collide(bool spreads, std::span<const int> alike);
   /// What kinematic bodies did by the impulses of the collision, J.
   double workOfCollision() const;
   /// Whether forces of lasting contact act on some member.
@@ -88,6 +96,7 @@ class ContactCluster {
   /// The closest features of a pair, if the cluster of this time has looked at them; else null.
   const ClosestFeatures* closestSeen(int pair, double time_s) const;
 
+  std::span<const int> eventPairs() const { return event_pairs_; }
   std::size_t size() const { return members_.size(); }
   const Member& member(std::size_t i) const { return members_[i]; }
   /// What impulses have made of member i; what its path is to be.
@@ -131,7 +140,7 @@ class ContactCluster {
   bool isInternal(int pair);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
-  void joinSimultaneous(double approach_mps);
+  void joinSimultaneous(double approach_mps, std::span<const int> alike);
   bool isNear(const ShapePair& pair) const;
   double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
   double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.
@@ -140,7 +149,8 @@ class ContactCluster {
   void fixPath(std::size_t i);
   void startAgain();
   bool collidesLater(const ContactRow& row, const SourcedRow& sourced) const;
-  void recallPoints();
+  int presentEvent() const { return event_pairs_.back(); }
+  void recallPoints(int event_pair);
   void releaseForces(int pair);
   void releaseDistant(int body);
   void takeOverForces(std::size_t first, std::size_t count);
@@ -168,7 +178,6 @@ class ContactCluster {
   double time_s_ = 0.0;
   long visits_ = 0;  ///< Of rows, in all solves.
   long most_visits_ = 0;
-  int event_pair_ = -1;
   Stage stage_ = Stage::kMomentum;
   bool stops_short_ = false;  ///< Impulses and forces have been solved as those of a crowd.
   std::vector<Member> members_;
@@ -179,6 +188,8 @@ class ContactCluster {
   std::vector<char> bends_;
   std::vector<ImpulseBody> paths_;
   std::vector<Velocity> solve_before_;  ///< Velocities when the stage's solve began.
+  std::vector<int> event_pairs_;        ///< The last is that of the present event.
+  std::vector<SourcedRow> collided_;    ///< Of the events before it.
   std::vector<SourcedRow> sources_;
   std::vector<ContactRow> rows_;
   // See ClusterMemory.

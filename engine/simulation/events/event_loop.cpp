@@ -24,13 +24,14 @@ constexpr int kTurningClearings = 8;
 constexpr int kMostClearings = 20;
 // How often in one step the motion of a body that has been led clear that often is halved; then it is frozen.
 constexpr int kMostHalvings = 2;
-// Instants of a step: times that differ by rounding are nearly always one.
-constexpr double kInstants = 0x1p32;
+// Of a step: times that are no farther apart, one after the other, are one instant; rounding tells mirror
+// images apart by less.
+constexpr double kInstant = 0x1p-32;
 
 // The time up to which a pair's gap is proven: there it must be looked at again, if its bodies still travel
 // as they did when it was predicted.
 struct Event {
-  std::int64_t instant = 0;     // its time, as the events are ordered
+  double time_s = 0.0;
   bool looked = false;          // then it is an impact or a stop at that time
   double separating_mps = 0.0;  // of the pair at that time, once it is looked
   std::uint64_t rank = 0;       // of the pair
@@ -39,14 +40,23 @@ struct Event {
   int body = -1;
 };
 
-// Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
-// is not. So all of an instant are looked at before one of them is resolved.
 struct Later {
   bool operator()(const Event& x, const Event& y) const {
-    return std::tie(x.instant, x.looked, x.separating_mps, x.rank) >
-           std::tie(y.instant, y.looked, y.separating_mps, y.rank);
+    return std::tie(x.time_s, x.rank, x.body) > std::tie(y.time_s, y.rank, y.body);
   }
 };
+
+// Of one instant, what approaches fastest comes first: that is the same in a mirror, the order of the pairs
+// is not.
+struct Slower {
+  bool operator()(const Event& x, const Event& y) const {
+    return std::make_tuple(x.pair >= 0, x.separating_mps, x.rank, x.body) >
+           std::make_tuple(y.pair >= 0, y.separating_mps, y.rank, y.body);
+  }
+};
+
+template <typename Before>
+using EventQueue = std::priority_queue<Event, std::vector<Event>, Before>;
 
 class EventLoop {
  public:
@@ -89,30 +99,48 @@ class EventLoop {
     }
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
-    while (!events_.empty()) {
+    while (gatherInstant()) {
+      if (instant_.empty()) continue;
+      const Event event = instant_.top();
+      instant_.pop();
+      if (event.pair < 0)
+        beginNextPiece(event.body);
+      else if (event.version != searches_.of(event.pair).version)
+        continue;
+      else if (searches_.isSpent())
+        freezePair(event.pair, event.time_s);
+      else
+        takeUpAllLike(event);
+    }
+    return true;
+  }
+
+ private:
+  // All events of an instant are looked at before one of them is resolved; what that brings about at once
+  // joins them. False where there are no more.
+  bool gatherInstant() {
+    if (instant_.empty()) {
+      if (events_.empty()) return false;
+      instant_s_ = events_.top().time_s;
+    }
+    while (!events_.empty() && events_.top().time_s <= instant_s_ + kInstant * settings_.step_s) {
       const Event event = events_.top();
       events_.pop();
-      if (event.pair < 0) {
-        beginNextPiece(event.body);
+      if (event.pair >= 0 && event.version != searches_.of(event.pair).version) continue;
+      if (event.looked || event.pair < 0) {
+        instant_s_ = std::max(instant_s_, event.time_s);
+        instant_.push(event);
         continue;
       }
-      const Prediction& prediction = searches_.of(event.pair);
-      if (event.version != prediction.version) continue;
-      if (event.looked && !searches_.isSpent()) {
-        takeUpAllLike(event);
-        continue;
-      }
-      const double time_s = prediction.found.time_s;  // up to here all pairs are proven
-      if (!event.looked) searches_.look(event.pair);
+      searches_.look(event.pair);
       if (searches_.isSpent())
-        freezePair(event.pair, time_s);
+        freezePair(event.pair, event.time_s);  // up to here all pairs are proven
       else
         await(event.pair);
     }
     return true;
   }
 
- private:
   // What will not bounce and would come down within the step is held in time where it is many, round by
   // round: what holds one may bring another down. Whether the step goes on.
   bool holdLandings(const LandingSolver& solve_landings) {
@@ -145,8 +173,7 @@ class EventLoop {
 
   void awaitNextPiece(int index) {
     const Body& body = bodies_[at(index)];
-    if (body.piece_end_s < settings_.step_s)
-      events_.push({.instant = instantOf(body.piece_end_s), .body = index});
+    if (body.piece_end_s < settings_.step_s) events_.push({.time_s = body.piece_end_s, .body = index});
   }
 
   void beginNextPiece(int index) {
@@ -211,10 +238,6 @@ class EventLoop {
     if (searches_.of(index).searched) await(index);
   }
 
-  std::int64_t instantOf(double time_s) const {
-    return static_cast<std::int64_t>(time_s / settings_.step_s * kInstants);
-  }
-
   // What a look has found, in the order of the events.
   void await(int index) {
     const Prediction& prediction = searches_.of(index);
@@ -223,22 +246,25 @@ class EventLoop {
     const bool pending = found.outcome == TimeOfImpact::Outcome::kPending;
     const double separating = pending ? 0.0 : searches_.separatingSpeed(index);
     const std::uint64_t rank = table_.pairs()[at(index)].rank;
-    events_.push({instantOf(found.time_s), !pending, separating, rank, index, prediction.version});
+    events_.push({found.time_s, !pending, separating, rank, index, prediction.version});
   }
 
   // The event and those of its instant and speed: what one of them sets in motion comes after all of them.
   void takeUpAllLike(const Event& first) {
     alike_.assign(1, first);
-    while (!events_.empty() && events_.top().instant == first.instant && events_.top().looked &&
-           sameApproach(events_.top().separating_mps, first.separating_mps)) {
-      alike_.push_back(events_.top());
-      events_.pop();
+    while (!instant_.empty() && sameApproach(instant_.top().separating_mps, first.separating_mps)) {
+      alike_.push_back(instant_.top());
+      instant_.pop();
     }
-    for (const Event& event : alike_)
-      if (event.version == searches_.of(event.pair).version) takeUp(event.pair);
+    alike_pairs_.clear();
+    for (const Event& event : alike_) alike_pairs_.push_back(event.pair);
+    for (std::size_t k = 0; k < alike_.size(); ++k)
+      if (isCurrent(alike_[k])) takeUp(alike_[k].pair, std::span<const Event>(alike_).subspan(k + 1));
   }
 
-  void takeUp(int index) {
+  bool isCurrent(const Event& event) const { return event.version == searches_.of(event.pair).version; }
+
+  void takeUp(int index, std::span<const Event> alike) {
     const TimeOfImpact& found = searches_.of(index).found;
     const ShapePair& pair = table_.pairs()[at(index)];
     if (!givesWay(pair.body_a) && !givesWay(pair.body_b)) {
@@ -252,10 +278,7 @@ class EventLoop {
       clearPaths(index, found);
       return;
     }
-    ++counters_.events;
-    searches_.strike(index);
-    counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
-    resolve(index, found);
+    resolve(index, found, alike);
   }
 
   // Leads two bodies' paths apart, and with them those that hang together with theirs.
@@ -304,46 +327,98 @@ class EventLoop {
     return true;
   }
 
-  // The impulses of one event, the paths that follow, and the searches that these make out of date.
-  void resolve(int index, const TimeOfImpact& found) {
-    const double time_s = found.time_s;
-    const ShapePair& pair = table_.pairs()[at(index)];
-    const std::array<int, 2> both{pair.body_a, pair.body_b};
-    int spent = 0;
-    for (int i : both) {
-      if (bodies_[at(i)].resting) wakeInStep(i);
-      if (bodies_[at(i)].yields()) spent = std::max(spent, ++bodies_[at(i)].events);
-    }
+  // Whom the impulses of a pair's event reach.
+  struct Reach {
+    bool crowded = false;  // its bodies have had many in this step
+    bool spreads = false;  // all that they press
+  };
+
+  // With so many more events.
+  Reach reachOf(const ShapePair& pair, int more) const {
+    int events = 0;
+    for (const int i : {pair.body_a, pair.body_b})
+      if (bodies_[at(i)].yields()) events = std::max(events, bodies_[at(i)].events + more);
     // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
     // speed are one; the others do not come back, and press at once on all that stands behind.
-    const int share = pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
-    const bool crowded = spent > share * tolerance::kPairEvents;
+    const bool crowded = events > shareOf(pair) * tolerance::kPairEvents;
     // What a body that was stopped strikes has perhaps no room behind it.
-    const bool spreads = crowded || pair.restitution == 0.0 || bodies_[at(pair.body_a)].was_stopped ||
-                         bodies_[at(pair.body_b)].was_stopped;
+    const bool was_stopped = bodies_[at(pair.body_a)].was_stopped || bodies_[at(pair.body_b)].was_stopped;
+    return {crowded, crowded || pair.restitution == 0.0 || was_stopped};
+  }
+
+  void spendEvent(const ShapePair& pair) {
+    for (const int i : {pair.body_a, pair.body_b})
+      if (bodies_[at(i)].yields()) ++bodies_[at(i)].events;
+  }
+
+  static int shareOf(const ShapePair& pair) {
+    return pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
+  }
+
+  // The collision of the event that the cluster has been given.
+  void collide(int index, bool spreads) {
+    const TimeOfImpact& found = searches_.of(index).found;
+    ++counters_.events;
+    searches_.strike(index);
+    counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
-      cluster_.begin(index, found.closest, time_s);
-      cluster_.collide(spreads);
+      cluster_.collide(spreads, alike_pairs_);
     }
     counters_.work_J += cluster_.workOfCollision();
-    goOn(time_s);
-    if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, time_s, *watchers_.view);
+    goOn(found.time_s);
+    if (watchers_.view != nullptr) recordCollision(bodies_, cluster_, found.time_s, *watchers_.view);
+  }
+
+  // Whether an event can be one with that in the cluster: an elastic collision of other bodies.
+  bool joins(const Event& event) const {
+    const ShapePair& pair = table_.pairs()[at(event.pair)];
+    const bool wakes = bodies_[at(pair.body_a)].resting || bodies_[at(pair.body_b)].resting;
+    return isCurrent(event) && cluster_.hasRoomFor(pair) && !wakes && !searches_.isSlow(event.pair) &&
+           (givesWay(pair.body_a) || givesWay(pair.body_b)) && !reachOf(pair, 1).spreads;
+  }
+
+  // The impulses of one event, and of those alike that join it, the paths that follow, and the searches that
+  // these make out of date. What stands between those that collide alike is supported once, after all of
+  // them, or it would be nearer to the first.
+  void resolve(int index, const TimeOfImpact& found, std::span<const Event> alike) {
+    const double time_s = found.time_s;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    for (const int i : {pair.body_a, pair.body_b})
+      if (bodies_[at(i)].resting) wakeInStep(i);
+    spendEvent(pair);
+    const auto [crowded, spreads] = reachOf(pair, 0);
+    cluster_.begin(index, found.closest, time_s);
+    collide(index, spreads);
+    for (const Event& event : alike) {
+      if (spreads || !joins(event)) continue;
+      spendEvent(table_.pairs()[at(event.pair)]);
+      cluster_.addEvent(event.pair, searches_.of(event.pair).found.closest);
+      collide(event.pair, spreads);
+    }
     changed_.clear();
-    const bool supports = (crowded || spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
+    const bool supports = (spreads || cluster_.meetsCarried()) && time_s < settings_.step_s;
     if (supports) {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
       cluster_.support();
     }
-    takeMomentum(time_s, crowded || spreads);
+    takeMomentum(time_s, spreads);
     if (supports) takePaths(time_s, crowded);
+    holdSpent(time_s);
+    searchAgain(time_s);
+  }
+
+  // What has no room, and who has had the events that a body may have.
+  void holdSpent(double time_s) {
     for (std::size_t i = 0; i < cluster_.size(); ++i)
       if (cluster_.member(i).stops) stopDriven(cluster_.member(i).body, time_s);
-    const int most =
-        cluster_.isExhausted() ? tolerance::kLateEventsPerBody : share * tolerance::kEventsPerBody;
-    for (int i : both)
-      if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) paths_.hold(i);
-    searchAgain(time_s);
+    for (const int event : cluster_.eventPairs()) {
+      const ShapePair& pair = table_.pairs()[at(event)];
+      const int most =
+          cluster_.isExhausted() ? tolerance::kLateEventsPerBody : shareOf(pair) * tolerance::kEventsPerBody;
+      for (const int i : {pair.body_a, pair.body_b})
+        if (bodies_[at(i)].yields() && bodies_[at(i)].events > most) paths_.hold(i);
+    }
   }
 
   // Kinematic bodies that were stopped, and have just moved what was in their way.
@@ -365,7 +440,7 @@ class EventLoop {
   }
 
   bool isTouched(std::size_t i) const {
-    return i < 2 || cluster_.momentumChanged(i) || cluster_.forcesChanged(i);
+    return cluster_.member(i).struck || cluster_.momentumChanged(i) || cluster_.forcesChanged(i);
   }
 
   // New momentum and forces, and the path that goes with them; where many meet, straight for who is in
@@ -469,8 +544,11 @@ class EventLoop {
   PathClearing& clearing_;
   PathLifts& lifts_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
-  std::priority_queue<Event, std::vector<Event>, Later> events_;
-  std::vector<Event> alike_;  ///< Scratch.
+  EventQueue<Later> events_;
+  EventQueue<Slower> instant_;  ///< Those of the present instant, which ends at ...
+  double instant_s_ = 0.0;
+  std::vector<Event> alike_;      ///< Scratch.
+  std::vector<int> alike_pairs_;  ///< Theirs.
 };
 
 }  // namespace
