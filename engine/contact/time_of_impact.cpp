@@ -11,8 +11,9 @@
 namespace carom {
 namespace {
 
-constexpr int kAdvances = 1000;        // proven intervals per search
-constexpr int kProposals = 30;         // tries per interval, most half as long as the last; then the sure one
+constexpr int kAdvances = 1000;  // proven intervals per search
+constexpr int kProposals =
+    30;  // Newton's tries per interval; then each is half the last, down to the sure one
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
     1e-10;  // of the searched interval: less progress than this is standing still
@@ -127,7 +128,7 @@ class Look {
       return along.lower_bound > chord.lower_bound ? along : chord;
     };
     Chord chord = better(bestChord(begin, c, whole, floor));
-    for (int i = 0; i < kProposals && chord.interval > sure; ++i) {
+    for (int i = 0; chord.interval > sure; ++i) {
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
         if (!lands || chord.end_gap >= (1.0 - kLandingMargin) * target) return chord.interval;
@@ -139,7 +140,9 @@ class Look {
         continue;
       }
       ++newton_steps;
-      chord = better(chordAlong(chord.direction, begin, gap, shorterThan(chord, gap, speed, aim), floor));
+      double shorter = shorterThan(chord, gap, speed, aim);
+      if (i >= kProposals) shorter = std::min(shorter, 0.5 * chord.interval);
+      chord = better(chordAlong(chord.direction, begin, gap, shorter, floor));
     }
     return sure;
   }

@@ -27,6 +27,7 @@ struct Prediction {
 struct SearchMemory {
   std::vector<Prediction> predictions;  ///< By place of the pair.
   std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
+  int substeps = 1;         ///< Of the step, which share its budget of work.
 };
 
 class ImpactSearches {
