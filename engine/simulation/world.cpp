@@ -320,7 +320,7 @@ void World::Impl::divideStep(int count) {
   if (count != substeps) table.scaleImpulses(static_cast<double>(substeps) / count);
   substeps = count;
   counters.substeps = count;
-  event_memory.searches.substeps = count;
+  event_memory.searches.work = 0;
 }
 
 // Not when what rested has been woken: then the step must be planned anew.

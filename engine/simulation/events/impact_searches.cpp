@@ -19,8 +19,8 @@ ImpactSearches::ImpactSearches(const LastingWorld& world, const ContactCluster& 
       predictions_(memory.predictions),
       struck_(memory.struck),
       most_work_(std::max(tolerance::kLeastSearchWork,
-                          tolerance::kSearchWorkPerBody * static_cast<long>(world.bodies.size())) /
-                 memory.substeps) {
+                          tolerance::kSearchWorkPerBody * static_cast<long>(world.bodies.size()))),
+      work_(memory.work) {
   for (const int i : struck_) predictions_[at(i)].impacts = 0;
   struck_.clear();
 }

@@ -27,7 +27,7 @@ struct Prediction {
 struct SearchMemory {
   std::vector<Prediction> predictions;  ///< By place of the pair.
   std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
-  int substeps = 1;         ///< Of the step, which share its budget of work.
+  long work = 0;            ///< Poses evaluated in this step, in all its substeps.
 };
 
 class ImpactSearches {
@@ -76,8 +76,8 @@ class ImpactSearches {
   StepCounters& counters_;
   std::vector<Prediction>& predictions_;
   std::vector<int>& struck_;
-  long work_ = 0;  ///< Of all searches in this step: see TimeOfImpact::work.
   long most_work_ = 0;
+  long& work_;  ///< See SearchMemory.
 };
 
 }  // namespace carom
