@@ -294,8 +294,9 @@ double World::Impl::fineStep(const Body& body) const {
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
 // is. Few pairs cost little; what stands or flies freely gains nothing. Asked when the whole step is planned.
 int World::Impl::substepsWanted() {
-  // At its apex a body in flight is as slow as one that lies, and so is one that has just been put down.
-  const auto stirs = [](const Body& body) { return !body.liesStill() || !body.supported; };
+  // Until it has lain still for as long as what comes to rest: at its apex a body in flight is as slow, and
+  // so is one that swings, has just been put down, or is about to tip over.
+  const auto stirs = [](const Body& body) { return body.still_s < tolerance::kRestTime || !body.supported; };
   const std::span<const int> list = active.list();
   if (std::none_of(list.begin(), list.end(), [&](int i) { return stirs(bodies[at(i)]); })) return 1;
   double length_s = tolerance::kFineStep;
