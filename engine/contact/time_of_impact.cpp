@@ -11,9 +11,8 @@
 namespace carom {
 namespace {
 
-constexpr int kAdvances = 1000;  // proven intervals per search
-constexpr int kProposals =
-    30;  // Newton's tries per interval; then each is half the last, down to the sure one
+constexpr int kAdvances = 1000;        // proven intervals per search
+constexpr int kProposals = 30;         // Newton's tries per interval; then each is half the last
 constexpr double kLinearShrink = 0.9;  // paper §2.3: a linear decrement of 10 % guards Newton's step
 constexpr double kSmallestShare =
     1e-10;  // of the searched interval: less progress than this is standing still
@@ -128,21 +127,24 @@ class Look {
       return along.lower_bound > chord.lower_bound ? along : chord;
     };
     Chord chord = better(bestChord(begin, c, whole, floor));
-    for (int i = 0; chord.interval > sure; ++i) {
+    const double least = std::max(sure, kSmallestShare * (search_.end_s - search_.begin_s));
+    for (int i = 0; chord.interval > least; ++i) {
+      const double half = 0.5 * chord.interval;
+      const bool halves = i >= kProposals;  // so that this ends
       if (chord.lower_bound >= floor) {
         // Safe; but what ends deep in the window and fast has passed its landing.
         if (!lands || chord.end_gap >= (1.0 - kLandingMargin) * target) return chord.interval;
         const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
         if (end_speed >= -search_.collision_speed_mps) return chord.interval;
         ++newton_steps;
-        const double back = std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
+        const double back = halves ? half : std::min(half, (chord.end_gap - target) / end_speed);
         chord = better(chordAlong(chord.direction, begin, gap, chord.interval - back, floor));
         continue;
       }
       ++newton_steps;
-      double shorter = shorterThan(chord, gap, speed, aim);
-      if (i >= kProposals) shorter = std::min(shorter, 0.5 * chord.interval);
-      chord = better(chordAlong(chord.direction, begin, gap, shorter, floor));
+      const double shorter = shorterThan(chord, gap, speed, aim);
+      chord =
+          better(chordAlong(chord.direction, begin, gap, halves ? std::min(half, shorter) : shorter, floor));
     }
     return sure;
   }

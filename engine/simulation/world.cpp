@@ -284,11 +284,12 @@ void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock
   wakeDriven();
 }
 
-// How long a substep may be for a body that is pushed as in the planned step.
+// How long a substep may be for a body that is pushed as in the planned step; for ever where nothing pushes
+// it.
 double World::Impl::fineStep(const Body& body) const {
   const Velocity push = planner.gained(body);
   const double acceleration = (push.linear.norm() + body.radius_m * push.angular.norm()) / settings.step_s;
-  return std::min(tolerance::kFineStep, std::sqrt(tolerance::kFineFall * body.radius_m / acceleration));
+  return std::sqrt(tolerance::kFineFall * body.radius_m / acceleration);
 }
 
 // Lasting contact carries bodies along evenly: what turns meanwhile is met the better the shorter the step
@@ -296,7 +297,9 @@ double World::Impl::fineStep(const Body& body) const {
 int World::Impl::substepsWanted() {
   // Until it has lain still for as long as what comes to rest: at its apex a body in flight is as slow, and
   // so is one that swings, has just been put down, or is about to tip over.
-  const auto stirs = [](const Body& body) { return body.still_s < tolerance::kRestTime || !body.supported; };
+  const auto stirs = [](const Body& body) {
+    return body.moves() && (body.still_s < tolerance::kRestTime || !body.supported);
+  };
   const std::span<const int> list = active.list();
   if (std::none_of(list.begin(), list.end(), [&](int i) { return stirs(bodies[at(i)]); })) return 1;
   double length_s = tolerance::kFineStep;
@@ -308,11 +311,12 @@ int World::Impl::substepsWanted() {
     if (!a.moves() && !b.moves()) continue;
     if (2 * ++awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
     for (const Body* body : {&a, &b})
-      if (body->moves() && stirs(*body)) length_s = std::min(length_s, fineStep(*body));
+      if (stirs(*body)) length_s = std::min(length_s, fineStep(*body));
   }
+  if (awake == 0) return 1;
   int wanted = 1;
   while (settings.step_s > wanted * length_s * (1.0 + kSameLength) &&
-         2 * wanted * awake <= tolerance::kFinePairs && awake > 0)
+         2 * wanted * awake <= tolerance::kFinePairs)
     wanted *= 2;
   return wanted;
 }
@@ -321,7 +325,6 @@ void World::Impl::divideStep(int count) {
   if (count != substeps) table.scaleImpulses(static_cast<double>(substeps) / count);
   substeps = count;
   counters.substeps = count;
-  event_memory.searches.work = 0;
 }
 
 // Not when what rested has been woken: then the step must be planned anew.
@@ -456,6 +459,7 @@ void World::step(PhaseClock* clock) {
   Impl& w = *impl_;
   REQUIRE(w.started && w.finite, w.started, w.finite);
   w.counters = {};
+  w.event_memory.searches.work = 0;
   w.active.beginStep(w.bodies);
   w.counters.active_bodies = static_cast<int>(w.active.list().size());
   for (const int i : w.active.list()) w.bodies[at(i)].collided = w.bodies[at(i)].frozen = false;

@@ -290,22 +290,19 @@ bool ContactCluster::isNear(const ShapePair& pair) const {
 
 // Bodies may meet several others at the same instant and speed (a ball two that touch): one collision, so
 // that its outcome does not depend on who is asked first.
-void ContactCluster::joinSimultaneous(double approach_mps, std::span<const int> alike) {
+void ContactCluster::joinSimultaneous(double approach_mps) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (!bodies_[at(members_[i].body)].yields()) continue;
     for (int p : table_.pairsOf(members_[i].body)) {
       const ShapePair& pair = table_.pairs()[at(p)];
-      if (pair_joined_[at(p)] == number_ || (!isNear(pair) && std::ranges::find(alike, p) == alike.end()))
-        continue;
+      if (pair_joined_[at(p)] == number_ || !isNear(pair)) continue;
       pair_joined_[at(p)] = number_;
       const Body& a = bodies_[at(pair.body_a)];
       const Body& b = bodies_[at(pair.body_b)];
       const ClosestFeatures& closest = look(p);
       const Vec3 relative = b.velocityAt(time_s_).at(closest.p_B_W - b.path.positionAt(time_s_)) -
                             a.velocityAt(time_s_).at(closest.p_A_W - a.path.positionAt(time_s_));
-      const bool together =
-          closest.distance_m <= pair.window.ceiling || std::ranges::find(alike, p) != alike.end();
-      if (together && sameApproach(dot(closest.n_W, relative), approach_mps))
+      if (closest.distance_m <= pair.window.ceiling && sameApproach(dot(closest.n_W, relative), approach_mps))
         addPair(p, closest);
       else
         pair_joined_[at(p)] = 0;  // it may still join as a support
@@ -452,10 +449,10 @@ std::vector<double> ContactCluster::findRestitution() {
   return restitution;
 }
 
-void ContactCluster::collide(bool spreads, std::span<const int> alike) {
+void ContactCluster::collide(bool spreads) {
   double approach = 0.0;
   for (const ContactRow& row : rows_) approach = std::min(approach, rowVelocity(row, momentum_).x());
-  if (!spreads && approach < 0.0) joinSimultaneous(approach, alike);
+  if (!spreads && approach < 0.0) joinSimultaneous(approach);
   std::vector<double> restitution = findRestitution();
   if (approach >= 0.0) return;
   const bool elastic = std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; });

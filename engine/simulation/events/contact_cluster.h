@@ -70,10 +70,8 @@ class ContactCluster {
   bool hasRoomFor(const ShapePair& pair) const;
   /// The same with a pair that is not an event: its closest features are looked up.
   void begin(int pair, double time_s);
-  /// The collision at the contacts, between the bodies of the event alone or with all that they press. Of the
-  /// pairs `alike`, which collide at this instant and speed as well, those of the same bodies take part in
-  /// it.
-  void collide(bool spreads, std::span<const int> alike);
+  /// The collision at the contacts, between the bodies of the event alone or with all that they press.
+  void collide(bool spreads);
   /// What kinematic bodies did by the impulses of the collision, J.
   double workOfCollision() const;
   /// Whether forces of lasting contact act on some member.
@@ -140,7 +138,7 @@ class ContactCluster {
   bool isInternal(int pair);
   bool expandMoved(double noticeable_mps);
   void expand(int body);
-  void joinSimultaneous(double approach_mps, std::span<const int> alike);
+  void joinSimultaneous(double approach_mps);
   bool isNear(const ShapePair& pair) const;
   double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
   double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.

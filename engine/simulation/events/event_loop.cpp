@@ -100,16 +100,13 @@ class EventLoop {
     // Every event spends budget of a body that still moves, so this ends; and once the search has spent its
     // own, every look clears a pair or freezes a body.
     while (gatherInstant()) {
-      if (instant_.empty()) continue;
       const Event event = instant_.top();
       instant_.pop();
       if (event.pair < 0)
         beginNextPiece(event.body);
-      else if (event.version != searches_.of(event.pair).version)
-        continue;
-      else if (searches_.isSpent())
+      else if (isCurrent(event) && searches_.isSpent())
         freezePair(event.pair, event.time_s);
-      else
+      else if (isCurrent(event))
         takeUpAllLike(event);
     }
     return true;
@@ -117,18 +114,15 @@ class EventLoop {
 
  private:
   // All events of an instant are looked at before one of them is resolved; what that brings about at once
-  // joins them. False where there are no more.
+  // joins them. Whether there are any more.
   bool gatherInstant() {
-    if (instant_.empty()) {
-      if (events_.empty()) return false;
-      instant_s_ = events_.top().time_s;
-    }
-    while (!events_.empty() && events_.top().time_s <= instant_s_ + kInstant * settings_.step_s) {
+    while (!events_.empty()) {
       const Event event = events_.top();
+      if (!instant_.empty() && event.time_s > instant_s_ + kInstant * settings_.step_s) break;
       events_.pop();
-      if (event.pair >= 0 && event.version != searches_.of(event.pair).version) continue;
+      if (event.pair >= 0 && !isCurrent(event)) continue;
       if (event.looked || event.pair < 0) {
-        instant_s_ = std::max(instant_s_, event.time_s);
+        instant_s_ = instant_.empty() ? event.time_s : std::max(instant_s_, event.time_s);
         instant_.push(event);
         continue;
       }
@@ -138,7 +132,7 @@ class EventLoop {
       else
         await(event.pair);
     }
-    return true;
+    return !instant_.empty();
   }
 
   // What will not bounce and would come down within the step is held in time where it is many, round by
@@ -256,8 +250,6 @@ class EventLoop {
       alike_.push_back(instant_.top());
       instant_.pop();
     }
-    alike_pairs_.clear();
-    for (const Event& event : alike_) alike_pairs_.push_back(event.pair);
     for (std::size_t k = 0; k < alike_.size(); ++k)
       if (isCurrent(alike_[k])) takeUp(alike_[k].pair, std::span<const Event>(alike_).subspan(k + 1));
   }
@@ -333,22 +325,17 @@ class EventLoop {
     bool spreads = false;  // all that they press
   };
 
-  // With so many more events.
-  Reach reachOf(const ShapePair& pair, int more) const {
+  // With this event.
+  Reach reachOf(const ShapePair& pair) const {
     int events = 0;
     for (const int i : {pair.body_a, pair.body_b})
-      if (bodies_[at(i)].yields()) events = std::max(events, bodies_[at(i)].events + more);
+      if (bodies_[at(i)].yields()) events = std::max(events, bodies_[at(i)].events + 1);
     // Elastic collisions go from body to body as they would (Newton's cradle), but those of one instant and
     // speed are one; the others do not come back, and press at once on all that stands behind.
     const bool crowded = events > shareOf(pair) * tolerance::kPairEvents;
     // What a body that was stopped strikes has perhaps no room behind it.
     const bool was_stopped = bodies_[at(pair.body_a)].was_stopped || bodies_[at(pair.body_b)].was_stopped;
     return {crowded, crowded || pair.restitution == 0.0 || was_stopped};
-  }
-
-  void spendEvent(const ShapePair& pair) {
-    for (const int i : {pair.body_a, pair.body_b})
-      if (bodies_[at(i)].yields()) ++bodies_[at(i)].events;
   }
 
   static int shareOf(const ShapePair& pair) {
@@ -358,12 +345,15 @@ class EventLoop {
   // The collision of the event that the cluster has been given.
   void collide(int index, bool spreads) {
     const TimeOfImpact& found = searches_.of(index).found;
+    const ShapePair& pair = table_.pairs()[at(index)];
+    for (const int i : {pair.body_a, pair.body_b})
+      if (bodies_[at(i)].yields()) ++bodies_[at(i)].events;
     ++counters_.events;
     searches_.strike(index);
     counters_.impacts += found.outcome == TimeOfImpact::Outcome::kImpact;
     {
       const PhaseScope phase(clock_, StepPhase::kImpulses);
-      cluster_.collide(spreads, alike_pairs_);
+      cluster_.collide(spreads);
     }
     counters_.work_J += cluster_.workOfCollision();
     goOn(found.time_s);
@@ -375,7 +365,7 @@ class EventLoop {
     const ShapePair& pair = table_.pairs()[at(event.pair)];
     const bool wakes = bodies_[at(pair.body_a)].resting || bodies_[at(pair.body_b)].resting;
     return isCurrent(event) && cluster_.hasRoomFor(pair) && !wakes && !searches_.isSlow(event.pair) &&
-           (givesWay(pair.body_a) || givesWay(pair.body_b)) && !reachOf(pair, 1).spreads;
+           (givesWay(pair.body_a) || givesWay(pair.body_b)) && !reachOf(pair).spreads;
   }
 
   // The impulses of one event, and of those alike that join it, the paths that follow, and the searches that
@@ -386,13 +376,11 @@ class EventLoop {
     const ShapePair& pair = table_.pairs()[at(index)];
     for (const int i : {pair.body_a, pair.body_b})
       if (bodies_[at(i)].resting) wakeInStep(i);
-    spendEvent(pair);
-    const auto [crowded, spreads] = reachOf(pair, 0);
+    const auto [crowded, spreads] = reachOf(pair);
     cluster_.begin(index, found.closest, time_s);
     collide(index, spreads);
     for (const Event& event : alike) {
       if (spreads || !joins(event)) continue;
-      spendEvent(table_.pairs()[at(event.pair)]);
       cluster_.addEvent(event.pair, searches_.of(event.pair).found.closest);
       collide(event.pair, spreads);
     }
@@ -547,8 +535,7 @@ class EventLoop {
   EventQueue<Later> events_;
   EventQueue<Slower> instant_;  ///< Those of the present instant, which ends at ...
   double instant_s_ = 0.0;
-  std::vector<Event> alike_;      ///< Scratch.
-  std::vector<int> alike_pairs_;  ///< Theirs.
+  std::vector<Event> alike_;  ///< Scratch.
 };
 
 }  // namespace
