@@ -129,22 +129,17 @@ class Look {
     Chord chord = better(bestChord(begin, c, whole, floor));
     const double least = std::max(sure, kSmallestShare * (search_.end_s - search_.begin_s));
     for (int i = 0; chord.interval > least; ++i) {
-      const double half = 0.5 * chord.interval;
-      const bool halves = i >= kProposals;  // so that this ends
+      double shorter = 0.0;
       if (chord.lower_bound >= floor) {
-        // Safe; but what ends deep in the window and fast has passed its landing.
-        if (!lands || chord.end_gap >= (1.0 - kLandingMargin) * target) return chord.interval;
-        const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
-        if (end_speed >= -search_.collision_speed_mps) return chord.interval;
-        ++newton_steps;
-        const double back = halves ? half : std::min(half, (chord.end_gap - target) / end_speed);
-        chord = better(chordAlong(chord.direction, begin, gap, chord.interval - back, floor));
-        continue;
+        const double past = lands ? pastLanding(begin, chord, target) : 0.0;
+        if (!(past > 0.0)) return chord.interval;
+        shorter = chord.interval - past;
+      } else {
+        shorter = shorterThan(chord, gap, speed, aim);
       }
+      if (i >= kProposals) shorter = std::min(shorter, 0.5 * chord.interval);  // so that this ends
       ++newton_steps;
-      const double shorter = shorterThan(chord, gap, speed, aim);
-      chord =
-          better(chordAlong(chord.direction, begin, gap, halves ? std::min(half, shorter) : shorter, floor));
+      chord = better(chordAlong(chord.direction, begin, gap, shorter, floor));
     }
     return sure;
   }
@@ -166,6 +161,15 @@ class Look {
     double end_gap = 0.0;
     double lower_bound = -std::numeric_limits<double>::infinity();
   };
+
+  // For how long a safe chord has been past its landing, at the speed of its end: not at all where it ends
+  // above it, or slowly.
+  double pastLanding(double begin, const Chord& chord, double target) {
+    if (chord.end_gap >= (1.0 - kLandingMargin) * target) return 0.0;
+    const double end_speed = supportSpeed(chord.direction, begin + chord.interval);
+    if (end_speed >= -search_.collision_speed_mps) return 0.0;
+    return std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
+  }
 
   // What to try after a chord that proves too little, from a gap that changes at `speed`: where Newton's step
   // and the chord itself come down to `aim`.
