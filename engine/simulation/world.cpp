@@ -197,7 +197,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
     const ShapePair& pair = table.pairs()[at(of_pair.pair)];
     event_memory.lifts.join(pair.body_a, pair.body_b, bodies);
   }
-  event_memory.lifts.pay(bodies, active.list(), settings.gravity);
+  event_memory.lifts.pay(bodies, active.list(), planner);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }

@@ -44,8 +44,8 @@ struct StepMotion {
   // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
-  // By how much higher the body was led in this step than its path would have brought it: J/kg until
-  // path.start_s, and W/kg from there on.
+  // By how much higher, against what pulls it, the body was led in this step than its path would have brought
+  // it: J/kg until path.start_s, and W/kg from there on.
   double lift = 0.0;
   double lifting = 0.0;
 

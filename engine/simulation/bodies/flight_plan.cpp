@@ -79,11 +79,19 @@ void FlightPlanner::plan(int index, Body& body) const {
 }
 
 // The acceleration by gravity and by a constant force.
-Vec3 FlightPlanner::parabolaOf(int index, const Body& body) const {
-  const Vec3& force_W = loads_[at(index)].force_W;
+// What a force and gravity make of the body's velocity, m/s^2.
+Vec3 FlightPlanner::accelerationBy(const Vec3& force_W, const Body& body) const {
   Vec3 acceleration = environment_.gravity;
   if (!force_W.isZero(0.0)) acceleration += body.inertia.inverse_mass * force_W;
   return body.locks.any() ? body.locks.movingPart(acceleration) : acceleration;
+}
+
+Vec3 FlightPlanner::parabolaOf(int index, const Body& body) const {
+  return accelerationBy(loads_[at(index)].force_W, body);
+}
+
+Vec3 FlightPlanner::pull(int index, const Body& body) const {
+  return accelerationBy(loads_[at(index)].force(body.X_WB.rotation), body);
 }
 
 void FlightPlanner::planPath(int index, Body& body) const {

@@ -55,6 +55,9 @@ class FlightPlanner {
   /// The velocity that the environment would give the body in one step from standstill, where there is air or
   /// water.
   Velocity pushAtRest(int index, const Body& body) const;
+  /// What it takes energy to lead the body against, m/s^2: gravity, and its load as it is turned when the
+  /// step begins, as far as it is free to follow them.
+  Vec3 pull(int index, const Body& body) const;
   /// What its load does to a body on its path up to `end_s`, J.
   double workOfLoad(int index, const Body& body, double end_s) const;
   /// Whether gravity alone pushes the body.
@@ -69,6 +72,7 @@ class FlightPlanner {
  private:
   void planPath(int index, Body& body) const;
   bool isTouched(int index, const Body& body, double rest_of_step_s) const;
+  Vec3 accelerationBy(const Vec3& force_W, const Body& body) const;
   Vec3 parabolaOf(int index, const Body& body) const;
   AppliedLoad meanLoad(int index, const Body& body, double end_s) const;
   EnvironmentBody environmentBody(int index, const Body& body) const;

@@ -18,8 +18,8 @@ double slowFall(Body& body, double energy, const Vec3& down) {
 
 // A body that rises, falls or tips does so by what lifted it: first this pays. Where nothing moves, a gap has
 // been opened under what lies, or was held up.
-void takeBack(Body& body, double energy, const Vec3& gravity) {
-  const double left = slowFall(body, energy, body.locks.movingPart(gravity).normalized());
+void takeBack(Body& body, double energy, const Vec3& pull) {
+  const double left = slowFall(body, energy, pull.normalized());
   if (!(left > 0.0)) return;
   const double all = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity) / body.inertia.mass_kg;
   const double kept = all > left ? std::sqrt(1.0 - left / all) : 0.0;
@@ -38,7 +38,7 @@ void PathLifts::join(int a, int b, const std::vector<Body>& bodies) {
   if (bodies[at(a)].moves() && bodies[at(b)].moves()) together_.join(a, b);
 }
 
-void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, const Vec3& gravity) {
+void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner) {
   const auto accountOf = [&](int i) -> Account& { return accounts_[at(together_.of(i))]; };
   for (const int i : active) accountOf(i) = {};
   for (const int i : active) {
@@ -51,7 +51,7 @@ void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, cons
     Body& body = bodies[at(i)];
     const Account& account = accountOf(i);
     if (body.lift > 0.0 && account.net_J > 0.0)
-      takeBack(body, body.lift * (account.net_J / account.raised_J), gravity);
+      takeBack(body, body.lift * (account.net_J / account.raised_J), planner.pull(i, body));
     body.lift = body.lifting = 0.0;
   }
 }

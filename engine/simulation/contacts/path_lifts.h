@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/modes/islands.h"
-#include "engine/simulation/bodies/body.h"
+#include "engine/simulation/bodies/flight_plan.h"
 
 namespace carom {
 
@@ -20,7 +20,7 @@ class PathLifts {
   /// The paths of these, if they move, were led together.
   void join(int a, int b, const std::vector<Body>& bodies);
   /// At the end of the substep, when bodies have their velocities and `lift` is whole.
-  void pay(std::vector<Body>& bodies, std::span<const int> active, const Vec3& gravity);
+  void pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner);
 
  private:
   struct Account {

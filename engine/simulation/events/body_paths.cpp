@@ -60,7 +60,8 @@ void BodyPaths::driveHeld(int index, const Velocity& end) {
   const double rest = restOf(body);
   if (rest > 0.0) drive(body, end);
   // It stays, whatever its new momentum would fall by.
-  body.lifting = dot(settings_.gravity, body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
+  body.lifting =
+      dot(planner_.pull(index, body), body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
 }
 
 // By the tensor of the path's start.
@@ -76,7 +77,7 @@ void BodyPaths::drive(Body& body, const Velocity& end) {
 void BodyPaths::lead(int index, const Velocity& mean) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
-  countLift(body, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
+  countLift(index, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
   body.travel = Travel::kCarried;
   carryAlong(body, mean, rest, false);
 }
@@ -85,7 +86,7 @@ void BodyPaths::leadInContact(int index, const Velocity& mean, bool bends) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
   body.travel = Travel::kCarried;
-  countFall(body, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
+  countFall(index, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
   carryAlong(body, mean, rest, bends);
 }
 
@@ -102,22 +103,24 @@ void BodyPaths::hold(int index) {
     stop(index);
     return;
   }
-  countLift(body, body.path.meanVelocity(body.path.start_s, restOf(body)), Vec3::Zero());
+  countLift(index, body.path.meanVelocity(body.path.start_s, restOf(body)), Vec3::Zero());
   endPath(body);
   counters_.stopped_bodies += !body.frozen;
   body.frozen = true;
 }
 
 // From now on the body goes on at another mean velocity than it would have.
-void BodyPaths::countLift(Body& body, const Vec3& mean_before, const Vec3& mean) const {
-  body.lifting += dot(settings_.gravity, mean_before - mean);
+void BodyPaths::countLift(int index, const Vec3& mean_before, const Vec3& mean) {
+  Body& body = bodies_[at(index)];
+  body.lifting += dot(planner_.pull(index, body), mean_before - mean);
 }
 
 // The same where it is led in contact: only as far as it falls less or more than its momentum does, and by
 // what of its weight no contact bears. What opens a gap under it lifts it once, and what stops a fall has
 // taken its energy.
-void BodyPaths::countFall(Body& body, const Vec3& mean_before, const Vec3& mean) const {
-  const Vec3 down = settings_.gravity.normalized();
+void BodyPaths::countFall(int index, const Vec3& mean_before, const Vec3& mean) {
+  Body& body = bodies_[at(index)];
+  const Vec3 down = planner_.pull(index, body).normalized();
   const double unborne = std::max(0.0, dot(down, body.acceleration));
   body.lifting += unborne * (std::max(0.0, dot(down, mean_before)) - std::max(0.0, dot(down, mean)));
 }

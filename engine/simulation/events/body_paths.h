@@ -58,8 +58,8 @@ class BodyPaths {
   double restOf(const Body& body) const { return settings_.step_s - body.path.start_s; }
   void stop(int index);
   void drive(Body& body, const Velocity& end);
-  void countLift(Body& body, const Vec3& mean_before, const Vec3& mean) const;
-  void countFall(Body& body, const Vec3& mean_before, const Vec3& mean) const;
+  void countLift(int index, const Vec3& mean_before, const Vec3& mean);
+  void countFall(int index, const Vec3& mean_before, const Vec3& mean);
 
   std::vector<Body>& bodies_;
   const PairTable& table_;

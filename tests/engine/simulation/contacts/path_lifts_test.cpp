@@ -9,7 +9,13 @@
 namespace carom {
 namespace {
 
-const Vec3 kGravity(0.0, 0.0, -10.0);
+FlightPlanner plannerOf(const std::vector<AppliedLoad>& loads) {
+  WorldSettings settings;
+  settings.gravity = {0.0, 0.0, -10.0};
+  FlightPlanner planner(settings);
+  for (const AppliedLoad& load : loads) planner.add(load, std::nullopt);
+  return planner;
+}
 
 Body bodyAt(double mass_kg, const Vec3& velocity, const Vec3& spin = Vec3::Zero()) {
   Body body;
@@ -22,13 +28,14 @@ double energyOf(const Body& body) {
   return kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
 }
 
-void pay(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& led) {
+void pay(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& led,
+         const AppliedLoad& load = {}) {
   PathLifts lifts;
   lifts.begin(bodies.size());
   for (const auto& [a, b] : led) lifts.join(a, b, bodies);
   std::vector<int> all;
   for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(static_cast<int>(i));
-  lifts.pay(bodies, all, kGravity);
+  lifts.pay(bodies, all, plannerOf(std::vector<AppliedLoad>(bodies.size(), load)));
 }
 
 TEST(PathLifts, TheFallingSpeedPaysToTheJoule) {
@@ -40,6 +47,14 @@ TEST(PathLifts, TheFallingSpeedPaysToTheJoule) {
   EXPECT_NEAR(bodies[0].velocity.linear.z(), -1.0, 1e-12);
   EXPECT_EQ(bodies[0].velocity.linear.x(), 3.0);
   EXPECT_EQ(bodies[0].lift, 0.0);
+}
+
+TEST(PathLifts, WhatLoadsPullAlongPays) {
+  std::vector<Body> bodies{bodyAt(2.0, {3.0, 0.0, -2.0})};
+  bodies[0].lift = 2.5;                             // J/kg
+  pay(bodies, {}, {.force_W = {12.0, 0.0, 20.0}});  // and bears its weight
+  EXPECT_NEAR(bodies[0].velocity.linear.x(), 2.0, 1e-12);
+  EXPECT_EQ(bodies[0].velocity.linear.z(), -2.0);
 }
 
 TEST(PathLifts, WhatFallingCannotPayTheRestOfTheMotionDoes) {
