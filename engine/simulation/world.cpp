@@ -186,6 +186,12 @@ void World::Impl::keepLastPieces() {
 // The state at the step's end, and the closest features there.
 void World::Impl::finishStep(PhaseClock* clock) {
   for (const int i : active.list()) counters.work_J += planner.workOfLoad(i, bodies[at(i)], substep.step_s);
+  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
+    const ShapePair& pair = table.pairs()[at(of_pair.pair)];
+    event_memory.lifts.join(pair.body_a, pair.body_b, bodies);
+    event_memory.closed.meet(pair.body_a, pair.body_b, bodies);
+  }
+  event_memory.closed.measure(bodies, planner);
   forActive([&](std::size_t i) {
     if (!bodies[i].travels()) return;
     endPath(i);
@@ -193,11 +199,8 @@ void World::Impl::finishStep(PhaseClock* clock) {
   finite = std::all_of(active.list().begin(), active.list().end(),
                        [this](int i) { return isFinite(bodies[at(i)]); });
   if (!finite) return;
-  for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
-    const ShapePair& pair = table.pairs()[at(of_pair.pair)];
-    event_memory.lifts.join(pair.body_a, pair.body_b, bodies);
-  }
   event_memory.lifts.pay(bodies, active.list(), planner);
+  event_memory.closed.restore(bodies);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);
 }
@@ -341,6 +344,7 @@ bool World::Impl::advance(PhaseClock* clock) {
   };
   const StepWatchers watchers{clock, view, keeps_paths ? &paths : nullptr};
   event_memory.lifts.begin(bodies.size());
+  event_memory.closed.begin(bodies.size());
   return runEvents(lastingWorld(), planner, counters, watchers, event_memory,
                    std::ref(solve_landings));  // so that it allocates nothing
 }

@@ -76,7 +76,8 @@ class EventLoop {
         paths_(world, planner, counters, watchers.paths),
         searches_(world, cluster_, counters, memory.searches),
         clearing_(memory.clearing),
-        lifts_(memory.lifts) {}
+        lifts_(memory.lifts),
+        closed_(memory.closed) {}
 
   bool run(const LandingSolver& solve_landings) {
     const PhaseScope phase(clock_, StepPhase::kTimeOfImpact);
@@ -279,6 +280,7 @@ class EventLoop {
     const double rest = settings_.step_s - time_s;
     const ShapePair& pair = table_.pairs()[at(index)];
     ++counters_.cleared_paths;
+    closed_.meet(pair.body_a, pair.body_b, bodies_);
     changed_.clear();
     int spent = 0;
     for (const int i : {pair.body_a, pair.body_b}) {
@@ -298,6 +300,7 @@ class EventLoop {
       for (std::size_t k = 0; k < changed_.size(); ++k) {
         paths_.lead(changed_[k], paths[k].velocity);
         lifts_.join(changed_.front(), changed_[k], bodies_);
+        closed_.meet(changed_.front(), changed_[k], bodies_);
       }
     } else if (spent <= kMostClearings + kMostHalvings) {
       for (const int i : changed_) paths_.halve(i);
@@ -424,6 +427,7 @@ class EventLoop {
       bodies_[at(member)].travel =
           Travel::kCarried;  // held up by others or afloat: its forces are in balance
       table_.activate(member, bodies_, settings_);
+      closed_.leaveOpen(member);  // what held it up has no rows in this step
     }
   }
 
@@ -434,6 +438,8 @@ class EventLoop {
   // New momentum and forces, and the path that goes with them; where many meet, straight for who is in
   // flight.
   void takeMomentum(double time_s, bool straight) {
+    for (std::size_t i = 1; i < cluster_.size(); ++i)
+      closed_.meet(cluster_.member(0).body, cluster_.member(i).body, bodies_);
     for (std::size_t i = 0; i < cluster_.size(); ++i) {
       const ContactCluster::Member& member = cluster_.member(i);
       Body& body = bodies_[at(member.body)];
@@ -531,6 +537,7 @@ class EventLoop {
   ImpactSearches searches_;
   PathClearing& clearing_;
   PathLifts& lifts_;
+  ClosedIslands& closed_;
   std::vector<int> changed_;  ///< Bodies that the event gave a new path.
   EventQueue<Later> events_;
   EventQueue<Slower> instant_;  ///< Those of the present instant, which ends at ...

@@ -20,6 +20,7 @@
 #include "engine/simulation/bodies/step_view.h"
 #include "engine/simulation/contacts/lasting_contact.h"
 #include "engine/simulation/contacts/path_lifts.h"
+#include "engine/simulation/events/closed_islands.h"
 #include "engine/simulation/events/contact_cluster.h"
 #include "engine/simulation/events/impact_searches.h"
 #include "engine/simulation/events/path_clearing.h"
@@ -39,6 +40,7 @@ struct EventMemory {
   ClusterMemory cluster;
   PathClearing clearing;
   PathLifts lifts;
+  ClosedIslands closed;
 };
 
 /// Solves the landings of these pairs (ShapePair::landing), or of some of them, with the step's lasting

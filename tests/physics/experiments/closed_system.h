@@ -12,7 +12,8 @@ struct MomentumError {
   double energy_lost = 0.0;  ///< Share of the start: it shows that they have met.
 };
 
-inline MomentumError collideInFreeSpace(const Simulator& simulator, double rate_hz, double seconds) {
+inline MomentumError collideInFreeSpace(const Simulator& simulator, double rate_hz, double seconds,
+                                        double friction = 0.3, double restitution = 0.5) {
   Experiment e{.step_s = 1.0 / rate_hz, .gravity = 0.0};
   double linear_scale = 0.0, angular_scale = 0.0;
   for (int k = 0; k < 12; ++k) {
@@ -22,8 +23,8 @@ inline MomentumError collideInFreeSpace(const Simulator& simulator, double rate_
     b.velocity = -(1.5 + 0.1 * k) * out + 0.2 * out.cross(Vec3::UnitZ());
     b.spin = Vec3(0.9 - 0.2 * k, 1.0, 0.3 * k - 1.4);
     b.mass_kg = 1.0 + 0.7 * k;
-    b.friction = 0.3;
-    b.restitution = 0.5;
+    b.friction = friction;
+    b.restitution = restitution;
     linear_scale += b.mass_kg * b.velocity.norm();
     const Quat& R = b.X_WB.rotation;
     angular_scale +=

@@ -1,0 +1,132 @@
+#include "engine/simulation/events/closed_islands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/foundation/index.h"
+
+namespace carom {
+namespace {
+
+constexpr double kRounding = 1e-15;  // of the terms of a sum
+
+Vec3 spinMomentum(const Body& body) {
+  if (body.kept_angular_momentum) return *body.kept_angular_momentum;
+  return angularMomentum(body.inertia, body.X_WB.rotation, body.velocity.angular);
+}
+
+Mat3 tensorAbout(const Vec3& r, const Body& body) {
+  const Mat3 R = body.X_WB.rotation.toRotationMatrix();
+  const Mat3 parallel = dot(r, r) * Mat3::Identity() - r * r.transpose();
+  return R * body.inertia.tensor_B * R.transpose() + body.inertia.mass_kg * parallel;
+}
+
+}  // namespace
+
+void ClosedIslands::begin(std::size_t bodies) {
+  for (const int i : met_) is_open_[at(i)] = has_met_[at(i)] = 0;
+  met_.clear();
+  together_.part(static_cast<int>(bodies));
+  islands_.resize(bodies);
+  is_open_.resize(bodies);
+  has_met_.resize(bodies);
+  met_.reserve(bodies);
+}
+
+void ClosedIslands::note(int body, bool open) {
+  if (!has_met_[at(body)]) met_.push_back(body);
+  has_met_[at(body)] = 1;
+  is_open_[at(body)] |= static_cast<unsigned char>(open);
+}
+
+void ClosedIslands::meet(int a, int b, const std::vector<Body>& bodies) {
+  const bool a_moves = bodies[at(a)].moves(), b_moves = bodies[at(b)].moves();
+  if (a_moves) note(a, !b_moves);
+  if (b_moves) note(b, !a_moves);
+  if (a_moves && b_moves) together_.join(a, b);
+}
+
+void ClosedIslands::findCenters(const std::vector<Body>& bodies) {
+  for (const int i : met_) {
+    Island& island = islandOf(i);
+    if (island.open) continue;
+    const Body& body = bodies[at(i)];
+    island.mass_kg += body.inertia.mass_kg;
+    island.center += body.inertia.mass_kg * body.X_WB.position;
+    island.velocity += body.inertia.mass_kg * body.velocity.linear;
+  }
+  for (const int i : met_) {
+    Island& island = islands_[at(i)];
+    if (together_.of(i) != i || island.open) continue;
+    island.center /= island.mass_kg;
+    island.velocity /= island.mass_kg;
+  }
+}
+
+void ClosedIslands::findMomenta(const std::vector<Body>& bodies) {
+  for (const int i : met_) {
+    Island& island = islandOf(i);
+    if (island.open) continue;
+    const Body& body = bodies[at(i)];
+    const Vec3 r = body.X_WB.position - island.center;
+    const Vec3 v = body.velocity.linear - island.velocity;
+    const Vec3 spin = spinMomentum(body);
+    island.angular_momentum += body.inertia.mass_kg * r.cross(v) + spin;
+    island.terms += body.inertia.mass_kg * r.norm() * body.velocity.linear.norm() + spin.norm();
+    island.tensor += tensorAbout(r, body);
+    island.energy_J += kineticEnergy(body.inertia, body.X_WB.rotation, {v, body.velocity.angular});
+  }
+}
+
+void ClosedIslands::measure(const std::vector<Body>& bodies, const FlightPlanner& planner) {
+  for (const int i : met_) islandOf(i) = {};
+  for (const int i : met_) islandOf(i).open |= is_open_[at(i)] != 0 || !planner.isWeightAll(i, bodies[at(i)]);
+  findCenters(bodies);
+  findMomenta(bodies);
+}
+
+// Of all motions with this angular momentum the rotation of all together has the least energy.
+void ClosedIslands::balance(Island& island) {
+  const Vec3 missing = island.kept - island.angular_momentum;
+  if (missing.norm() <= kRounding * island.terms) return;
+  const Mat3 inverse = island.tensor.inverse();
+  island.spin = inverse * island.angular_momentum;
+  island.spin_change = inverse * missing;
+  const double beside_J = island.energy_J - 0.5 * dot(island.spin, island.angular_momentum);
+  const double more_J = dot(island.spin + 0.5 * island.spin_change, missing);
+  if (!(more_J > 0.0)) return;
+  if (more_J > beside_J) {
+    island.spin_change.setZero();
+    return;
+  }
+  island.share = std::sqrt(1.0 - more_J / beside_J);
+}
+
+void ClosedIslands::restore(std::vector<Body>& bodies) {
+  for (const int i : met_) {
+    if (together_.of(i) != i) continue;
+    Island& island = islands_[at(i)];
+    const Vec3 kept = island.angular_momentum;
+    const bool open = island.open;
+    island = {};
+    island.open = open;
+    island.kept = kept;
+  }
+  findCenters(bodies);
+  findMomenta(bodies);
+  for (const int i : met_)
+    if (together_.of(i) == i && !islands_[at(i)].open) balance(islands_[at(i)]);
+  for (const int i : met_) {
+    const Island& island = islandOf(i);
+    if (island.spin_change.isZero(0.0)) continue;
+    Body& body = bodies[at(i)];
+    const Vec3 r = body.X_WB.position - island.center;
+    Velocity& v = body.velocity;
+    const double beside = 1.0 - island.share;
+    v.linear += island.spin_change.cross(r) - beside * (v.linear - island.velocity - island.spin.cross(r));
+    v.angular += island.spin_change - beside * (v.angular - island.spin);
+    body.kept_angular_momentum.reset();
+  }
+}
+
+}  // namespace carom

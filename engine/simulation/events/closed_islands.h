@@ -1,0 +1,61 @@
+#pragma once
+// Angular momentum of bodies that only meet each other. Contact leads paths beside their momenta, so that
+// gaps stay open while bodies turn, and a momentum that goes along another line has another moment: what
+// nothing from outside acts on would lose its angular momentum, or gain some. It is given back as a rotation
+// of all of them together, about their common centre of mass, which changes no speed at which any two of them
+// meet; its energy comes out of what they move beside that rotation. Where they have less, nothing is given
+// back. Internal to the simulation floor. Tested in tests/engine/simulation/events/closed_islands_test.cpp.
+
+#include <span>
+#include <vector>
+
+#include "engine/modes/islands.h"
+#include "engine/simulation/bodies/flight_plan.h"
+
+namespace carom {
+
+class ClosedIslands {
+ public:
+  /// Nobody has met another in this substep.
+  void begin(std::size_t bodies);
+  /// Contacts act between these, or may have.
+  void meet(int a, int b, const std::vector<Body>& bodies);
+  /// Who else acts on this one is not known.
+  void leaveOpen(int body) { note(body, true); }
+  /// At the end of the substep, while bodies still have the poses and velocities that it began with.
+  void measure(const std::vector<Body>& bodies, const FlightPlanner& planner);
+  /// When they have those of its end.
+  void restore(std::vector<Body>& bodies);
+
+ private:
+  struct Island {
+    bool open = false;  ///< Something else acts on it than itself and gravity.
+    double mass_kg = 0.0;
+    Vec3 center = Vec3::Zero();  ///< Of mass, m; and how it moves, m/s.
+    Vec3 velocity = Vec3::Zero();
+    Vec3 angular_momentum = Vec3::Zero();  ///< About it, kg m^2/s.
+    double terms = 0.0;                    ///< The sum of what it is rounded by.
+    Vec3 kept = Vec3::Zero();              ///< That of the substep's beginning.
+    // At the end, with the change of angular velocity that brings it back, and what is left of the motion
+    // beside that of all together.
+    Mat3 tensor = Mat3::Zero();  ///< kg m^2 about the centre, world frame.
+    double energy_J = 0.0;       ///< Of all motion relative to the centre.
+    Vec3 spin = Vec3::Zero();
+    Vec3 spin_change = Vec3::Zero();
+    double share = 1.0;
+  };
+
+  void note(int body, bool open);
+  Island& islandOf(int body) { return islands_[static_cast<std::size_t>(together_.of(body))]; }
+  void findCenters(const std::vector<Body>& bodies);
+  void findMomenta(const std::vector<Body>& bodies);
+  static void balance(Island& island);
+
+  Islands together_;
+  std::vector<Island> islands_;         ///< By the name of the island.
+  std::vector<int> met_;                ///< Bodies, each once.
+  std::vector<unsigned char> is_open_;  ///< By body: it has met what does not move, or nothing.
+  std::vector<unsigned char> has_met_;
+};
+
+}  // namespace carom
