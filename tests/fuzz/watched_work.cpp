@@ -58,7 +58,8 @@ std::size_t residentBytes(pid_t id) {
 double computedSeconds(pid_t id) {
   const std::string process = "/proc/" + std::to_string(id);
   std::ifstream in(process + "/stat");
-  const std::string line{std::istreambuf_iterator<char>(in), {}};
+  std::string line;
+  std::getline(in, line, '\0');  // which does not throw where the process has just ended
   const std::size_t name_end = line.rfind(')');
   if (name_end == std::string::npos) return 0.0;
   std::istringstream fields(line.substr(name_end + 1));

@@ -210,13 +210,25 @@ class Cutting {
            std::to_string(settings_.most_pieces) + " convex pieces";
   }
 
+  // A cut must take its notch away. Beside a face as thin as rounding it may make another like it, and would
+  // be followed by cuts without end, each through all that the last ones left.
   bool cutOnce(CutSurface& piece, const std::vector<int>& notches) const {
     const CutSurface whole = piece;
     for (const NotchPlane& by : bestPlanes(piece, notches)) {
-      if (piece.cut(by)) return true;
+      const std::size_t divided = at(crossed(by, piece, notches));
+      if (piece.cut(by) && piece.notches().size() < notches.size() + divided) return true;
       piece = whole;
     }
     return false;
+  }
+
+  /// Notches that the plane crosses, anywhere in the piece.
+  int crossed(const NotchPlane& by, const CutSurface& piece, const std::vector<int>& notches) const {
+    return static_cast<int>(std::count_if(notches.begin(), notches.end(), [&](int half) {
+      const double a = by.plane.signedDistance(piece.point(piece.tail(half)));
+      const double b = by.plane.signedDistance(piece.point(piece.head(half)));
+      return std::abs(a) > tolerance_m_ && std::abs(b) > tolerance_m_ && (a > 0.0) != (b > 0.0);
+    }));
   }
 
   /// Of all notches those whose solid angles are farthest from flat, times their length.
@@ -235,19 +247,15 @@ class Cutting {
     return chosen;
   }
 
-  /// Notches that the plane removes less those that it crosses, anywhere in the piece.
+  /// Notches that the plane removes less those that it crosses.
   int gainOf(const NotchPlane& by, const CutSurface& piece, const std::vector<int>& notches) const {
-    int gain = 0;
-    for (const int half : notches) {
-      const double a = by.plane.signedDistance(piece.point(piece.tail(half)));
-      const double b = by.plane.signedDistance(piece.point(piece.head(half)));
-      const bool a_on = std::abs(a) <= tolerance_m_, b_on = std::abs(b) <= tolerance_m_;
-      if (a_on && b_on)
-        gain += piece.divides(by.plane, half) ? 1 : 0;
-      else if (!a_on && !b_on && (a > 0.0) != (b > 0.0))
-        --gain;
-    }
-    return gain;
+    const auto is_on = [&](int v) {
+      return std::abs(by.plane.signedDistance(piece.point(v))) <= tolerance_m_;
+    };
+    const auto removed = std::count_if(notches.begin(), notches.end(), [&](int half) {
+      return is_on(piece.tail(half)) && is_on(piece.head(half)) && piece.divides(by.plane, half);
+    });
+    return static_cast<int>(removed) - crossed(by, piece, notches);
   }
 
   std::vector<NotchPlane> bestPlanes(CutSurface& piece, const std::vector<int>& notches) const {
