@@ -154,13 +154,29 @@ class Look {
     return (speed + std::sqrt(speed * speed + 2.0 * bend * begin)) / bend;
   }
 
-  // The gap along a direction at the end of an interval, and the least that it can be within it.
+  // The gap along a direction at the end of an interval, and the least that it can be within it: what is
+  // proven to stay above the floor begins `margin` above it, changes by `rise`, and bends by 2 k at most, in
+  // units of the interval. That is the gap itself, or the gap times the sine of two edges.
   struct Chord {
     Direction direction;
     double interval = 0.0;
     double end_gap = 0.0;
     double lower_bound = -std::numeric_limits<double>::infinity();
+    double scale = 1.0;
+    double margin = 0.0;
+    double rise = 0.0;
+    double k = 0.0;
   };
+
+  // The share of a chord's interval that is expected to be proven, if what it is of changes at first at
+  // `speed` and then as a parabola, to p x + q x^2 at the share x: `lowerBound` is no lower than the floor,
+  // ((k - q) x - p)^2 <= 4 k margin.
+  static double provenShare(const Chord& chord, double speed) {
+    const double p = chord.scale * speed * chord.interval;
+    const double bend = chord.k - (chord.rise - p);
+    const double reach = p + 2.0 * std::sqrt(chord.k * std::max(0.0, chord.margin));
+    return bend > reach ? reach / bend : 1.0;
+  }
 
   // For how long a safe chord has been past its landing, at the speed of its end: not at all where it ends
   // above it, or slowly.
@@ -171,19 +187,18 @@ class Look {
     return std::min(0.5 * chord.interval, (chord.end_gap - target) / end_speed);
   }
 
-  // What to try after a chord that proves too little, from a gap that changes at `speed`: where Newton's step
-  // and the chord itself come down to `aim`.
+  // What to try after a chord that proves too little, from a gap that changes at `speed`: what should be
+  // proven, but no longer than where Newton's step and the chord itself come down to `aim`.
   static double shorterThan(const Chord& chord, double gap, double speed, double aim) {
-    const bool passes_aim = chord.end_gap < aim;
     const double shrunk = kLinearShrink * chord.interval;
-    if (speed < 0.0) {
-      const double down_the_chord =
-          passes_aim ? std::min(shrunk, chord.interval * (gap - aim) / (gap - chord.end_gap)) : shrunk;
-      return std::min(down_the_chord, std::max((aim - gap) / speed, 0.5 * down_the_chord));
+    const double proven = provenShare(chord, speed) * chord.interval;
+    double down = shrunk;
+    if (chord.end_gap < aim) {
+      down = speed < 0.0 ? std::min(shrunk, chord.interval * (gap - aim) / (gap - chord.end_gap))
+                         : std::min(shrunk, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
     }
-    const double half = 0.5 * shrunk;
-    if (!passes_aim) return half;
-    return std::min(half, backDown(gap - aim, speed, chord.end_gap - aim, chord.interval));
+    if (proven > 0.0) return std::min(down, proven);
+    return std::min(down, std::max((aim - gap) / speed, 0.5 * down));
   }
 
   // So long a gap cannot lose `margin` m whatever the parts do: it closes at most at this speed and
@@ -324,16 +339,18 @@ class Look {
   Chord chordAcross(const CrossingEdges& edges, double begin, double interval, double floor) {
     const Direction direction{.across = &edges};
     const double end_gap = gapAlong(direction, begin + interval);
+    const double start = edges.sine * (edges.gap_m - floor);
     const double end = sineAt(edges, begin + interval) * (end_gap - floor);
     const double k = 0.5 * curvatureAcross(begin, interval, floor) * interval * interval;
-    return {direction, interval, end_gap, floor + lowerBound(edges.sine * (edges.gap_m - floor), end, k)};
+    return {direction,  interval, end_gap,     floor + lowerBound(start, end, k),
+            edges.sine, start,    end - start, k};
   }
 
   Chord chordAlong(const Direction& direction, double begin, double gap, double interval, double floor) {
     if (direction.across != nullptr) return chordAcross(*direction.across, begin, interval, floor);
     const double end_gap = gapAlong(direction, begin + interval);
     const double k = 0.5 * curvatureBound(direction, begin, interval) * interval * interval;
-    return {direction, interval, end_gap, lowerBound(gap, end_gap, k)};
+    return {direction, interval, end_gap, lowerBound(gap, end_gap, k), 1.0, gap - floor, end_gap - gap, k};
   }
 
   // A face turns with its part, and so does the gap below it: the direction that turns with who has the face,

@@ -39,5 +39,26 @@ TEST_P(ThinLanding, GainsNoEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(Aspects, ThinLanding, testing::Values(5.0, 20.0, 100.0));
 
+// A needle of half a millimetre whirls over a smooth floor. Its times of impact are searched for by intervals
+// over which it is proven to be clear: a chord that proves too little says which shorter one will do.
+TEST(WhirlingNeedle, NeedsTwoTriesAnInterval) {
+  SmallWorld world(120.0);
+  world.addPlane(rubbing(0.0));
+  Placement needle{Solid::box({0.06, 4e-4, 4e-4})};
+  needle.X_WB = {Quat(0.433, 0.624, -0.085, -0.645).normalized(), Vec3(0.0, 0.0, 0.034)};
+  needle.spin = {-47.0, -56.0, 27.5};
+  needle.material = rubbing(0.0);
+  world.add(needle);
+  world.start();
+  long tries = 0, intervals = 0;
+  while (world.world().time() < 0.8) {
+    world.step();
+    tries += world.world().audit().last_step.newton_steps;
+    intervals += world.world().audit().last_step.distance_queries;
+  }
+  EXPECT_GT(intervals, 5000);
+  EXPECT_LE(tries, 2 * intervals);
+}
+
 }  // namespace
 }  // namespace carom::physics
