@@ -409,4 +409,9 @@ ImportedMesh importMesh(const fs::path& path) {
   return mesh;
 }
 
+const ImportedMesh& MeshFiles::imported(const fs::path& path) {
+  const auto known = files_.find(path);
+  return known != files_.end() ? known->second : files_.emplace(path, importMesh(path)).first->second;
+}
+
 }  // namespace carom::demos

@@ -6,6 +6,7 @@
 // that names assimp. Tested in tests/demos/asset/mesh_import_test.cpp.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,15 @@ struct ImportedMesh {
 /// or ten million vertices, or has a vertex that is not finite; OutOfResources where no process can be
 /// started.
 ImportedMesh importMesh(const std::filesystem::path& path);
+
+/// Mesh files of one scene, each imported once however many bodies have it.
+class MeshFiles {
+ public:
+  /// As `importMesh` does.
+  const ImportedMesh& imported(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, ImportedMesh> files_;
+};
 
 }  // namespace carom::demos

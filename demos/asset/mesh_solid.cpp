@@ -237,8 +237,9 @@ Json MeshReport::json() const {
 namespace {
 
 /// The file upright and in its size; what was done is in the report.
-ImportedMesh placedMesh(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report) {
-  ImportedMesh mesh = importMesh(path);
+ImportedMesh placedMesh(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files,
+                        MeshReport& report) {
+  ImportedMesh mesh = files.imported(path);
   report.file = path.filename().string();
   report.as_hull = request.as_hull;
   report.notes = mesh.notes;
@@ -283,10 +284,15 @@ void addLookOf(MeshPart part, BoundingSurface& look) {
 }  // namespace
 
 MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request) {
+  MeshFiles files;
+  return meshSolid(path, request, files);
+}
+
+MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files) {
   MeshSolid made;
   MeshReport& report = made.report;
   try {
-    const ImportedMesh mesh = placedMesh(path, request, report);
+    const ImportedMesh mesh = placedMesh(path, request, files, report);
     if (request.as_hull)
       addHulls(mesh, made);
     else
@@ -303,10 +309,11 @@ MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& reques
   return made;
 }
 
-BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report) {
+BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files,
+                         MeshReport& report) {
   ImportedMesh mesh;
   try {
-    mesh = placedMesh(path, request, report);
+    mesh = placedMesh(path, request, files, report);
   } catch (const InputError& error) {
     const std::string text = error.what();
     throw InputError(text.starts_with(path.string()) ? text : path.string() + ": " + text);

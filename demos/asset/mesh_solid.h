@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "demos/asset/mesh_import.h"
 #include "demos/format/json.h"
 #include "engine/solid/solid.h"
 
@@ -55,8 +56,11 @@ struct MeshSolid {
 /// Throws InputError, with the path, for a file that cannot be read, and unless hulls are asked for for a
 /// surface that is open, not manifold, goes through itself, or needs more pieces than a body may have.
 MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request = {});
+/// The same of one of several files.
+MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files);
 
 /// The file as it is drawn in place of a body, whether or not it bounds one. Throws InputError.
-BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshReport& report);
+BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files,
+                         MeshReport& report);
 
 }  // namespace carom::demos

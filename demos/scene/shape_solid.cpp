@@ -60,7 +60,8 @@ ConvexPart placed(const ConvexPart& part, const Pose& X_SP) {
 /// Where the shapes of a compound are put together.
 class PartMaker {
  public:
-  PartMaker(const Mesh& mesh, std::vector<MeshReport>* reports) : mesh_(mesh), reports_(reports) {}
+  PartMaker(const Mesh& mesh, MeshFiles& files, std::vector<MeshReport>& reports)
+      : mesh_(mesh), files_(files), reports_(reports) {}
 
   ShapeParts partsOf(const Shape& shape) const {
     return std::visit([this](const auto& form) { return (*this)(form); }, shape.form);
@@ -84,8 +85,8 @@ class PartMaker {
     ShapeParts made;
     if (!hull.file.empty()) {
       MeshSolid solid = meshSolid(hull.replaceable && mesh_ ? *mesh_ : hull.file,
-                                  {hull.scale, hull.fit_m, hull.y_up, hull.as_hull});
-      if (reports_ != nullptr) reports_->push_back(solid.report);
+                                  {hull.scale, hull.fit_m, hull.y_up, hull.as_hull}, files_);
+      reports_.push_back(solid.report);
       made = {std::move(solid.parts), std::move(solid.surface)};
     } else {
       std::vector<Vec3> points = hull.points;
@@ -158,7 +159,8 @@ class PartMaker {
   }
 
   const Mesh& mesh_;
-  std::vector<MeshReport>* reports_;
+  MeshFiles& files_;
+  std::vector<MeshReport>& reports_;
 };
 
 }  // namespace
@@ -175,9 +177,10 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path) {
   }
 }
 
-BoundingSurface visualSurface(const Visual& visual, MeshReport& report) {
+BoundingSurface visualSurface(const Visual& visual, MeshFiles& files, MeshReport& report) {
   try {
-    BoundingSurface look = meshLook(visual.file, {visual.scale, visual.fit_m, visual.y_up, false}, report);
+    BoundingSurface look =
+        meshLook(visual.file, {visual.scale, visual.fit_m, visual.y_up, false}, files, report);
     for (Vec3& p : look.mesh.vertices) p = visual.X_SV * p;
     for (Vec3& n : look.normals) n = visual.X_SV.rotation * n;
     requireLengths(look.mesh.vertices, "mesh");
@@ -187,9 +190,15 @@ BoundingSurface visualSurface(const Visual& visual, MeshReport& report) {
   }
 }
 
-Solid makeSolid(const Shape& shape, const Mesh& mesh, std::vector<MeshReport>* reports) {
+Solid makeSolid(const Shape& shape, const Mesh& mesh) {
+  MeshFiles files;
+  std::vector<MeshReport> reports;
+  return makeSolid(shape, mesh, files, reports);
+}
+
+Solid makeSolid(const Shape& shape, const Mesh& mesh, MeshFiles& files, std::vector<MeshReport>& reports) {
   try {
-    ShapeParts made = PartMaker(mesh, reports).partsOf(shape);
+    ShapeParts made = PartMaker(mesh, files, reports).partsOf(shape);
     return Solid(std::move(made.parts), std::move(made.surface));
   } catch (const InputError& error) {
     throw InputError(shape.place + ": " + error.what());

@@ -16,12 +16,14 @@ namespace carom::demos {
 /// they enclose no volume.
 ConvexPolyhedron meshHull(const std::filesystem::path& path);
 
-/// The solid of a shape; `mesh` takes the place of every replaceable file. What was made of its mesh files is
-/// added to `reports`. Throws InputError, with the place of the shape, for what encloses no volume.
-Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh,
-                std::vector<MeshReport>* reports = nullptr);
+/// The solid of a shape; `mesh` takes the place of every replaceable file. Throws InputError, with the place
+/// of the shape, for what encloses no volume.
+Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh);
+/// The same, of the shapes of one scene. What was made of its mesh files is added to `reports`.
+Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh, MeshFiles& files,
+                std::vector<MeshReport>& reports);
 
 /// What is drawn for it, in the frame of the shape. Throws InputError.
-BoundingSurface visualSurface(const Visual& visual, MeshReport& report);
+BoundingSurface visualSurface(const Visual& visual, MeshFiles& files, MeshReport& report);
 
 }  // namespace carom::demos

@@ -245,5 +245,18 @@ TEST(MeshImport, OfHullsLeavesOutFlatMeshesBesideSolidOnes) {
   EXPECT_NEAR(Solid(std::move(mesh.parts)).volume(), 1.0 / 6.0, 1e-12);
 }
 
+TEST(MeshFiles, ImportAFileOnce) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("tetrahedron.off",
+                                "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  MeshFiles files;
+  const ImportedMesh* const first = &files.imported(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(&files.imported(path), first);
+  EXPECT_NEAR(meshSolid(path, {.scale = 2.0}, files).report.volume_m3, 8.0 / 6.0, 1e-12);
+  EXPECT_THROW(importMesh(path), InputError);
+}
+
 }  // namespace
 }  // namespace carom::demos

@@ -115,8 +115,9 @@ TEST(MeshPicture, BelongsToTheFilesOfItsMesh) {
 TEST(MeshPicture, OfALookNeedsNoClosedSurface) {
   const TemporaryFolder folder;
   const auto leaf = folder.file("leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  MeshFiles files;
   MeshReport report;
-  const BoundingSurface look = meshLook(leaf, {}, report);
+  const BoundingSurface look = meshLook(leaf, {}, files, report);
   EXPECT_EQ(look.mesh.triangles.size(), 2u) << "one for each side";
   EXPECT_EQ(report.triangles, 2);
   EXPECT_NE(thrownMessage<InputError>([&leaf] { meshSolid(leaf); }), "");
