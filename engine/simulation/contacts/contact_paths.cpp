@@ -7,6 +7,7 @@
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/ordered_pass.h"
 #include "engine/simulation/contacts/carried_path.h"
+#include "engine/simulation/contacts/path_change.h"
 
 namespace carom {
 namespace {
@@ -42,7 +43,11 @@ class ContactPaths {
     beginAtMeans();
     const double residual_mps = kPathGapShare * boundPaths() / step_s_;
     solve(residual_mps);
-    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) solve(residual_mps);
+    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) {
+      rememberPaths();
+      solve(residual_mps);
+      if (!takeBackLeaps()) break;
+    }
     takeMomentum();
     carry();
   }
@@ -93,6 +98,31 @@ class ContactPaths {
       lowerTo(pair.window.rest, smallest);
     });
     return smallest;
+  }
+
+  void rememberPaths() {
+    raised_from_.clear();
+    for (const int i : bodies_) raised_from_.push_back(contacts_.paths[at(i)].velocity);
+  }
+
+  // Islands that raising for turning has led farther than standing still would go back to where they were:
+  // the search finds where they meet, and they are led apart there. Whether any is left.
+  bool takeBackLeaps() {
+    bool left = false;
+    for (const std::size_t island : islands_) {
+      const std::vector<int> members = contacts_.bodiesOf(std::span(&island, 1));
+      const auto before = [&](int i) -> const Velocity& {
+        return raised_from_[at(static_cast<int>(std::ranges::lower_bound(bodies_, i) - bodies_.begin()))];
+      };
+      PathChange change;
+      for (const int i : members)
+        change.add(contacts_.paths[at(i)], before(i), contacts_.paths[at(i)].velocity);
+      if (change.staysNear())
+        left = true;
+      else
+        for (const int i : members) contacts_.paths[at(i)].velocity = before(i);
+    }
+    return left;
   }
 
   void takeMomentum() {
@@ -186,6 +216,7 @@ class ContactPaths {
   LastingContacts& contacts_;
   std::vector<int> bodies_;  ///< Of the islands.
   double step_s_;
+  std::vector<Velocity> raised_from_;  ///< Of each body, its path before the last round.
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "engine/response/sweeps/turning_resistance.h"
 #include "engine/simulation/contacts/carried_path.h"
 #include "engine/simulation/contacts/internal_edges.h"
-#include "engine/simulation/events/path_change.h"
+#include "engine/simulation/contacts/path_change.h"
 
 namespace carom {
 namespace {

@@ -1,6 +1,6 @@
 // Who pays for what led paths have lifted: energies before and after.
 
-#include "engine/simulation/contacts/path_lifts.h"
+#include "engine/simulation/events/path_lifts.h"
 
 #include <gtest/gtest.h>
 

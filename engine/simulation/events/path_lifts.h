@@ -3,7 +3,7 @@
 // does not fall as far as weight has accelerated the momentum for. It comes out of the speeds at which those
 // that were led together rise or fall, so that no step ends with more energy than impulses left it. What
 // bodies in flight do to each other's paths lifts one by what it lowers the other, and costs nothing.
-// Internal to the simulation floor. Tested in tests/engine/simulation/contacts/path_lifts_test.cpp.
+// Internal to the simulation floor. Tested in tests/engine/simulation/events/path_lifts_test.cpp.
 
 #include <span>
 #include <vector>

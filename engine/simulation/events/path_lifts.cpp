@@ -1,4 +1,4 @@
-#include "engine/simulation/contacts/path_lifts.h"
+#include "engine/simulation/events/path_lifts.h"
 
 #include <algorithm>
 #include <cmath>
