@@ -59,9 +59,7 @@ void BodyPaths::driveHeld(int index, const Velocity& end) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
   if (rest > 0.0) drive(body, end);
-  // It stays, whatever its new momentum would fall by.
-  body.lifting =
-      dot(planner_.pull(index, body), body.momentum_velocity.linear + 0.5 * rest * body.acceleration);
+  countStay(index);
 }
 
 // By the tensor of the path's start.
@@ -103,10 +101,18 @@ void BodyPaths::hold(int index) {
     stop(index);
     return;
   }
-  countLift(index, body.path.meanVelocity(body.path.start_s, restOf(body)), Vec3::Zero());
+  countStay(index);
   endPath(body);
   counters_.stopped_bodies += !body.frozen;
   body.frozen = true;
+}
+
+// From now on the body stays, whatever its momentum would fall by: not by what its path would have, which may
+// have been led up where that costs nothing (countFall).
+void BodyPaths::countStay(int index) {
+  Body& body = bodies_[at(index)];
+  body.lifting =
+      dot(planner_.pull(index, body), body.momentum_velocity.linear + 0.5 * restOf(body) * body.acceleration);
 }
 
 // From now on the body goes on at another mean velocity than it would have.
