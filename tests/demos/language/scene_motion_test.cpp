@@ -41,7 +41,6 @@ TEST_P(EveryShippedScene, NeverOverlapsInAnyFrame) {
   std::size_t parts = 0;
   for (const Solid& solid : made.world.solids()) parts += solid.parts().size();
   const int stride = parts > 200 ? 20 : 1;
-  long cut_short = 0, queries = 0;
   play(made.world, scene, [&](const World& world) {
     if (world.stepCount() % stride != 0) return;
     const oracle::SmallestGap gap = oracle::smallestGap(world);
@@ -56,11 +55,9 @@ TEST_P(EveryShippedScene, NeverOverlapsInAnyFrame) {
     if (gap.gap_m < kInTheWindow) {
       ASSERT_NEAR(world.audit().smallest_gap_m, gap.gap_m, 1e-9) << world.time();
     }
-    cut_short += world.audit().last_step.iteration_limits;
-    queries += world.audit().last_step.distance_queries;
+    // The exhaustive search that answers then is right, but costs the product of the features.
+    ASSERT_LE(world.audit().last_step.iteration_limits, 1) << world.time();
   });
-  // What answers then is right, but costs the product of the features (exhaustive_search.h).
-  EXPECT_LE(static_cast<double>(cut_short), 1e-5 * static_cast<double>(queries));
   // Those that float or spin freely touch nothing, by design.
   static const std::set<std::string> apart = {"archimedes", "dzhanibekov", "iceberg"};
   EXPECT_EQ(smallest < 0.01, apart.count(scene.name) == 0) << "the closest: " << smallest << " m";
