@@ -15,7 +15,6 @@
 #include "engine/simulation/bodies/step_paths.h"
 #include "engine/simulation/contacts/lasting_contact.h"
 #include "engine/simulation/contacts/pair_table.h"
-#include "engine/simulation/events/path_lifts.h"
 #include "engine/simulation/events/event_loop.h"
 #include "engine/simulation/events/step_record.h"
 #include "engine/simulation/resting_islands.h"

@@ -25,8 +25,8 @@ constexpr double kThin = 1e-7;
 // What merges must stay well below the thinnest extent, and vertices must not wander off.
 constexpr double kMostOfThickness = 1e-2;
 constexpr double kMostMoved = 4.0;  // in tolerances
-// A face that bends less, relative to the size, is left as it is: a tenth of what a polyhedron accepts.
-constexpr double kHarmlessBend = 5e-11;
+// A face that bends less, relative to the size, is left as it is: it bends as rounding does.
+constexpr double kHarmlessBend = 0x1p-48;
 // Where a tolerance makes no polyhedron, smaller ones are tried: features as fine as the tolerance call for
 // no merging rather than for half of it.
 constexpr double kShares[] = {1.0, 0.1, 1e-3, 1e-5};

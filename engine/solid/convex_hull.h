@@ -37,7 +37,7 @@ struct Hull {
 };
 
 /// The hull of at least four points that span a volume. Its vertices are points given, unless merged faces
-/// bend too much for a polyhedron: then they are moved, by a few tolerances at most. Throws InputError for
+/// bend by more than rounding: then they are moved, by a few tolerances at most. Throws InputError for
 /// non-finite, too few, coincident, collinear or coplanar ("flat") points. Cost O(n log n).
 Hull convexHull(std::span<const Vec3> points, const HullSettings& settings = {});
 

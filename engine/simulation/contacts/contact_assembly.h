@@ -48,6 +48,7 @@ struct BodyMotion {
 struct ContactRoom {
   std::vector<char> bends;
   std::vector<Vec3> accelerations;
+  std::vector<Velocity> led_from;  ///< Means of paths before they were raised for turning.
   std::vector<BodyMotion> motions;
   std::vector<char> near;  ///< Whether a body is within reach of lasting contact.
   Islands joined;

@@ -42,11 +42,12 @@ class ContactPaths {
   void set() {
     beginAtMeans();
     const double residual_mps = kPathGapShare * boundPaths() / step_s_;
-    solve(residual_mps);
-    for (int round = 0; round < kTurningRounds && raiseForTurning(); ++round) {
+    std::vector<std::size_t> raised(islands_.begin(), islands_.end());
+    solve(raised, residual_mps);
+    for (int round = 0; round < kTurningRounds && !raised.empty() && raiseForTurning(); ++round) {
       rememberPaths();
-      solve(residual_mps);
-      if (!takeBackLeaps()) break;
+      solve(raised, residual_mps);
+      std::erase_if(raised, [this](std::size_t island) { return takesBackLeap(island); });
     }
     takeMomentum();
     carry();
@@ -101,28 +102,20 @@ class ContactPaths {
   }
 
   void rememberPaths() {
-    raised_from_.clear();
-    for (const int i : bodies_) raised_from_.push_back(contacts_.paths[at(i)].velocity);
+    contacts_.room.led_from.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) { contacts_.room.led_from[i] = contacts_.paths[i].velocity; });
   }
 
-  // Islands that raising for turning has led farther than standing still would go back to where they were:
-  // the search finds where they meet, and they are led apart there. Whether any is left.
-  bool takeBackLeaps() {
-    bool left = false;
-    for (const std::size_t island : islands_) {
-      const std::vector<int> members = contacts_.bodiesOf(std::span(&island, 1));
-      const auto before = [&](int i) -> const Velocity& {
-        return raised_from_[at(static_cast<int>(std::ranges::lower_bound(bodies_, i) - bodies_.begin()))];
-      };
-      PathChange change;
-      for (const int i : members)
-        change.add(contacts_.paths[at(i)], before(i), contacts_.paths[at(i)].velocity);
-      if (change.staysNear())
-        left = true;
-      else
-        for (const int i : members) contacts_.paths[at(i)].velocity = before(i);
-    }
-    return left;
+  // An island that raising for turning has led farther than standing still would goes back to where it was:
+  // the search finds where its bodies meet, and they are led apart there.
+  bool takesBackLeap(std::size_t island) {
+    const std::vector<int> members = contacts_.bodiesOf(std::span(&island, 1));
+    PathChange change;
+    for (const int i : members)
+      change.add(contacts_.paths[at(i)], contacts_.room.led_from[at(i)], contacts_.paths[at(i)].velocity);
+    if (change.staysNear()) return false;
+    for (const int i : members) contacts_.paths[at(i)].velocity = contacts_.room.led_from[at(i)];
+    return true;
   }
 
   void takeMomentum() {
@@ -151,7 +144,7 @@ class ContactPaths {
 
   // Without friction. Where few sweeps do not do, one pass from the supports upwards leaves only what is
   // wedged.
-  void solve(double coarse_residual_mps) {
+  void solve(std::span<const std::size_t> islands, double coarse_residual_mps) {
     std::vector<std::size_t> coarse;
     const auto solveIsland = [&](std::size_t island, int sweeps, bool again) {
       const SolverReport report = solveContacts(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths,
@@ -165,7 +158,7 @@ class ContactPaths {
       if (report.residual_mps > coarse_residual_mps) coarse.push_back(island);
       return report;
     };
-    counters_.row_visits += solveWithinBudget(contacts_, islands_, kPathResidual, solveIsland);
+    counters_.row_visits += solveWithinBudget(contacts_, islands, kPathResidual, solveIsland);
     for (const std::size_t island : coarse)
       passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
   }
@@ -216,7 +209,6 @@ class ContactPaths {
   LastingContacts& contacts_;
   std::vector<int> bodies_;  ///< Of the islands.
   double step_s_;
-  std::vector<Velocity> raised_from_;  ///< Of each body, its path before the last round.
 };
 
 }  // namespace

@@ -106,11 +106,7 @@ void ClosedIslands::restore(std::vector<Body>& bodies) {
   for (const int i : met_) {
     if (together_.of(i) != i) continue;
     Island& island = islands_[at(i)];
-    const Vec3 kept = island.angular_momentum;
-    const bool open = island.open;
-    island = {};
-    island.open = open;
-    island.kept = kept;
+    island = {.open = island.open, .kept = island.angular_momentum};
   }
   findCenters(bodies);
   findMomenta(bodies);

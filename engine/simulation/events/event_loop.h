@@ -19,11 +19,11 @@
 #include "engine/simulation/bodies/step_paths.h"
 #include "engine/simulation/bodies/step_view.h"
 #include "engine/simulation/contacts/lasting_contact.h"
-#include "engine/simulation/events/path_lifts.h"
 #include "engine/simulation/events/closed_islands.h"
 #include "engine/simulation/events/contact_cluster.h"
 #include "engine/simulation/events/impact_searches.h"
 #include "engine/simulation/events/path_clearing.h"
+#include "engine/simulation/events/path_lifts.h"
 
 namespace carom {
 
