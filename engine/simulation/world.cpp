@@ -164,9 +164,9 @@ void World::Impl::endPath(std::size_t index) {
   const Vec3 spin_before = body.velocity.angular;
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
-  body.lift += (substep.step_s - body.path.start_s) * body.lifting;
+  body.velocity = body.velocityAt(substep.step_s, body.X_end.rotation);
+  body.lift += liftOfPath(body, body.velocity, body.X_end.position, substep.step_s);
   body.X_WB = body.X_end;
-  body.velocity = body.velocityAt(substep.step_s, body.X_WB.rotation);
   if (!flew_freely || spin_before.isZero(0.0)) {
     body.kept_angular_momentum.reset();
     return;

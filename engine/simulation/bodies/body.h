@@ -44,10 +44,7 @@ struct StepMotion {
   // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
-  // By how much higher, against what pulls it, the body was led in this step than its path would have brought
-  // it: J/kg until path.start_s, and W/kg from there on.
-  double lift = 0.0;
-  double lifting = 0.0;
+  double lift = 0.0;  ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
   /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where

@@ -4,6 +4,7 @@
 
 #include "engine/foundation/index.h"
 #include "engine/simulation/contacts/carried_path.h"
+#include "engine/simulation/events/path_lifts.h"
 
 namespace carom {
 
@@ -13,8 +14,9 @@ void BodyPaths::bring(int index, double time_s) {
   counters_.work_J += planner_.workOfLoad(index, body, time_s);
   if (ended_ != nullptr) ended_->add(at(index), body, time_s);
   const Pose X_WB = body.path.at(time_s);
-  body.lift += (time_s - body.path.start_s) * body.lifting;
-  body.momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
+  const Velocity momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
+  body.lift += liftOfPath(body, momentum_velocity, X_WB.position, time_s);
+  body.momentum_velocity = momentum_velocity;
   body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
   body.path.velocity = body.path.velocityAt(time_s);
   body.path.spin += (time_s - body.path.start_s) * body.path.spin_change.rate;
@@ -24,7 +26,6 @@ void BodyPaths::bring(int index, double time_s) {
 
 void BodyPaths::fly(int index) {
   Body& body = bodies_[at(index)];
-  body.lifting = 0.0;  // its path is that of its momentum again
   body.travel = Travel::kBallistic;
   planner_.plan(index, body);
 }
@@ -39,7 +40,6 @@ void BodyPaths::flyStraight(int index) {
 
 void BodyPaths::carryTo(int index, const Velocity& end, bool bends) {
   Body& body = bodies_[at(index)];
-  body.lifting = 0.0;
   body.travel = Travel::kCarried;
   drive(body, end);
   carryAlong(body,
@@ -59,7 +59,6 @@ void BodyPaths::driveHeld(int index, const Velocity& end) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
   if (rest > 0.0) drive(body, end);
-  countStay(index);
 }
 
 // By the tensor of the path's start.
@@ -75,7 +74,6 @@ void BodyPaths::drive(Body& body, const Velocity& end) {
 void BodyPaths::lead(int index, const Velocity& mean) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
-  countLift(index, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
   body.travel = Travel::kCarried;
   carryAlong(body, mean, rest, false);
 }
@@ -84,7 +82,6 @@ void BodyPaths::leadInContact(int index, const Velocity& mean, bool bends) {
   Body& body = bodies_[at(index)];
   const double rest = restOf(body);
   body.travel = Travel::kCarried;
-  countFall(index, body.path.meanVelocity(body.path.start_s, rest), mean.linear);
   carryAlong(body, mean, rest, bends);
 }
 
@@ -101,34 +98,9 @@ void BodyPaths::hold(int index) {
     stop(index);
     return;
   }
-  countStay(index);
   endPath(body);
   counters_.stopped_bodies += !body.frozen;
   body.frozen = true;
-}
-
-// From now on the body stays, whatever its momentum would fall by: not by what its path would have, which may
-// have been led up where that costs nothing (countFall).
-void BodyPaths::countStay(int index) {
-  Body& body = bodies_[at(index)];
-  body.lifting =
-      dot(planner_.pull(index, body), body.momentum_velocity.linear + 0.5 * restOf(body) * body.acceleration);
-}
-
-// From now on the body goes on at another mean velocity than it would have.
-void BodyPaths::countLift(int index, const Vec3& mean_before, const Vec3& mean) {
-  Body& body = bodies_[at(index)];
-  body.lifting += dot(planner_.pull(index, body), mean_before - mean);
-}
-
-// The same where it is led in contact: only as far as it falls less or more than its momentum does, and by
-// what of its weight no contact bears. What opens a gap under it lifts it once, and what stops a fall has
-// taken its energy.
-void BodyPaths::countFall(int index, const Vec3& mean_before, const Vec3& mean) {
-  Body& body = bodies_[at(index)];
-  const Vec3 down = planner_.pull(index, body).normalized();
-  const double unborne = std::max(0.0, dot(down, body.acceleration));
-  body.lifting += unborne * (std::max(0.0, dot(down, mean_before)) - std::max(0.0, dot(down, mean)));
 }
 
 bool BodyPaths::stopDriven(int index, double time_s) {

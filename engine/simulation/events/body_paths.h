@@ -58,9 +58,6 @@ class BodyPaths {
   double restOf(const Body& body) const { return settings_.step_s - body.path.start_s; }
   void stop(int index);
   void drive(Body& body, const Velocity& end);
-  void countStay(int index);
-  void countLift(int index, const Vec3& mean_before, const Vec3& mean);
-  void countFall(int index, const Vec3& mean_before, const Vec3& mean);
 
   std::vector<Body>& bodies_;
   const PairTable& table_;

@@ -16,9 +16,10 @@ double slowFall(Body& body, double energy, const Vec3& down) {
   return std::max(0.0, -0.5 * left);
 }
 
-// A body that rises, falls or tips does so by what lifted it: first this pays. Where nothing moves, a gap has
-// been opened under what lies, or was held up.
+// A body that rises, falls or tips does so by what lifted it: first this pays. Where nothing moves, it was
+// held up. Where nothing pulls, there is no lift, and bodies that only meet each other keep their momentum.
 void takeBack(Body& body, double energy, const Vec3& pull) {
+  if (pull.isZero(0.0)) return;
   const double left = slowFall(body, energy, pull.normalized());
   if (!(left > 0.0)) return;
   const double all = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity) / body.inertia.mass_kg;
@@ -28,6 +29,17 @@ void takeBack(Body& body, double energy, const Vec3& pull) {
 }
 
 }  // namespace
+
+double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& position_m, double time_s) {
+  if (body.travel == Travel::kBallistic) return 0.0;  // there the path is the momentum's
+  const Trajectory& path = body.path;
+  const double dt = time_s - path.start_s;
+  const Velocity& before = body.momentum_velocity;
+  const Vec3 way = 0.5 * dt * (before.linear + velocity.linear) - (position_m - path.X_WB.position);
+  const Vec3 spin = path.angularVelocityAt(path.start_s + 0.5 * dt);
+  const Vec3 turn = dt * (0.5 * (before.angular + velocity.angular) - spin);
+  return dot(body.acceleration, way) + body.inertia.inverse_mass * dot(body.torque, turn);
+}
 
 void PathLifts::begin(std::size_t bodies) {
   together_.part(static_cast<int>(bodies));
@@ -52,7 +64,7 @@ void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, cons
     const Account& account = accountOf(i);
     if (body.lift > 0.0 && account.net_J > 0.0)
       takeBack(body, body.lift * (account.net_J / account.raised_J), planner.pull(i, body));
-    body.lift = body.lifting = 0.0;
+    body.lift = 0.0;
   }
 }
 

@@ -1,4 +1,4 @@
-// Who pays for what led paths have lifted: energies before and after.
+// What led paths lift by, and who pays for it: works and energies before and after.
 
 #include "engine/simulation/events/path_lifts.h"
 
@@ -76,6 +76,56 @@ TEST(PathLifts, BodiesThatLedEachOtherPayTogether) {
   pay(alone, {});
   EXPECT_NEAR(alone[0].velocity.linear.z(), -1.0, 1e-12);
   EXPECT_EQ(alone[1].velocity.linear.z(), -3.0) << "being lowered gives nothing";
+}
+
+TEST(PathLifts, WhereNothingPullsNobodyPays) {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  FlightPlanner planner(settings);
+  planner.add({}, std::nullopt);
+  std::vector<Body> bodies{bodyAt(2.0, {3.0, 0.0, -2.0})};
+  bodies[0].lift = 1.5;
+  PathLifts lifts;
+  lifts.begin(1);
+  lifts.pay(bodies, std::vector<int>{0}, planner);
+  EXPECT_EQ(bodies[0].velocity.linear, Vec3(3.0, 0.0, -2.0));
+}
+
+// On its path from 0.1 s at 2 m/s along x, with this acceleration of its momentum, which falls.
+Body ledBody(const Vec3& acceleration) {
+  Body body = bodyAt(2.0, Vec3::Zero());
+  body.travel = Travel::kCarried;
+  body.path.start_s = 0.1;
+  body.momentum_velocity.linear = {2.0, 0.0, -1.0};
+  body.acceleration = acceleration;
+  return body;
+}
+
+// The momentum would have fallen by 0.2 s * (1 + 3) m/s / 2; the path stays level.
+TEST(PathLifts, ALevelPathLiftsByTheFallOfTheMomentum) {
+  const Body body = ledBody({0.0, 0.0, -10.0});
+  EXPECT_NEAR(liftOfPath(body, {{2.0, 0.0, -3.0}, Vec3::Zero()}, {0.4, 0.0, 0.0}, 0.3), 10.0 * 0.4, 1e-12);
+  EXPECT_NEAR(liftOfPath(body, {{2.0, 0.0, -3.0}, Vec3::Zero()}, {0.4, 0.0, -0.4}, 0.3), 0.0, 1e-12);
+}
+
+TEST(PathLifts, WhatContactsBearIsNotLifted) {
+  const Body body = ledBody(Vec3::Zero());
+  EXPECT_EQ(liftOfPath(body, {{2.0, 0.0, -1.0}, Vec3::Zero()}, {0.4, 0.0, 0.3}, 0.3), 0.0);
+}
+
+TEST(PathLifts, APathThatTurnsLessThanTorquesHaveTurnedTheMomentumLiftsToo) {
+  Body body = ledBody(Vec3::Zero());
+  body.torque = {0.0, 5.0, 0.0};
+  body.momentum_velocity.angular = {0.0, 1.0, 0.0};
+  const double turn = 0.2 * 1.5;  // from 1 to 2 rad/s
+  EXPECT_NEAR(liftOfPath(body, {{2.0, 0.0, -1.0}, {0.0, 2.0, 0.0}}, {0.4, 0.0, -0.2}, 0.3), 5.0 * turn / 2.0,
+              1e-12);
+}
+
+TEST(PathLifts, InFlightThePathIsTheMomentums) {
+  Body body = ledBody({0.0, 0.0, -10.0});
+  body.travel = Travel::kBallistic;
+  EXPECT_EQ(liftOfPath(body, {{2.0, 0.0, -3.0}, Vec3::Zero()}, {0.4, 0.0, 0.0}, 0.3), 0.0);
 }
 
 }  // namespace
