@@ -2,6 +2,8 @@
 // What an impulse reaches at one instant: the two bodies of an event and, through contacts, those that they
 // press. Contacts join the solve when a body of theirs moves, so that the cost of an event is that of its
 // consequences, not of the pile it happens in. The cluster changes no body; the event loop takes its answers.
+// Its three solves: the collision (contact_cluster.cpp), the forces of lasting contact for the rest of the
+// step (cluster_forces.cpp) and the paths (cluster_paths.cpp).
 // Internal to the simulation floor. Tested in tests/physics/piles/pile_test.cpp.
 
 #include <vector>

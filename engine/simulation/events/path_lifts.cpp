@@ -31,7 +31,8 @@ void takeBack(Body& body, double energy, const Vec3& pull) {
 }  // namespace
 
 double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& position_m, double time_s) {
-  if (body.travel == Travel::kBallistic) return 0.0;  // there the path is the momentum's
+  // In flight the path is the momentum's, and what is driven has none.
+  if (body.travel == Travel::kBallistic || body.is_kinematic) return 0.0;
   const Trajectory& path = body.path;
   const double dt = time_s - path.start_s;
   const Velocity& before = body.momentum_velocity;

@@ -128,5 +128,12 @@ TEST(PathLifts, InFlightThePathIsTheMomentums) {
   EXPECT_EQ(liftOfPath(body, {{2.0, 0.0, -3.0}, Vec3::Zero()}, {0.4, 0.0, 0.0}, 0.3), 0.0);
 }
 
+TEST(PathLifts, WhatIsDrivenPaysForNothing) {
+  Body body = ledBody({0.0, 0.0, -10.0});
+  body.travel = Travel::kDriven;
+  body.is_kinematic = true;
+  EXPECT_EQ(liftOfPath(body, {{2.0, 0.0, -3.0}, Vec3::Zero()}, {0.4, 0.0, 0.0}, 0.3), 0.0);
+}
+
 }  // namespace
 }  // namespace carom
