@@ -4,8 +4,10 @@
 // capsules), apart, touching and deep inside each other; the memory passes from pair to pair unforgotten.
 // Each answer must be of the cold one's class, its distance that to 1e-12 of the pair's size, its numbers
 // finite and its witnesses its distance along its normal apart. (In exact ties normals and features are a
-// choice.) Each thread has a stream of its own, so a count repeats for the same seed and number of threads.
-// Exit code 1 when an answer differs; the first ones are told on stderr.
+// choice; and classes are intervals of the distance, so that two distances which are one but for rounding may
+// lie on both sides of a border: those are told apart.) Each thread has a stream of its own, so a count
+// repeats for the same seed and number of threads. Exit code 1 when an answer differs; the first ones are
+// told on stderr.
 
 #include <algorithm>
 #include <atomic>
@@ -25,7 +27,8 @@ namespace {
 using oracle::Family;
 using oracle::PosedPair;
 
-constexpr double kSame = 1e-12;  // of the pair's size
+constexpr double kSame = 1e-12;        // of the pair's size
+constexpr double kRounding = 0x1p-50;  // likewise: four units in the last place
 constexpr long kTold = 20;
 
 struct Options {
@@ -36,6 +39,7 @@ struct Options {
 
 struct Counts {
   long asked = 0, penetrating = 0, classes = 0, distances = 0, witnesses = 0, not_finite = 0;
+  long at_borders = 0;   ///< Classes that differ where distances do not but by rounding.
   double largest = 0.0;  ///< Difference from cold, relative to the pair's size.
 
   long wrong() const { return classes + distances + witnesses + not_finite; }
@@ -46,6 +50,7 @@ struct Counts {
     distances += other.distances;
     witnesses += other.witnesses;
     not_finite += other.not_finite;
+    at_borders += other.at_borders;
     largest = std::max(largest, other.largest);
   }
 };
@@ -140,8 +145,9 @@ void Stream::check(const PosedPair& pair) {
     const double error = std::abs(got.distance_m - want.distance_m) / pair.scale();
     const Vec3 across = got.p_B_W - got.p_A_W - got.distance_m * got.n_W;
     counts_.largest = std::max(counts_.largest, error);
-    // Two distances of which one is touching and one is not may still be equal to rounding.
-    counts_.classes += got.status != want.status;
+    const bool same_class = got.status == want.status;
+    counts_.at_borders += !same_class && error <= kRounding;
+    counts_.classes += !same_class && error > kRounding;
     counts_.distances += error > kSame;
     counts_.witnesses += across.norm() > kSame * size || std::abs(got.n_W.norm() - 1.0) > kSame;
   }
@@ -176,8 +182,9 @@ int run(const Options& options) {
   std::printf("%ld queries with one memory a thread, %ld penetrating: %ld differ from cold\n", all.asked,
               all.penetrating, all.wrong());
   std::printf(
-      "%ld classes, %ld distances, %ld witnesses, %ld not finite; largest difference %.1e of the size\n",
-      all.classes, all.distances, all.witnesses, all.not_finite, all.largest);
+      "%ld classes, %ld distances, %ld witnesses, %ld not finite; largest difference %.1e of the size; "
+      "%ld at the border of two classes\n",
+      all.classes, all.distances, all.witnesses, all.not_finite, all.largest, all.at_borders);
   return all.wrong() > 0 ? 1 : 0;
 }
 
