@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/contact/contact_id.h"
-#include "engine/contact/contact_polygon.h"
 #include "engine/contact/manifold_reduction.h"
 #include "engine/foundation/stack_arena.h"
 
@@ -31,10 +30,10 @@ KeptCorners formerCorners(const ContactPolygon& polygon, FormerPoints former) {
 }  // namespace
 
 ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts& parts,
-                                const CollisionWindow& window, FormerPoints former) {
+                                const CollisionWindow& window, FormerPoints former, Ground ground) {
   StackArena<kPolygonBytes> arena;
   ContactPolygon polygon{Vec3::UnitZ(), ArenaVector<PolygonCorner>(&arena)};
-  contactPolygon(closest, parts, window, polygon);
+  contactPolygon(closest, parts, window, ground, polygon);
   const KeptCorners kept =
       reducePolygon(polygon, sameCorner_m(parts.X_WA, parts.X_WB, window),
                     {formerCorners(polygon, former), tolerance::kRestBand * window.rest});

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/contact/collision_window.h"
+#include "engine/contact/contact_polygon.h"
 #include "engine/contact/contact_state.h"
 
 namespace carom {
@@ -42,6 +43,7 @@ using FormerPoints = std::span<const std::uint64_t>;
 /// All points of contact of two parts whose closest features are known; at least one. Of a polygon with more
 /// than four corners, the `former` four stay while they hold it nearly as well as any (`reducePolygon`).
 ContactManifold contactManifold(const ClosestFeatures& closest, const PosedParts& parts,
-                                const CollisionWindow& window, FormerPoints former = {});
+                                const CollisionWindow& window, FormerPoints former = {},
+                                Ground ground = Ground::kNone);
 
 }  // namespace carom

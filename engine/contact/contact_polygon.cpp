@@ -169,13 +169,17 @@ Lying lyingOn(const PartAtPose& reference, int f, const PartAtPose& incident, bo
 }
 
 // Which of the two faces is the reference is decided by what both ways of naming the bodies share: the angle
-// to the contact, then the area. Equals have no canonical choice between them; their mean is one.
-Lying whatLies(const PartAtPose& a, const PartAtPose& b, const Vec3& n_W) {
+// to the contact, who is the ground, then the area. What glides over many small tiles would otherwise go
+// where its own face points, and that leans by what the solver leaves. Equals have no canonical choice
+// between them; their mean is one.
+Lying whatLies(const PartAtPose& a, const PartAtPose& b, const Vec3& n_W, Ground ground) {
   const FacingFace face_a = a.faceUnder(n_W);
   const FacingFace face_b = b.faceUnder(-n_W);
   if (face_a.face < 0 && face_b.face < 0) return {};
   if (face_a.cosine > face_b.cosine + kSameCosine) return lyingOn(a, face_a.face, b, true);
   if (face_b.cosine > face_a.cosine + kSameCosine) return lyingOn(b, face_b.face, a, false);
+  if (ground == Ground::kA) return lyingOn(a, face_a.face, b, true);
+  if (ground == Ground::kB) return lyingOn(b, face_b.face, a, false);
   const double area_a = faceArea(a.part.core, face_a.face);
   const double area_b = faceArea(b.part.core, face_b.face);
   if (area_a > area_b * (1.0 + kSameArea)) return lyingOn(a, face_a.face, b, true);
@@ -402,14 +406,14 @@ double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& w
 }
 
 void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
-                    ContactPolygon& polygon) {
+                    Ground ground, ContactPolygon& polygon) {
   const ContactPoint single = contactPoint(closest, parts.a, parts.X_WA, parts.b, parts.X_WB);
   const double lying_sine = lyingSine(parts, window);
   const PartAtPose at_a{parts.a, parts.X_WA, closest.features.a, lying_sine};
   const PartAtPose at_b{parts.b, parts.X_WB, closest.features.b, lying_sine};
   polygon.corners.clear();
   polygon.n_W = single.n_W;
-  const Lying lying = whatLies(at_a, at_b, single.n_W);
+  const Lying lying = whatLies(at_a, at_b, single.n_W, ground);
   if (lying.any()) {
     polygon.n_W = lying.n_W;
     const ContactFrame C(single.p_W, polygon.n_W);
@@ -427,7 +431,7 @@ void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, con
 ContactPolygon contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
                               const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window) {
   ContactPolygon polygon;
-  contactPolygon(closest, {a, X_WA, b, X_WB}, window, polygon);
+  contactPolygon(closest, {a, X_WA, b, X_WB}, window, Ground::kNone, polygon);
   return polygon;
 }
 

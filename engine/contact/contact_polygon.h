@@ -36,11 +36,15 @@ inline constexpr double kSameCosine = 1e-9;
 /// the poses.
 double sameCorner_m(const Pose& X_WA, const Pose& X_WB, const CollisionWindow& window);
 
+/// Which of the parts is the ground: the one that cannot give way, if the other can.
+enum class Ground { kNone, kA, kB };
+
 /// The complete polygon of two parts whose closest features are known, written to `polygon`. The normal is
 /// the reference face's: of the faces at the closest features the one more parallel to the contact by more
-/// than rounding; else the larger; else, for equals, the mean of both. Proportional to corners times sides.
+/// than rounding; else the ground's, along which the other part glides; else the larger; else, for equals,
+/// the mean of both. Proportional to corners times sides.
 void contactPolygon(const ClosestFeatures& closest, const PosedParts& parts, const CollisionWindow& window,
-                    ContactPolygon& polygon);
+                    Ground ground, ContactPolygon& polygon);
 ContactPolygon contactPolygon(const ClosestFeatures& closest, const ConvexPart& a, const Pose& X_WA,
                               const ConvexPart& b, const Pose& X_WB, const CollisionWindow& window);
 

@@ -19,8 +19,8 @@ constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks
 // surface, or where two of them miss their radii by the same share; halfway between two that are flat. On
 // what cannot turn nothing is missed.
 double leaningOf(const ShapePair& pair, const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  const bool a_yields = bodies[at(pair.body_a)].yields();
-  if (a_yields != bodies[at(pair.body_b)].yields()) return a_yields ? -1.0 : 1.0;
+  const Ground ground = groundOf(pair, bodies);
+  if (ground != Ground::kNone) return ground == Ground::kB ? -1.0 : 1.0;
   const double radius_a = shapes[at(pair.shapes.a)].part->radius_m;
   const double radius_b = shapes[at(pair.shapes.b)].part->radius_m;
   if (radius_a == radius_b) return 0.0;
@@ -76,6 +76,12 @@ double turningSpeed(const ShapePair& pair, const std::vector<Shape>& shapes, con
 
 }  // namespace
 
+Ground groundOf(const ShapePair& pair, const std::vector<Body>& bodies) {
+  const bool a_yields = bodies[at(pair.body_a)].yields();
+  if (a_yields == bodies[at(pair.body_b)].yields()) return Ground::kNone;
+  return a_yields ? Ground::kB : Ground::kA;
+}
+
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
                 const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,
                 std::vector<SourcedRow>& rows) {
@@ -84,7 +90,7 @@ void appendRows(const RowRequest& request, const ShapePair& pair, const std::vec
   const ContactManifold manifold = contactManifold(
       *request.closest,
       {*shapes[at(pair.shapes.a)].part, request.X_WA, *shapes[at(pair.shapes.b)].part, request.X_WB}, window,
-      request.former);
+      request.former, groundOf(pair, bodies));
   const double leaning = leaningOf(pair, bodies, shapes);
   const double slack_m = slackOf(pair, shapes);
   const Material& material_a = bodies[at(pair.body_a)].material;

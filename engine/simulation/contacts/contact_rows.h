@@ -36,6 +36,9 @@ struct RowRequest {
   bool struck = false;    ///< The closest point gets a row wherever it is: it has been stopped there.
 };
 
+/// Which of the pair's parts the other may glide along.
+Ground groundOf(const ShapePair& pair, const std::vector<Body>& bodies);
+
 /// Appends the rows of a pair; the solver's `bodies` prepare them.
 void appendRows(const RowRequest& request, const ShapePair& pair, const std::vector<Body>& bodies,
                 const std::vector<Shape>& shapes, std::span<const ImpulseBody> solver_bodies,

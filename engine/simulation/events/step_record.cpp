@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "engine/foundation/index.h"
+#include "engine/simulation/contacts/contact_rows.h"
 
 namespace carom {
 namespace {
@@ -17,7 +18,7 @@ void recordResting(const RecordedWorld& world, const ShapePair& pair, StepView& 
   const ContactManifold manifold = contactManifold(
       pair.closest,
       {*world.shapes[at(pair.shapes.a)].part, a.X_WB, *world.shapes[at(pair.shapes.b)].part, b.X_WB},
-      pair.window, points.view());
+      pair.window, points.view(), groundOf(pair, world.bodies));
   for (const ManifoldPoint& point : manifold.view())
     for (const RememberedImpulse& remembered : pair.remembered) {
       if (remembered.id != point.id) continue;

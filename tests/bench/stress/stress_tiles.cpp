@@ -17,6 +17,8 @@ using physics::GlideResult;
 constexpr double kBar = 1e-6;          // of the speed, and metres
 constexpr double kDistanceBar = 1e-4;  // of v^2 / 2 mu g
 constexpr double kLeastSliding = 2.0;  // m/s: slower, the step in which it stops shows in the distance
+constexpr double kMostFriction = 0.8;
+constexpr double kMostOfABox = 0.4;  // the narrowest (makeGlider) tips over where there is more
 
 // What rolls, or may tip over its own legs, does not slide to a stop by the closed form.
 bool slides(Glider glider) {
@@ -34,7 +36,7 @@ Glide randomGlide(long number, std::uint64_t seed, bool rubbing) {
   glide.speed_mps = random.logUniform(rubbing ? kLeastSliding : 0.2, 30.0);
   glide.seconds = 100.0 / glide.speed_mps;
   if (rubbing) {
-    glide.friction = random.uniform(0.2, 0.8);
+    glide.friction = random.uniform(0.2, glide.glider == Glider::kBox ? kMostOfABox : kMostFriction);
     const double farthest = std::sqrt(2.0 * glide.friction * 9.81 * (glide.length_m - 4.0 * glide.size_m));
     glide.speed_mps = std::min(glide.speed_mps, farthest);
     glide.seconds = 1.2 * glide.speed_mps / (glide.friction * 9.81) + 1.0;

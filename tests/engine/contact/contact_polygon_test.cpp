@@ -523,6 +523,25 @@ TEST(ContactPolygon, OfExactlyStackedCubes_IsTheirFourCornersAndHalfwayBetweenTh
   }
 }
 
+TEST(ContactPolygon, OfFacesThatLean_HasTheGroundsNormalHoweverSmallItsFace) {
+  const ConvexPart tile = box(0.2, 0.2, 1), plate = box(1, 1, 1);
+  Pair pair = stacked({tile, 1}, {plate, 1}, 1e-3, {0, 0}, Quat::Identity(), {});
+  pair.X_WB.rotation = turned(Vec3::UnitX(), 1e-6);
+  const Vec3 of_plate = pair.X_WB.rotation * Vec3::UnitZ();
+  const auto normal = [&](Ground ground) {
+    ContactPolygon polygon;
+    contactPolygon(pair.closest(), {pair.a, pair.X_WA, pair.b, pair.X_WB}, pair.window(), ground, polygon);
+    EXPECT_EQ(polygon.corners.size(), 4u);
+    return polygon.n_W;
+  };
+  EXPECT_EQ(normal(Ground::kA), Vec3::UnitZ());
+  EXPECT_LT((normal(Ground::kB) - of_plate).norm(), 1e-15);
+  EXPECT_LT((normal(Ground::kNone) - of_plate).norm(), 1e-15);
+  // A lean that is more than rounding decides by itself: the tile's edge is below the plate's face.
+  pair.X_WB.rotation = turned(Vec3::UnitX(), 1e-3);
+  EXPECT_LT((normal(Ground::kA) - pair.X_WB.rotation * Vec3::UnitZ()).norm(), 1e-15);
+}
+
 TEST(ContactPolygon, OfFacesThatShareOnlyASideOrACorner_IsThatSideOrCorner) {
   const ConvexPart cube = box(1, 1, 1);
   const ContactPolygon side = stacked({cube, 1}, {cube, 1}, 1e-3, {1, 0.25}, Quat::Identity(), {}).polygon();

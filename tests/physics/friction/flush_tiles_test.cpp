@@ -9,31 +9,28 @@
 namespace carom::physics {
 namespace {
 
-// What the solver leaves over, a millionth of a step's gravity, may tilt a body that many tiles hold: of the
-// speed it is the more the slower the body is.
-constexpr double kLost = 1e-6;
-// A plate of eight parts on forty tiles has hundreds of contacts, which are solved to a thousandth.
-constexpr double kLostByPlates = 3e-4;
+// What the solver leaves over tilts a body that many tiles hold, and lifts it; but it goes on along the tiles
+// (Ground, engine/contact/contact_polygon.h).
+constexpr double kLost = 1e-12;
 
 class FlushTiles : public testing::TestWithParam<int> {};
 
 TEST_P(FlushTiles, NeitherBrakeNorLiftWhatGlides) {
   const auto glider = static_cast<Glider>(GetParam());
-  const double allowed = glider == Glider::kPlateOfTiles ? kLostByPlates : kLost;
-  for (const double speed : {1.0, 5.0, 25.0})
+  for (const double speed : {0.2, 1.0, 5.0, 25.0})
     for (const double rate : {60.0, 240.0, 1000.0}) {
       SCOPED_TRACE(testing::Message() << gliderName(glider) << " at " << speed << " m/s, " << rate << " Hz");
       const GlideResult result = glideOverTiles({.glider = glider,
                                                  .size_m = 0.7,
                                                  .speed_mps = speed,
                                                  .rate_hz = rate,
-                                                 .seconds = 10.0 / speed,
+                                                 .seconds = std::min(10.0, 10.0 / speed),
                                                  .length_m = 12.0,
                                                  .half_width_m = 1.0,
                                                  .seed = 7});
-      EXPECT_LT(std::abs(result.speed_lost), allowed);
-      EXPECT_LT(result.strayed, allowed);
-      EXPECT_LT(result.lift_m, glider == Glider::kPlateOfTiles ? 1e-4 : 1e-6);
+      EXPECT_LT(std::abs(result.speed_lost), kLost);
+      EXPECT_LT(result.strayed, kLost);
+      EXPECT_LT(result.lift_m, 1e-7);
     }
 }
 
