@@ -150,9 +150,12 @@ void addSurface(const MeshPart& part, const ImportedMesh& file, MeshSolid& made)
   const ConvexDecomposition pieces = convexDecomposition(
       closed, {.coordinate_error_m = error_m,
                .most_pieces = std::max(1, kMostPieces - static_cast<int>(made.parts.size()))});
-  const ConvexPolyhedron hull =
-      convexHull(part.vertices, {.coordinate_error_m = file.coordinate_error_m}).polyhedron;
-  if (pieces.pieces.size() == 1 && pieces.report.cuts == 0)
+  const bool is_convex = pieces.pieces.size() == 1 && pieces.report.cuts == 0;
+  // Of what is not convex the volume alone is asked for, and faces need not be made whole.
+  const HullSettings of_hull =
+      is_convex ? HullSettings{.coordinate_error_m = file.coordinate_error_m} : HullSettings{};
+  const ConvexPolyhedron hull = convexHull(part.vertices, of_hull).polyhedron;
+  if (is_convex)
     made.parts.push_back({hull, 0.0});  // its corners in the file's order
   else
     for (const ConvexPolyhedron& piece : pieces.pieces) made.parts.push_back({piece, 0.0});

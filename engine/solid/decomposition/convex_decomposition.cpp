@@ -5,8 +5,10 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/index.h"
@@ -310,6 +312,7 @@ class Cutting {
 
 /// A piece when nothing is to be cut any more: its points, its volume, and its hull where it has one.
 struct ConvexPiece {
+  int number = -1;
   std::vector<Vec3> points;
   double volume_m3 = 0.0;
   std::optional<ConvexPolyhedron> hull;
@@ -386,10 +389,11 @@ class Merging {
   }
 
  private:
-  ConvexPiece collected(const CutSurface& surface) const {
+  ConvexPiece collected(const CutSurface& surface) {
     std::vector<int> all(at(surface.triangleCount()));
     std::iota(all.begin(), all.end(), 0);
     ConvexPiece made;
+    made.number = pieces_made_++;
     made.points = surface.points();
     made.volume_m3 = volumeOf(surface, all);
     measure(made);
@@ -397,9 +401,13 @@ class Merging {
   }
 
   void measure(ConvexPiece& piece) const {
+    measure(piece, {.coordinate_error_m = settings_.coordinate_error_m});
+  }
+
+  void measure(ConvexPiece& piece, const HullSettings& settings) const {
     for (const Vec3& p : piece.points) piece.bounds.extend(p);
     try {
-      piece.hull = convexHull(piece.points, {.coordinate_error_m = settings_.coordinate_error_m}).polyhedron;
+      piece.hull = convexHull(piece.points, settings).polyhedron;
       // Corners in the middle of faces and edges need not be looked at again.
       piece.points = piece.hull->vertices();
     } catch (const InputError&) {
@@ -424,24 +432,39 @@ class Merging {
     return beyond < 2;
   }
 
-  std::optional<ConvexPiece> merged(const ConvexPiece& a, const ConvexPiece& b) const {
+  std::optional<ConvexPiece> merged(const ConvexPiece& a, const ConvexPiece& b) {
     Eigen::AlignedBox3d reach = a.bounds;
     reach.min().array() -= tolerance_m_;
     reach.max().array() += tolerance_m_;
     if (!reach.intersects(b.bounds) || !mayJoin(a, b) || !mayJoin(b, a)) return std::nullopt;
+    const std::pair<int, int> pair = std::minmax({a.number, b.number});
+    if (apart_.contains(pair)) return std::nullopt;
     ConvexPiece whole;
     whole.points = a.points;
     whole.points.insert(whole.points.end(), b.points.begin(), b.points.end());
     whole.volume_m3 = a.volume_m3 + b.volume_m3;
-    measure(whole);
-    if (!whole.hull) return std::nullopt;
-    const double excess = std::abs(polyhedronMass(*whole.hull).mass - whole.volume_m3);
-    return excess <= allowance(*whole.hull) ? std::optional(std::move(whole)) : std::nullopt;
+    const std::vector<Vec3> points = whole.points;
+    const auto fits = [&](const HullSettings& hull, double allowances) {
+      whole.points = points;
+      measure(whole, hull);
+      return whole.hull && std::abs(polyhedronMass(*whole.hull).mass - whole.volume_m3) <=
+                               allowances * allowance(*whole.hull);
+    };
+    // First without faces that are merged: to make those flat takes longest, and most pairs do not fit. It
+    // reaches to the outermost points, where merged faces go between them.
+    if (!fits({}, 2.0) || !fits({.coordinate_error_m = settings_.coordinate_error_m}, 1.0)) {
+      apart_.insert(pair);
+      return std::nullopt;
+    }
+    whole.number = pieces_made_++;
+    return whole;
   }
 
   const DecompositionSettings& settings_;
   double tolerance_m_;
   std::vector<ConvexPiece> pieces_;
+  int pieces_made_ = 0;
+  std::set<std::pair<int, int>> apart_;  // by number, the lower first: tried, and no convex piece together
 };
 
 }  // namespace

@@ -23,6 +23,16 @@ int sideOf(const Vec2& a, const Vec2& b, const Vec2& p, double tolerance_m) {
   return turn > 0.0 ? 1 : -1;
 }
 
+/// Most corners are far from an ear: they are told by this, much sooner than by the sides of lines.
+struct Reach {
+  Vec2 lowest, highest;
+  /// Whether the way from d to e does, by being on one side of it.
+  bool misses(const Vec2& d, const Vec2& e) const {
+    return (d.x() < lowest.x() && e.x() < lowest.x()) || (d.x() > highest.x() && e.x() > highest.x()) ||
+           (d.y() < lowest.y() && e.y() < lowest.y()) || (d.y() > highest.y() && e.y() > highest.y());
+  }
+};
+
 /// A corner on the way around what is left, with the side that begins there. `beyond` says what lies on the
 /// other side of that: a ring's or triangle's side, or a bridge.
 struct Node {
@@ -149,6 +159,8 @@ class EarClipping {
       after_.push_back((i + 1) % n);
     }
     obstacles_.resize(nodes_.size());
+    known_.resize(nodes_.size(), kUnknown);
+    places_.resize(nodes_.size());
   }
 
   std::optional<PolygonTriangles> run() {
@@ -164,6 +176,7 @@ class EarClipping {
 
  private:
   static constexpr double kNoEar = -1.0;
+  static constexpr double kUnknown = -2.0;
   static constexpr int kGone = -1;  // no node, or what follows one that has been clipped
   /// What keeps a corner from being an ear: a node, and the side that begins there.
   struct Obstacle {
@@ -180,9 +193,10 @@ class EarClipping {
   /// Until nothing is left of the ring; parts of it that remain are added to `rings`.
   bool clip(int start, std::vector<int>& rings) {
     std::vector<int> ring = ringFrom(start);
+    const std::vector<Touch> touches = touchesOf(ring);
     std::vector<double> quality;
     quality.reserve(ring.size());
-    for (const int i : ring) quality.push_back(qualityOf(i));
+    for (const int i : ring) quality.push_back(known_[at(i)] == kUnknown ? qualityOf(i) : known_[at(i)]);
     while (ring.size() > 2) {
       auto best = std::max_element(quality.begin(), quality.end());
       if (!(*best > 0.0)) {  // an ear clipped may have freed others
@@ -190,7 +204,12 @@ class EarClipping {
           if (isFreed(ring[k])) quality[k] = qualityOf(ring[k]);
         best = std::max_element(quality.begin(), quality.end());
       }
-      if (!(*best > 0.0) && takeApart(ring, rings)) return true;
+      if (!(*best > 0.0))
+        if (const std::optional<Touch> touch = dividing(ring, touches)) {
+          for (std::size_t k = 0; k < ring.size(); ++k) known_[at(ring[k])] = quality[k];
+          takeApart(ring, *touch, rings);
+          return true;
+        }
       if (*best == kNoEar) return false;
       const auto k = best - quality.begin();
       const int ear = ring[static_cast<std::size_t>(k)], before = before_[at(ear)], after = after_[at(ear)];
@@ -238,43 +257,70 @@ class EarClipping {
     }
   }
 
-  /// By position in the ring: the next at the same place; the ring's size for none.
-  std::vector<std::size_t> samePlaces(const std::vector<int>& ring) const {
-    std::vector<std::size_t> order(ring.size()), next(ring.size(), ring.size());
+  /// Two nodes at one place, the first before the second on the way around the ring.
+  struct Touch {
+    int first = kGone, second = kGone;
+  };
+
+  /// All touches of a ring, by first and then by second node on the way around.
+  std::vector<Touch> touchesOf(const std::vector<int>& ring) const {
+    std::vector<std::size_t> order(ring.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
       const Vec2 &a = p(ring[i]), &b = p(ring[k]);
       return std::tuple(a.x(), a.y(), i) < std::tuple(b.x(), b.y(), k);
     });
-    for (std::size_t i = 0; i + 1 < order.size(); ++i)
-      if (p(ring[order[i]]) == p(ring[order[i + 1]])) next[order[i]] = order[i + 1];
-    return next;
+    std::vector<std::pair<std::size_t, std::size_t>> positions;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t k = i + 1; k < order.size() && p(ring[order[i]]) == p(ring[order[k]]); ++k)
+        positions.emplace_back(order[i], order[k]);
+    std::sort(positions.begin(), positions.end());
+    std::vector<Touch> touches;
+    touches.reserve(positions.size());
+    for (const auto& [first, second] : positions) touches.push_back({ring[first], ring[second]});
+    return touches;
   }
 
-  /// Parts the ring in two where it comes to one place twice, with area on the left of both or of none.
-  bool takeApart(const std::vector<int>& ring, std::vector<int>& rings) {
+  /// The first of the touches that are left in a ring that parts it in two with area on the left of both or
+  /// of none.
+  std::optional<Touch> dividing(const std::vector<int>& ring, const std::vector<Touch>& touches) {
+    if (touches.empty()) return std::nullopt;
     std::vector<double> area{0.0};  // from the first corner up to each
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vec2 &a = p(ring[0]), &b = p(ring[k]), &c = p(ring[(k + 1) % ring.size()]);
       area.push_back(area.back() + turnOf(a, b, c));
+      places_[at(ring[k])] = k;
     }
-    const std::vector<std::size_t> again = samePlaces(ring);
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      for (std::size_t k = again[i]; k < ring.size(); k = again[k]) {
-        const double part = area[k] - area[i] + turnOf(p(ring[0]), p(ring[k]), p(ring[i])),
-                     rest = area.back() - part;
-        const double least = -tolerance_m_ * static_cast<double>(ring.size());
-        if (part < least * extent_ || rest < least * extent_) continue;
-        const int last = before_[at(ring[k])], first = before_[at(ring[i])];
-        after_[at(last)] = ring[i];
-        before_[at(ring[i])] = last;
-        after_[at(first)] = ring[k];
-        before_[at(ring[k])] = first;
-        rings.push_back(ring[i]);
-        rings.push_back(ring[k]);
-        return true;
-      }
-    return false;
+    const double least = -tolerance_m_ * static_cast<double>(ring.size()) * extent_;
+    for (const Touch& touch : touches) {
+      if (after_[at(touch.first)] == kGone || after_[at(touch.second)] == kGone) continue;
+      const double part = area[places_[at(touch.second)]] - area[places_[at(touch.first)]] +
+                          turnOf(p(ring[0]), p(touch.second), p(touch.first));
+      if (part >= least && area.back() - part >= least) return touch;
+    }
+    return std::nullopt;
+  }
+
+  /// What is known of corners holds in the parts, but beside the touch and where what was in the way is in
+  /// the other part.
+  void takeApart(const std::vector<int>& ring, const Touch& touch, std::vector<int>& rings) {
+    const int last = before_[at(touch.second)], first = before_[at(touch.first)];
+    const auto isInner = [&](int node) {
+      return places_[at(node)] >= places_[at(touch.first)] && places_[at(node)] < places_[at(touch.second)];
+    };
+    for (const int node : ring) {
+      const int in_the_way = obstacles_[at(node)].node;
+      if (in_the_way == kGone) continue;
+      if (after_[at(in_the_way)] == kGone || isInner(in_the_way) != isInner(node))
+        known_[at(node)] = kUnknown;
+    }
+    for (const int node : {touch.first, touch.second, last, first}) known_[at(node)] = kUnknown;
+    after_[at(last)] = touch.first;
+    before_[at(touch.first)] = last;
+    after_[at(first)] = touch.second;
+    before_[at(touch.second)] = first;
+    rings.push_back(touch.first);
+    rings.push_back(touch.second);
   }
 
   /// Whether what kept the corner from being an ear is there no more, or has another side behind it.
@@ -307,8 +353,13 @@ class EarClipping {
   /// A node of the ring that is inside the triangle of three of them or on the open side from the last to the
   /// first.
   int nodeWithin(int before, int ear, int after) const {
-    for (int k = after_[at(after)]; k != before; k = after_[at(k)])
-      if (holds(p(before), p(ear), p(after), p(k))) return k;
+    const Vec2 &a = p(before), &b = p(ear), &c = p(after);
+    const Reach reach{a.cwiseMin(b).cwiseMin(c).array() - tolerance_m_,
+                      a.cwiseMax(b).cwiseMax(c).array() + tolerance_m_};
+    for (int k = after_[at(after)]; k != before; k = after_[at(k)]) {
+      const Vec2& q = p(k);
+      if (!reach.misses(q, q) && holds(a, b, c, q)) return k;
+    }
     return kGone;
   }
 
@@ -322,11 +373,11 @@ class EarClipping {
   /// The node at which a side of the ring begins that crosses the way from `after` to `before`.
   int sideAcross(int before, int after) const {
     const Vec2 &a = p(before), &c = p(after);
-    int side = 0;  // of the last corner that was not on the line
+    const Reach reach{a.cwiseMin(c), a.cwiseMax(c)};
     for (int k = after; k != before; k = after_[at(k)]) {
       const Vec2 &d = p(k), &e = p(after_[at(k)]);
-      side = sideOf(a, c, d, tolerance_m_);
-      if (side * sideOf(a, c, e, tolerance_m_) < 0 &&
+      if (reach.misses(d, e)) continue;
+      if (sideOf(a, c, d, tolerance_m_) * sideOf(a, c, e, tolerance_m_) < 0 &&
           sideOf(d, e, a, tolerance_m_) * sideOf(d, e, c, tolerance_m_) < 0)
         return k;
     }
@@ -337,7 +388,9 @@ class EarClipping {
   const std::vector<Vec2>& corners_;
   double tolerance_m_;
   std::vector<int> before_, after_;
-  std::vector<Obstacle> obstacles_;  // by node
+  std::vector<Obstacle> obstacles_;  // by node, as are:
+  std::vector<double> known_;        // qualities of those whose ring has been taken apart
+  std::vector<std::size_t> places_;  // on the way around a ring that may be taken apart
   int bridges_;
   double extent_ = 0.0;
   std::vector<std::pair<int, int>> raw_joins_;
