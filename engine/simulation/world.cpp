@@ -166,6 +166,7 @@ void World::Impl::endPath(std::size_t index) {
   const bool flew_freely = body.flewFreely();
   body.velocity = body.velocityAt(substep.step_s, body.X_end.rotation);
   body.lift += liftOfPath(body, body.velocity, body.X_end.position, substep.step_s);
+  body.opening_W = 0.0;
   body.X_WB = body.X_end;
   if (!flew_freely || spin_before.isZero(0.0)) {
     body.kept_angular_momentum.reset();

@@ -44,7 +44,8 @@ struct StepMotion {
   // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
-  double lift = 0.0;  ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
+  double lift = 0.0;       ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
+  double opening_W = 0.0;  ///< What contacts do on its path since then, where that opens them (openingOf).
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
   /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where
@@ -163,6 +164,7 @@ inline void endPath(Body& body) {
   body.path.velocity.setZero();
   body.path.acceleration.setZero();
   body.path.turnAt(Vec3::Zero());
+  body.opening_W = 0.0;
 }
 
 /// Stops a kinematic body for the rest of the step.

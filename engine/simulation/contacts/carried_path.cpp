@@ -26,6 +26,22 @@ void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool be
   body.path.acceleration = bends ? body.acceleration : Vec3(Vec3::Zero());
   body.path.velocity = mean.linear - (0.5 * rest_of_step_s) * body.path.acceleration;
   body.path.turnAt(mean.angular);
+  body.opening_W = 0.0;
+}
+
+Opening openingOf(const ContactPlace& contact, double force_N, const PairMotions& motions, double noise_mps) {
+  if (!(force_N > 0.0)) return {};
+  const double led_a =
+      dot(contact.n_W, motions.momentum_a.at(contact.arm_a) - motions.path_a.at(contact.arm_a));
+  const double led_b =
+      dot(contact.n_W, motions.path_b.at(contact.arm_b) - motions.momentum_b.at(contact.arm_b));
+  const double own_mps =
+      dot(contact.n_W, motions.momentum_b.at(contact.arm_b) - motions.momentum_a.at(contact.arm_a));
+  const double opened_mps = led_a + led_b + std::min(0.0, own_mps);
+  if (!(opened_mps > noise_mps)) return {};
+  const double by_a = std::max(0.0, led_a), by_b = std::max(0.0, led_b);
+  const double each = force_N * opened_mps / (by_a + by_b);
+  return {each * by_a, each * by_b};
 }
 
 void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,

@@ -3,7 +3,7 @@
 // bends with it (DEVIATES: the paper applies the step's gravity at its beginning): struck at any instant, the
 // body has the energy that it has fallen, or slid, for. Where a bent path would dip towards another body on
 // its way, it is straight. Internal to the simulation floor. Tested in
-// tests/physics/friction/carried_energy_test.cpp.
+// tests/physics/friction/carried_energy_test.cpp and tests/engine/simulation/events/path_lifts_test.cpp.
 
 #include <span>
 #include <vector>
@@ -24,8 +24,34 @@ struct CarriedStretch {
 /// From now on the forces are those that give the momentum its gain.
 void driveEvenly(Body& body, const CarriedStretch& stretch);
 
-/// The path at a mean velocity, bent as the momentum is or straight.
+/// The path at a mean velocity, bent as the momentum is or straight. It opens nothing yet.
 void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends);
+
+/// What a contact does on the paths of its two bodies, W, where they open it more than the momenta would.
+struct Opening {
+  double of_a_W = 0.0;
+  double of_b_W = 0.0;
+};
+/// Where a contact is: its normal from A to B, and its arms from their centres of mass.
+struct ContactPlace {
+  const Vec3& n_W;
+  const Vec3& arm_a;
+  const Vec3& arm_b;
+};
+/// Where the paths and the momenta of two bodies go, in the mean over the rest of the step.
+struct PairMotions {
+  Velocity path_a, path_b;
+  Velocity momentum_a, momentum_b;
+};
+/// Of a contact that presses with this force: the virtual work of opening it, shared by how far each path is
+/// led. The momenta know of none of it, and it raises what lies above. Openings slower than `noise_mps` are
+/// the solver's.
+Opening openingOf(const ContactPlace& contact, double force_N, const PairMotions& motions, double noise_mps);
+/// Of a pair whose gaps are so small, what the solver may leave.
+inline double openingNoise(const CollisionWindow& window, double rest_of_step_s) {
+  constexpr double kNoOpening = 1e-6;  // of the rest gap
+  return kNoOpening * window.rest / rest_of_step_s;
+}
 
 /// May be called for several rows at the same time. Clears `bends` for the bodies of a row (indices of
 /// `bends` and `accelerations`) whose bent paths would dip, on their way, by a noticeable share of what lies

@@ -11,14 +11,16 @@
 #include "engine/modes/islands.h"
 #include "engine/simulation/bodies/active_bodies.h"
 #include "engine/simulation/bodies/half_turn.h"
+#include "engine/simulation/contacts/carried_path.h"
 #include "engine/simulation/contacts/contact_rows.h"
 
 namespace carom {
 
-/// What of a row differs between the solve of the momentum and that of the paths.
+/// What of a row differs between the solve of the momentum and that of the paths, and what comes of both.
 struct MomentumPart {
   Vec3 impulse;
   double lowest_speed = 0.0;
+  Opening opening;
 };
 
 /// The rows of some pairs, as one thread makes them.
@@ -48,6 +50,7 @@ struct BodyMotion {
 struct ContactRoom {
   std::vector<char> bends;
   std::vector<Vec3> accelerations;
+  std::vector<Velocity> ways;      ///< Means of momenta, from which paths are led.
   std::vector<Velocity> led_from;  ///< Means of paths before they were raised for turning.
   std::vector<BodyMotion> motions;
   std::vector<char> near;  ///< Whether a body is within reach of lasting contact.

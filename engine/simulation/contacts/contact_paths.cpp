@@ -49,6 +49,7 @@ class ContactPaths {
       solve(raised, residual_mps);
       std::erase_if(raised, [this](std::size_t island) { return takesBackLeap(island); });
     }
+    findOpenings();
     takeMomentum();
     carry();
   }
@@ -83,6 +84,8 @@ class ContactPaths {
       mean.linear = 0.5 * (world_.bodies[i].velocity.linear + mean.linear);
       mean.angular = meanSpin(world_.bodies[i], contacts_.half_turns[i], mean.angular, step_s_);
     });
+    contacts_.room.ways.resize(world_.bodies.size());
+    forBodies([&](std::size_t i) { contacts_.room.ways[i] = contacts_.paths[i].velocity; });
   }
 
   // Makes the rows bounds on paths, without impulses yet. Returns the smallest rest gap, m.
@@ -92,7 +95,7 @@ class ContactPaths {
     forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
       for (std::size_t i = rows.begin; i < rows.end; ++i) {
         ContactRow& row = contacts_.rows[i];
-        contacts_.momentum[i] = {row.impulse, row.lowest_speed};
+        contacts_.momentum[i] = {row.impulse, row.lowest_speed, {}};
         row.lowest_speed = gapSpeeds(contacts_.sources[i].gap_m, pair, step_s_, row.impulse.x() > 0.0).path;
         row.impulse.setZero();
       }
@@ -116,6 +119,23 @@ class ContactPaths {
     if (change.staysNear()) return false;
     for (const int i : members) contacts_.paths[at(i)].velocity = contacts_.room.led_from[at(i)];
     return true;
+  }
+
+  // What presses, and where paths open it.
+  void findOpenings() {
+    const std::vector<Velocity>& ways = contacts_.room.ways;
+    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+      const double noise_mps = openingNoise(pair.window, step_s_);
+      const PairMotions motions{contacts_.paths[at(pair.body_a)].velocity,
+                                contacts_.paths[at(pair.body_b)].velocity, ways[at(pair.body_a)],
+                                ways[at(pair.body_b)]};
+      for (std::size_t i = rows.begin; i < rows.end; ++i) {
+        const ContactRow& row = contacts_.rows[i];
+        MomentumPart& momentum = contacts_.momentum[i];
+        momentum.opening =
+            openingOf({row.n, row.r_a, row.r_b}, momentum.impulse.x() / step_s_, motions, noise_mps);
+      }
+    });
   }
 
   void takeMomentum() {
@@ -183,6 +203,11 @@ class ContactPaths {
       if (contacts_.touched[i])
         carryAlong(bodies[i], contacts_.paths[i].velocity, step_s_, contacts_.room.bends[i] != 0);
     });
+    for (const LastingContacts::PairRows& of_pair : pairs_)
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        bodies[at(contacts_.rows[i].a)].opening_W += contacts_.momentum[i].opening.of_a_W;
+        bodies[at(contacts_.rows[i].b)].opening_W += contacts_.momentum[i].opening.of_b_W;
+      }
   }
 
   // Whose paths may bend.

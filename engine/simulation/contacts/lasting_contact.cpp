@@ -278,6 +278,7 @@ void remember(const LastingContacts& contacts, std::span<const LastingContacts::
         pair.remembered.push_back({.id = contacts.sources[i].id,
                                    .impulse_W = impulse_W,
                                    .force_W = impulse_W / step_s,
+                                   .n_W = row.n,
                                    .arm_a = row.r_a,
                                    .arm_b = row.r_b,
                                    .torque_impulse_W = torque_impulse_W,

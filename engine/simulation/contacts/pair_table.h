@@ -24,6 +24,7 @@ struct RememberedImpulse {
   Vec3 impulse_W = Vec3::Zero();  ///< N s on B: what the point took in its last step.
   // What acts at the point for the rest of the step: events may end it, or give it anew.
   Vec3 force_W = Vec3::Zero();  ///< N on B.
+  Vec3 n_W = Vec3::Zero();      ///< The contact's normal.
   Vec3 arm_a = Vec3::Zero();    ///< From the centres of mass to where it acts, m.
   Vec3 arm_b = Vec3::Zero();
   // Against turning, likewise.

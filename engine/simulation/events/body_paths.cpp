@@ -85,6 +85,35 @@ void BodyPaths::leadInContact(int index, const Velocity& mean, bool bends) {
   carryAlong(body, mean, rest, bends);
 }
 
+Velocity BodyPaths::meanOfPath(const Body& body, double time_s) const {
+  return {body.path.meanVelocity(time_s, settings_.step_s - time_s), body.path.angularVelocityAt(time_s)};
+}
+
+Velocity BodyPaths::meanOfMomentum(const Body& body, double time_s) const {
+  const Velocity begin = body.velocityAt(time_s), end = body.velocityAt(settings_.step_s);
+  return {0.5 * (begin.linear + end.linear), 0.5 * (begin.angular + end.angular)};
+}
+
+void BodyPaths::findOpening(int index) {
+  Body& body = bodies_[at(index)];
+  const double time_s = body.path.start_s, rest = restOf(body);
+  body.opening_W = 0.0;
+  if (!(rest > 0.0)) return;
+  for (const int p : table_.pairsOf(index)) {
+    const ShapePair& pair = table_.pairs()[at(p)];
+    if (!pair.presses()) continue;
+    const Body &a = bodies_[at(pair.body_a)], &b = bodies_[at(pair.body_b)];
+    const PairMotions motions{meanOfPath(a, time_s), meanOfPath(b, time_s), meanOfMomentum(a, time_s),
+                              meanOfMomentum(b, time_s)};
+    for (const RememberedImpulse& acting : pair.remembered) {
+      const Opening opening =
+          openingOf({acting.n_W, acting.arm_a, acting.arm_b}, dot(acting.force_W, acting.n_W), motions,
+                    openingNoise(pair.window, rest));
+      body.opening_W += index == pair.body_a ? opening.of_a_W : opening.of_b_W;
+    }
+  }
+}
+
 void BodyPaths::halve(int index) {
   const Trajectory& path = bodies_[at(index)].path;
   lead(index, {0.5 * path.meanVelocity(path.start_s, restOf(bodies_[at(index)])),

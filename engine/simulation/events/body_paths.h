@@ -40,6 +40,9 @@ class BodyPaths {
   void lead(int index, const Velocity& mean);
   /// The same where contacts lead it; the path may bend.
   void leadInContact(int index, const Velocity& mean, bool bends);
+  /// Of one of those that have been led together, once all are: what the forces of its contacts do on its
+  /// path where that opens them (openingOf).
+  void findOpening(int index);
   /// Straight on at half the speed.
   void halve(int index);
   /// Not at all. Its momentum goes on, and so do the forces of its contacts, which others have the opposites
@@ -55,6 +58,9 @@ class BodyPaths {
   void countForcesOf(int index, double time_s, double sign);
 
  private:
+  /// Of a body from another's `path.start_s` to the end of the step, in the mean.
+  Velocity meanOfPath(const Body& body, double time_s) const;
+  Velocity meanOfMomentum(const Body& body, double time_s) const;
   double restOf(const Body& body) const { return settings_.step_s - body.path.start_s; }
   void stop(int index);
   void drive(Body& body, const Velocity& end);

@@ -197,6 +197,7 @@ void ContactCluster::keepForces() {
       const ContactRow& row = rows_[end];
       RememberedImpulse now{.id = sources_[end].id,
                             .force_W = rowImpulse(row, row.impulse) / restOfStep(),
+                            .n_W = row.n,
                             .arm_a = row.r_a,
                             .arm_b = row.r_b,
                             .torque_W = rowImpulse(row, row.torque) / restOfStep()};

@@ -302,6 +302,7 @@ class EventLoop {
         lifts_.join(changed_.front(), changed_[k], bodies_);
         closed_.meet(changed_.front(), changed_[k], bodies_);
       }
+      for (const int i : changed_) paths_.findOpening(i);
     } else if (spent <= kMostClearings + kMostHalvings) {
       for (const int i : changed_) paths_.halve(i);
     } else {
@@ -497,6 +498,7 @@ class EventLoop {
       for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
         lifts_.join(first, index, bodies_);
     }
+    for (const int i : changed_) paths_.findOpening(i);
   }
 
   void searchAgain(double time_s) {

@@ -39,7 +39,8 @@ double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& positi
   const Vec3 way = 0.5 * dt * (before.linear + velocity.linear) - (position_m - path.X_WB.position);
   const Vec3 spin = path.angularVelocityAt(path.start_s + 0.5 * dt);
   const Vec3 turn = dt * (0.5 * (before.angular + velocity.angular) - spin);
-  return dot(body.acceleration, way) + body.inertia.inverse_mass * dot(body.torque, turn);
+  return dot(body.acceleration, way) +
+         body.inertia.inverse_mass * (dot(body.torque, turn) + dt * body.opening_W);
 }
 
 void PathLifts::begin(std::size_t bodies) {

@@ -2,10 +2,10 @@
 // Forces do work on a momentum on the way that it would go. A path that is led clear of a floor, raised for
 // what turns, or held goes another way, and what the forces would not have done on that one is energy that
 // nothing gave: weight has accelerated a momentum for a fall that its path did not make. It comes out of the
-// motion of those whose paths were led together, first out of the speeds at which they rise or fall. What
-// bodies do to each other's paths lifts one by what it lowers the other, and costs nothing; nor do gaps that
-// contacts open under what they bear.
-// Internal to the simulation floor. Tested in tests/engine/simulation/events/path_lifts_test.cpp.
+// motion of those whose paths were led together, first out of the speeds at which they rise or fall. So does
+// what a contact that presses does as paths open it: it raises all that lies above (openingOf). What bodies
+// do to each other's paths otherwise lifts one by what it lowers the other, and costs nothing. Internal to
+// the simulation floor. Tested in tests/engine/simulation/events/path_lifts_test.cpp.
 
 #include <span>
 #include <vector>
@@ -17,7 +17,8 @@ namespace carom {
 
 /// What the forces on a body, of the environment and of lasting contacts, have done more on the way of its
 /// momentum than they would have on its path, from where that began until `time_s`, J/kg: the virtual work of
-/// going from one to the other. `velocity` and `position_m` are the momentum's and the path's at that time.
+/// going from one to the other, and of what opens. `velocity` and `position_m` are the momentum's and the
+/// path's at that time.
 double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& position_m, double time_s);
 
 class PathLifts {

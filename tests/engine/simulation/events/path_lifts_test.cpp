@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "engine/simulation/contacts/carried_path.h"
+
 namespace carom {
 namespace {
 
@@ -111,6 +113,43 @@ TEST(PathLifts, ALevelPathLiftsByTheFallOfTheMomentum) {
 TEST(PathLifts, WhatContactsBearIsNotLifted) {
   const Body body = ledBody(Vec3::Zero());
   EXPECT_EQ(liftOfPath(body, {{2.0, 0.0, -1.0}, Vec3::Zero()}, {0.4, 0.0, 0.3}, 0.3), 0.0);
+}
+
+TEST(PathLifts, WhatContactsDoOnThePathLifts) {
+  Body body = ledBody(Vec3::Zero());
+  body.opening_W = 20.0;
+  EXPECT_NEAR(liftOfPath(body, {{2.0, 0.0, -1.0}, Vec3::Zero()}, {0.4, 0.0, -0.2}, 0.3), 20.0 * 0.2 / 2.0,
+              1e-12);
+}
+
+// B stands on A with 10 N. Arms are along the normal.
+Opening openingWith(const Vec3& path_a, const Vec3& path_b, const Vec3& momentum_a, const Vec3& momentum_b,
+                    double force_N = 10.0) {
+  const Vec3 n = Vec3::UnitZ(), arm_a = 0.5 * n, arm_b = -0.5 * n;
+  const PairMotions motions{
+      {path_a, Vec3::Zero()}, {path_b, Vec3::Zero()}, {momentum_a, Vec3::Zero()}, {momentum_b, Vec3::Zero()}};
+  return openingOf({n, arm_a, arm_b}, force_N, motions, 1e-9);
+}
+
+TEST(Openings, AreTheWorkOfWhatPressesOnTheOneThatIsLed) {
+  const Vec3 up = Vec3::UnitZ(), still = Vec3::Zero();
+  const Opening raised = openingWith(still, 0.1 * up, still, still);
+  EXPECT_EQ(raised.of_a_W, 0.0);
+  EXPECT_NEAR(raised.of_b_W, 1.0, 1e-15);
+  const Opening both = openingWith(-0.1 * up, 0.3 * up, still, still);
+  EXPECT_NEAR(both.of_a_W, 1.0, 1e-15);
+  EXPECT_NEAR(both.of_b_W, 3.0, 1e-15);
+}
+
+TEST(Openings, AreNoneWhereNothingPressesOrOpensOrMomentaPart) {
+  const Vec3 up = Vec3::UnitZ(), still = Vec3::Zero();
+  EXPECT_EQ(openingWith(still, 0.1 * up, still, still, 0.0).of_b_W, 0.0);
+  EXPECT_EQ(openingWith(0.1 * up, 0.1 * up, still, still).of_b_W, 0.0) << "raised together";
+  EXPECT_EQ(openingWith(still, 1e-10 * up, still, still).of_b_W, 0.0) << "what a solver leaves";
+  EXPECT_EQ(openingWith(still, 0.1 * up, still, 0.1 * up).of_b_W, 0.0) << "by itself";
+  // What came down is held at its gap: that the momentum was stopped is no opening.
+  EXPECT_EQ(openingWith(still, still, still, -0.1 * up).of_b_W, 0.0);
+  EXPECT_NEAR(openingWith(still, 0.1 * up, still, -0.1 * up).of_b_W, 1.0, 1e-15);
 }
 
 TEST(PathLifts, APathThatTurnsLessThanTorquesHaveTurnedTheMomentumLiftsToo) {
