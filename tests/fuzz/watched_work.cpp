@@ -13,6 +13,7 @@
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -44,11 +45,16 @@ struct Worker {
   bool has_ended = false;
 };
 
+/// Of the memory that it shares with its parents and children, its part: a process that has just been started
+/// has all of its parent's.
 std::size_t residentBytes(pid_t id) {
   const std::string process = "/proc/" + std::to_string(id);
-  std::size_t pages = 0, resident = 0;
-  std::ifstream(process + "/statm") >> pages >> resident;
-  std::size_t bytes = resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  std::size_t bytes = 0;
+  std::ifstream in(process + "/smaps_rollup");
+  for (std::string line; std::getline(in, line);) {
+    constexpr std::string_view kPart = "Pss:";
+    if (line.starts_with(kPart)) bytes = std::stoull(line.substr(kPart.size())) << 10;
+  }
   std::ifstream children(process + "/task/" + std::to_string(id) + "/children");
   for (pid_t child = 0; children >> child;) bytes += residentBytes(child);
   return bytes;

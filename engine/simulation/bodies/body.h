@@ -45,7 +45,7 @@ struct StepMotion {
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
   double lift = 0.0;       ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
-  double opening_W = 0.0;  ///< What contacts do on its path since then, where that opens them (openingOf).
+  double opening_W = 0.0;  ///< What contacts do on its path since then, where that opens them (openingPower).
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
   /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where

@@ -29,7 +29,8 @@ void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool be
   body.opening_W = 0.0;
 }
 
-Opening openingOf(const ContactPlace& contact, double force_N, const PairMotions& motions, double noise_mps) {
+OpeningPower openingPower(const ContactPlace& contact, double force_N, const PairMotions& motions,
+                          double noise_mps) {
   if (!(force_N > 0.0)) return {};
   const double led_a =
       dot(contact.n_W, motions.momentum_a.at(contact.arm_a) - motions.path_a.at(contact.arm_a));

@@ -28,7 +28,7 @@ void driveEvenly(Body& body, const CarriedStretch& stretch);
 void carryAlong(Body& body, const Velocity& mean, double rest_of_step_s, bool bends);
 
 /// What a contact does on the paths of its two bodies, W, where they open it more than the momenta would.
-struct Opening {
+struct OpeningPower {
   double of_a_W = 0.0;
   double of_b_W = 0.0;
 };
@@ -46,7 +46,8 @@ struct PairMotions {
 /// Of a contact that presses with this force: the virtual work of opening it, shared by how far each path is
 /// led. The momenta know of none of it, and it raises what lies above. Openings slower than `noise_mps` are
 /// the solver's.
-Opening openingOf(const ContactPlace& contact, double force_N, const PairMotions& motions, double noise_mps);
+OpeningPower openingPower(const ContactPlace& contact, double force_N, const PairMotions& motions,
+                          double noise_mps);
 /// Of a pair whose gaps are so small, what the solver may leave.
 inline double openingNoise(const CollisionWindow& window, double rest_of_step_s) {
   constexpr double kNoOpening = 1e-6;  // of the rest gap

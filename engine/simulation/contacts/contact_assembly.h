@@ -20,7 +20,7 @@ namespace carom {
 struct MomentumPart {
   Vec3 impulse;
   double lowest_speed = 0.0;
-  Opening opening;
+  OpeningPower opening;
 };
 
 /// The rows of some pairs, as one thread makes them.

@@ -133,7 +133,7 @@ class ContactPaths {
         const ContactRow& row = contacts_.rows[i];
         MomentumPart& momentum = contacts_.momentum[i];
         momentum.opening =
-            openingOf({row.n, row.r_a, row.r_b}, momentum.impulse.x() / step_s_, motions, noise_mps);
+            openingPower({row.n, row.r_a, row.r_b}, momentum.impulse.x() / step_s_, motions, noise_mps);
       }
     });
   }

@@ -106,9 +106,9 @@ void BodyPaths::findOpening(int index) {
     const PairMotions motions{meanOfPath(a, time_s), meanOfPath(b, time_s), meanOfMomentum(a, time_s),
                               meanOfMomentum(b, time_s)};
     for (const RememberedImpulse& acting : pair.remembered) {
-      const Opening opening =
-          openingOf({acting.n_W, acting.arm_a, acting.arm_b}, dot(acting.force_W, acting.n_W), motions,
-                    openingNoise(pair.window, rest));
+      const OpeningPower opening =
+          openingPower({acting.n_W, acting.arm_a, acting.arm_b}, dot(acting.force_W, acting.n_W), motions,
+                       openingNoise(pair.window, rest));
       body.opening_W += index == pair.body_a ? opening.of_a_W : opening.of_b_W;
     }
   }

@@ -41,7 +41,7 @@ class BodyPaths {
   /// The same where contacts lead it; the path may bend.
   void leadInContact(int index, const Velocity& mean, bool bends);
   /// Of one of those that have been led together, once all are: what the forces of its contacts do on its
-  /// path where that opens them (openingOf).
+  /// path where that opens them (openingPower).
   void findOpening(int index);
   /// Straight on at half the speed.
   void halve(int index);

@@ -182,6 +182,10 @@ class EarClipping {
   struct Obstacle {
     int node = kGone, after = kGone;
   };
+  /// Two nodes at one place, the first before the second on the way around the ring.
+  struct Touch {
+    int first = kGone, second = kGone;
+  };
   const Vec2& p(int node) const { return corners_[at(nodes_[at(node)].corner)]; }
 
   std::vector<int> ringFrom(int start) const {
@@ -198,29 +202,39 @@ class EarClipping {
     quality.reserve(ring.size());
     for (const int i : ring) quality.push_back(known_[at(i)] == kUnknown ? qualityOf(i) : known_[at(i)]);
     while (ring.size() > 2) {
-      auto best = std::max_element(quality.begin(), quality.end());
-      if (!(*best > 0.0)) {  // an ear clipped may have freed others
-        for (std::size_t k = 0; k < ring.size(); ++k)
-          if (isFreed(ring[k])) quality[k] = qualityOf(ring[k]);
-        best = std::max_element(quality.begin(), quality.end());
-      }
-      if (!(*best > 0.0))
-        if (const std::optional<Touch> touch = dividing(ring, touches)) {
-          for (std::size_t k = 0; k < ring.size(); ++k) known_[at(ring[k])] = quality[k];
-          takeApart(ring, *touch, rings);
-          return true;
-        }
-      if (*best == kNoEar) return false;
-      const auto k = best - quality.begin();
-      const int ear = ring[static_cast<std::size_t>(k)], before = before_[at(ear)], after = after_[at(ear)];
+      const std::size_t k = bestEar(ring, quality);
+      if (!(quality[k] > 0.0) && comesApart(ring, quality, touches, rings)) return true;
+      if (quality[k] == kNoEar) return false;
+      const int ear = ring[k], before = before_[at(ear)], after = after_[at(ear)];
       cutOff(ear);
-      ring.erase(ring.begin() + k);
-      quality.erase(quality.begin() + k);
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
+      quality.erase(quality.begin() + static_cast<std::ptrdiff_t>(k));
       for (std::size_t i = 0; i < ring.size(); ++i)
         if (ring[i] == before || ring[i] == after) quality[i] = qualityOf(ring[i]);
     }
     if (ring.size() < 2) return false;  // a side without length
     join(nodes_[at(ring[0])].beyond, nodes_[at(ring[1])].beyond);
+    return true;
+  }
+
+  /// The position of the first of the best; an ear that was clipped may have freed others.
+  std::size_t bestEar(const std::vector<int>& ring, std::vector<double>& quality) {
+    const auto best = [&] {
+      return static_cast<std::size_t>(std::ranges::max_element(quality) - quality.begin());
+    };
+    if (const std::size_t k = best(); quality[k] > 0.0) return k;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      if (isFreed(ring[k])) quality[k] = qualityOf(ring[k]);
+    return best();
+  }
+
+  /// Whether the ring has been taken apart.
+  bool comesApart(const std::vector<int>& ring, const std::vector<double>& quality,
+                  const std::vector<Touch>& touches, std::vector<int>& rings) {
+    const std::optional<Touch> touch = dividing(ring, touches);
+    if (!touch) return false;
+    for (std::size_t k = 0; k < ring.size(); ++k) known_[at(ring[k])] = quality[k];
+    takeApart(ring, *touch, rings);
     return true;
   }
 
@@ -256,11 +270,6 @@ class EarClipping {
       if (own < beyond || (side_first && other < kBridges)) found_.joins.push_back({own, beyond});
     }
   }
-
-  /// Two nodes at one place, the first before the second on the way around the ring.
-  struct Touch {
-    int first = kGone, second = kGone;
-  };
 
   /// All touches of a ring, by first and then by second node on the way around.
   std::vector<Touch> touchesOf(const std::vector<int>& ring) const {

@@ -123,20 +123,20 @@ TEST(PathLifts, WhatContactsDoOnThePathLifts) {
 }
 
 // B stands on A with 10 N. Arms are along the normal.
-Opening openingWith(const Vec3& path_a, const Vec3& path_b, const Vec3& momentum_a, const Vec3& momentum_b,
-                    double force_N = 10.0) {
+OpeningPower openingWith(const Vec3& path_a, const Vec3& path_b, const Vec3& momentum_a,
+                         const Vec3& momentum_b, double force_N = 10.0) {
   const Vec3 n = Vec3::UnitZ(), arm_a = 0.5 * n, arm_b = -0.5 * n;
   const PairMotions motions{
       {path_a, Vec3::Zero()}, {path_b, Vec3::Zero()}, {momentum_a, Vec3::Zero()}, {momentum_b, Vec3::Zero()}};
-  return openingOf({n, arm_a, arm_b}, force_N, motions, 1e-9);
+  return openingPower({n, arm_a, arm_b}, force_N, motions, 1e-9);
 }
 
 TEST(Openings, AreTheWorkOfWhatPressesOnTheOneThatIsLed) {
   const Vec3 up = Vec3::UnitZ(), still = Vec3::Zero();
-  const Opening raised = openingWith(still, 0.1 * up, still, still);
+  const OpeningPower raised = openingWith(still, 0.1 * up, still, still);
   EXPECT_EQ(raised.of_a_W, 0.0);
   EXPECT_NEAR(raised.of_b_W, 1.0, 1e-15);
-  const Opening both = openingWith(-0.1 * up, 0.3 * up, still, still);
+  const OpeningPower both = openingWith(-0.1 * up, 0.3 * up, still, still);
   EXPECT_NEAR(both.of_a_W, 1.0, 1e-15);
   EXPECT_NEAR(both.of_b_W, 3.0, 1e-15);
 }
