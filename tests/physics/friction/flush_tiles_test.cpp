@@ -24,7 +24,7 @@ TEST_P(FlushTiles, NeitherBrakeNorLiftWhatGlides) {
                                                  .size_m = 0.7,
                                                  .speed_mps = speed,
                                                  .rate_hz = rate,
-                                                 .seconds = std::min(10.0, 10.0 / speed),
+                                                 .seconds = std::min(5.0, 10.0 / speed),
                                                  .length_m = 12.0,
                                                  .half_width_m = 1.0,
                                                  .seed = 7});
