@@ -48,11 +48,8 @@ struct PairMotions {
 /// the solver's.
 OpeningPower openingPower(const ContactPlace& contact, double force_N, const PairMotions& motions,
                           double noise_mps);
-/// Of a pair whose gaps are so small, what the solver may leave.
-inline double openingNoise(const CollisionWindow& window, double rest_of_step_s) {
-  constexpr double kNoOpening = 1e-6;  // of the rest gap
-  return kNoOpening * window.rest / rest_of_step_s;
-}
+/// What the solver may leave, of a pair with this window.
+double openingNoise(const CollisionWindow& window, double rest_of_step_s);
 
 /// May be called for several rows at the same time. Clears `bends` for the bodies of a row (indices of
 /// `bends` and `accelerations`) whose bent paths would dip, on their way, by a noticeable share of what lies

@@ -1,6 +1,7 @@
 #include "engine/simulation/events/body_paths.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/foundation/index.h"
 #include "engine/simulation/contacts/carried_path.h"
@@ -98,18 +99,23 @@ void BodyPaths::findOpening(int index) {
   Body& body = bodies_[at(index)];
   const double time_s = body.path.start_s, rest = restOf(body);
   body.opening_W = 0.0;
-  if (!(rest > 0.0)) return;
+  if (!(rest > 0.0) || body.travel == Travel::kBallistic) return;  // in flight the path is the momentum's
+  const Velocity path = meanOfPath(body, time_s), momentum = meanOfMomentum(body, time_s);
   for (const int p : table_.pairsOf(index)) {
     const ShapePair& pair = table_.pairs()[at(p)];
     if (!pair.presses()) continue;
-    const Body &a = bodies_[at(pair.body_a)], &b = bodies_[at(pair.body_b)];
-    const PairMotions motions{meanOfPath(a, time_s), meanOfPath(b, time_s), meanOfMomentum(a, time_s),
-                              meanOfMomentum(b, time_s)};
+    const bool is_a = pair.body_a == index;
+    const Body& other = bodies_[at(is_a ? pair.body_b : pair.body_a)];
+    PairMotions motions{path, meanOfPath(other, time_s), momentum, meanOfMomentum(other, time_s)};
+    if (!is_a) {
+      std::swap(motions.path_a, motions.path_b);
+      std::swap(motions.momentum_a, motions.momentum_b);
+    }
     for (const RememberedImpulse& acting : pair.remembered) {
       const OpeningPower opening =
           openingPower({acting.n_W, acting.arm_a, acting.arm_b}, dot(acting.force_W, acting.n_W), motions,
                        openingNoise(pair.window, rest));
-      body.opening_W += index == pair.body_a ? opening.of_a_W : opening.of_b_W;
+      body.opening_W += is_a ? opening.of_a_W : opening.of_b_W;
     }
   }
 }

@@ -440,10 +440,9 @@ class Merging {
     const std::pair<int, int> pair = std::minmax({a.number, b.number});
     if (apart_.contains(pair)) return std::nullopt;
     ConvexPiece whole;
-    whole.points = a.points;
-    whole.points.insert(whole.points.end(), b.points.begin(), b.points.end());
+    std::vector<Vec3> points = a.points;
+    points.insert(points.end(), b.points.begin(), b.points.end());
     whole.volume_m3 = a.volume_m3 + b.volume_m3;
-    const std::vector<Vec3> points = whole.points;
     const auto fits = [&](const HullSettings& hull, double allowances) {
       whole.points = points;
       measure(whole, hull);
