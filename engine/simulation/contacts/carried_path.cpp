@@ -8,8 +8,8 @@
 namespace carom {
 namespace {
 
-constexpr double kDipShare = 0.05;  // of the room below a gap
-constexpr double kNoise = 1e-6;     // of the rest gap: what rounding and solvers may do to what slides
+constexpr double kDipShare = 0.05;      // of the room below a gap
+constexpr double kSlidingNoise = 1e-6;  // of the rest gap: what rounding and solvers may do to what slides
 
 }  // namespace
 
@@ -46,7 +46,7 @@ OpeningPower openingPower(const ContactPlace& contact, double force_N, const Pai
 }
 
 double openingNoise(const CollisionWindow& window, double rest_of_step_s) {
-  return kNoise * window.rest / rest_of_step_s;
+  return kSlidingNoise * window.rest / rest_of_step_s;
 }
 
 void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& window, double rest_of_step_s,
@@ -54,7 +54,7 @@ void straightenDips(const ContactRow& row, double gap_m, const CollisionWindow& 
   // A parabola lies below its chord by up to an eighth of the acceleration times the time squared.
   const double share = 0.125 * rest_of_step_s * rest_of_step_s;
   const double room = std::min(gap_m, window.rest) - window.floor;
-  const double dip = std::max(kDipShare * room, kNoise * window.rest);
+  const double dip = std::max(kDipShare * room, kSlidingNoise * window.rest);
   const auto straighten = [&](int i) { std::atomic_ref(bends[at(i)]).store(0, std::memory_order_relaxed); };
   if (-share * dot(row.n, accelerations[at(row.a)]) > dip) straighten(row.a);
   if (share * dot(row.n, accelerations[at(row.b)]) > dip) straighten(row.b);
