@@ -11,32 +11,13 @@ namespace {
 
 // Newton's method squares the bend relative to the shortest edge in each round: 1e-6 is rounding after three.
 constexpr int kNewtonRounds = 6;
+// So no round needs to be solved to more than that relative bend (inexact Newton, Dembo, Eisenstat and
+// Steihaug 1982) or to rounding, nor to less than a tenth.
+constexpr double kLeastSolved = 0.1;
 // Conjugate gradients need as many sweeps as the conditions have clusters of eigenvalues: few for faces at
-// wide angles, n/2 for a ring of n faces. Visits of a corner, over all rounds: about a second.
+// wide angles, n/2 for a ring of n faces. Visits of a corner, over all rounds: half a second or so.
 constexpr std::size_t kMostVisits = 50'000'000;
-constexpr double kSolved = 1e-8;   // of the right-hand side; the next round repairs the rest
 constexpr double kNoBend = 4e-16;  // of the polyhedron's reach: a bend below is none
-
-/// The corners of a face relative to their mean, in a basis in which heights can be compared with planes.
-struct BentFace {
-  const std::vector<int>* loop;
-  Vec3 normal;
-  std::vector<Vec2> flat;  // corner positions in the fitted plane, about their mean, along principal axes
-  Vec2 spread;             // sums of the squares of each of the two coordinates
-
-  /// Takes out of `heights` what a shift and a tilt of the plane explain: what remains is bend.
-  void removePlane(std::span<double> heights) const {
-    double mean = 0.0;
-    Vec2 tilt = Vec2::Zero();
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      mean += heights[i];
-      tilt += heights[i] * flat[i];
-    }
-    mean /= static_cast<double>(heights.size());
-    tilt = tilt.cwiseQuotient(spread);
-    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] -= mean + dot(tilt, flat[i]);
-  }
-};
 
 Vec3 meanOf(std::span<const Vec3> vertices, const std::vector<int>& loop) {
   Vec3 mean = Vec3::Zero();
@@ -44,75 +25,136 @@ Vec3 meanOf(std::span<const Vec3> vertices, const std::vector<int>& loop) {
   return mean / static_cast<double>(loop.size());
 }
 
-/// Newell's normal, then the principal axes of the corners in that plane.
-BentFace bentFace(std::span<const Vec3> vertices, const std::vector<int>& loop) {
-  const Vec3 mean = meanOf(vertices, loop);
-  Vec3 area = Vec3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    area += (vertices[at(loop[i])] - mean).cross(vertices[at(loop[(i + 1) % loop.size()])] - mean);
-  BentFace face{&loop, area.normalized(), {}, Vec2::Zero()};
-  const TangentBasis basis = tangentBasis(face.normal);
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (int v : loop) {
-    const Vec3 p = vertices[at(v)] - mean;
-    face.flat.emplace_back(dot(p, basis.t1), dot(p, basis.t2));
-    xx += face.flat.back().x() * face.flat.back().x();
-    xy += face.flat.back().x() * face.flat.back().y();
-    yy += face.flat.back().y() * face.flat.back().y();
-  }
-  // One Jacobi rotation makes the two coordinates uncorrelated.
-  const double half_difference = 0.5 * (xx - yy);
-  const double root = std::sqrt(half_difference * half_difference + xy * xy);
-  Vec2 axis(half_difference + root, xy);
-  if (half_difference < 0.0) axis = Vec2(xy, root - half_difference);
-  axis = root > 0.0 ? Vec2(axis / axis.norm()) : Vec2(1.0, 0.0);
-  for (Vec2& p : face.flat) {
-    p = Vec2(dot(axis, p), axis.x() * p.y() - axis.y() * p.x());
-    face.spread += p.cwiseProduct(p);
-  }
-  return face;
-}
-
-std::vector<BentFace> facesThatCanBend(std::span<const Vec3> vertices,
-                                       std::span<const std::vector<int>> loops) {
-  std::vector<BentFace> faces;
-  for (const std::vector<int>& loop : loops)
-    if (loop.size() > 3) faces.push_back(bentFace(vertices, loop));
-  return faces;
-}
-
 /// One number for each corner of each face that can bend, face after face.
 using Heights = std::vector<double>;
 
-/// B: the bends that displacements of the vertices make.
-void bendsOf(std::span<const BentFace> faces, std::span<const Vec3> moves, Heights& bends) {
-  std::size_t k = 0;
-  for (const BentFace& face : faces) {
-    const std::size_t first = k;
-    for (int v : *face.loop) bends[k++] = dot(face.normal, moves[at(v)]);
-    face.removePlane(std::span(bends).subspan(first, k - first));
+/// The faces that can bend, with their corners one after the other: most of an import's time can be spent on
+/// them, and plain numbers in plain arrays are what every compiler makes fast.
+class BentFaces {
+ public:
+  BentFaces(std::span<const Vec3> vertices, std::span<const std::vector<int>> loops) {
+    for (const std::vector<int>& loop : loops)
+      if (loop.size() > 3) add(vertices, loop);
   }
-}
+  std::size_t cornerCount() const { return vertex_.size(); }
 
-/// B transposed: each face pushes its corners along its normal.
-void movesOf(std::span<const BentFace> faces, const Heights& pushes, std::vector<Vec3>& moves) {
-  std::fill(moves.begin(), moves.end(), Vec3::Zero());
-  std::size_t k = 0;
-  for (const BentFace& face : faces)
-    for (int v : *face.loop) moves[at(v)] += pushes[k++] * face.normal;
-}
+  /// B: the bends that displacements of the vertices make.
+  void bendsOf(std::span<const Vec3> moves, Heights& bends) const {
+    const int* const vertex = vertex_.data();
+    const Vec3* const move = moves.data();
+    double* const bend = bends.data();
+    for (const Face& face : faces_) {
+      const double x = face.normal.x(), y = face.normal.y(), z = face.normal.z();
+      for (std::size_t k = face.first; k < face.end; ++k) {
+        const double* const m = move[vertex[k]].data();
+        bend[k] = x * m[0] + y * m[1] + z * m[2];
+      }
+      removePlane(face, bend);
+    }
+  }
 
-/// The shortest displacements with B moves = bends: moves = B^T y with B B^T y = bends, by conjugate
-/// gradients from zero. All vectors y stay in the range of B, where B B^T is positive.
-std::vector<Vec3> shortestMoves(std::span<const BentFace> faces, std::size_t vertex_count, Heights bends,
+  /// B transposed: each face pushes its corners along its normal.
+  void movesOf(const Heights& pushes, std::vector<Vec3>& moves) const {
+    std::fill(moves.begin(), moves.end(), Vec3::Zero());
+    const int* const vertex = vertex_.data();
+    const double* const push = pushes.data();
+    Vec3* const move = moves.data();
+    for (const Face& face : faces_) {
+      const double x = face.normal.x(), y = face.normal.y(), z = face.normal.z();
+      for (std::size_t k = face.first; k < face.end; ++k) {
+        double* const m = move[vertex[k]].data();
+        m[0] += push[k] * x;
+        m[1] += push[k] * y;
+        m[2] += push[k] * z;
+      }
+    }
+  }
+
+  /// How far each corner is from its face's plane.
+  Heights bends(std::span<const Vec3> vertices) const {
+    Heights bends(cornerCount());
+    for (const Face& face : faces_) {
+      for (std::size_t k = face.first; k < face.end; ++k)
+        bends[k] = dot(face.normal, vertices[at(vertex_[k])] - face.mean);
+      // Twice: what the rounding of the heights leaves of a plane would not be in the range of B.
+      removePlane(face, bends.data());
+      removePlane(face, bends.data());
+    }
+    return bends;
+  }
+
+ private:
+  struct Face {
+    std::size_t first, end;  // its corners
+    Vec3 normal, mean;
+    double xx, yy;  // sums of the squares of its corners' coordinates
+  };
+
+  /// Newell's normal, then the principal axes of the corners in that plane.
+  void add(std::span<const Vec3> vertices, const std::vector<int>& loop) {
+    const Vec3 mean = meanOf(vertices, loop);
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      area += (vertices[at(loop[i])] - mean).cross(vertices[at(loop[(i + 1) % loop.size()])] - mean);
+    Face face{cornerCount(), cornerCount() + loop.size(), area.normalized(), mean, 0.0, 0.0};
+    const TangentBasis basis = tangentBasis(face.normal);
+    std::vector<Vec2> flat;
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int v : loop) {
+      const Vec3 p = vertices[at(v)] - mean;
+      flat.emplace_back(dot(p, basis.t1), dot(p, basis.t2));
+      xx += flat.back().x() * flat.back().x();
+      xy += flat.back().x() * flat.back().y();
+      yy += flat.back().y() * flat.back().y();
+    }
+    // One Jacobi rotation makes the two coordinates uncorrelated.
+    const double half_difference = 0.5 * (xx - yy);
+    const double root = std::sqrt(half_difference * half_difference + xy * xy);
+    Vec2 axis(half_difference + root, xy);
+    if (half_difference < 0.0) axis = Vec2(xy, root - half_difference);
+    axis = root > 0.0 ? Vec2(axis / axis.norm()) : Vec2(1.0, 0.0);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      vertex_.push_back(loop[i]);
+      x_.push_back(dot(axis, flat[i]));
+      y_.push_back(axis.x() * flat[i].y() - axis.y() * flat[i].x());
+      face.xx += x_.back() * x_.back();
+      face.yy += y_.back() * y_.back();
+    }
+    faces_.push_back(face);
+  }
+
+  /// Takes out of the heights of a face's corners what a shift and a tilt of its plane explain: what remains
+  /// is bend.
+  void removePlane(const Face& face, double* heights) const {
+    const double *const x = x_.data(), *const y = y_.data();
+    double mean = 0.0, tilt_x = 0.0, tilt_y = 0.0;
+    for (std::size_t k = face.first; k < face.end; ++k) {
+      mean += heights[k];
+      tilt_x += heights[k] * x[k];
+      tilt_y += heights[k] * y[k];
+    }
+    mean /= static_cast<double>(face.end - face.first);
+    tilt_x /= face.xx;
+    tilt_y /= face.yy;
+    for (std::size_t k = face.first; k < face.end; ++k) heights[k] -= mean + (tilt_x * x[k] + tilt_y * y[k]);
+  }
+
+  std::vector<Face> faces_;
+  std::vector<int> vertex_;    // of each corner
+  std::vector<double> x_, y_;  // its place in its face's plane about the corners' mean, along principal axes
+};
+
+/// The shortest displacements with B moves = bends, to `share` of the bends: moves = B^T y with B B^T y =
+/// bends, by conjugate gradients from zero. All vectors y stay in the range of B, where B B^T is positive.
+std::vector<Vec3> shortestMoves(const BentFaces& faces, std::size_t vertex_count, Heights bends, double share,
                                 std::size_t& visits) {
   std::vector<Vec3> moves(vertex_count, Vec3::Zero()), step(vertex_count);
   Heights direction = bends, image(bends.size());
   double residual = dot(bends, bends);
-  const double solved = kSolved * kSolved * residual;
+  const double solved = share * share * residual;
   for (; visits < kMostVisits && residual > solved; visits += bends.size()) {
-    movesOf(faces, direction, step);
-    bendsOf(faces, step, image);
+    faces.movesOf(direction, step);
+    faces.bendsOf(step, image);
     const double curvature = dot(direction, image);
     if (!(curvature > 0.0)) break;
     const double length = residual / curvature;
@@ -131,24 +173,19 @@ double largestOf(const Heights& heights) {
   return most;
 }
 
-Heights currentBends(std::span<const BentFace> faces, std::span<const Vec3> vertices) {
-  Heights bends;
-  for (const BentFace& face : faces) {
-    const Vec3 mean = meanOf(vertices, *face.loop);
-    const std::size_t first = bends.size();
-    for (int v : *face.loop) bends.push_back(dot(face.normal, vertices[at(v)] - mean));
-    // Twice: what the rounding of the heights leaves of a plane would not be in the range of B.
-    const std::span<double> own = std::span(bends).subspan(first);
-    face.removePlane(own);
-    face.removePlane(own);
-  }
-  return bends;
+double shortestEdge(std::span<const Vec3> vertices, std::span<const std::vector<int>> loops) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::vector<int>& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      shortest =
+          std::min(shortest, (vertices[at(loop[i])] - vertices[at(loop[(i + 1) % loop.size()])]).norm());
+  return shortest;
 }
 
 }  // namespace
 
 double largestBend(std::span<const Vec3> vertices, std::span<const std::vector<int>> loops) {
-  return largestOf(currentBends(facesThatCanBend(vertices, loops), vertices));
+  return largestOf(BentFaces(vertices, loops).bends(vertices));
 }
 
 double flattenFaces(std::vector<Vec3>& vertices, std::span<const std::vector<int>> loops) {
@@ -162,17 +199,19 @@ double flattenFaces(std::vector<Vec3>& vertices, std::span<const std::vector<int
   }
   std::vector<Vec3> flattest = given;
   std::vector<Vec3> moved = given;
+  const double shortest = shortestEdge(given, loops);
   double least_bend = std::numeric_limits<double>::infinity();
   std::size_t visits = 0;
   for (int round = 0; round < kNewtonRounds; ++round) {
-    const std::vector<BentFace> faces = facesThatCanBend(moved, loops);
-    const Heights bends = currentBends(faces, moved);
+    const BentFaces faces(moved, loops);
+    const Heights bends = faces.bends(moved);
     const double bend = largestOf(bends);
     if (!(bend < least_bend)) break;
     flattest = moved;
     least_bend = bend;
     if (bend <= kNoBend * reach) break;
-    const std::vector<Vec3> moves = shortestMoves(faces, moved.size(), bends, visits);
+    const double share = std::max(std::min(bend / shortest, kLeastSolved), kNoBend * reach / bend);
+    const std::vector<Vec3> moves = shortestMoves(faces, moved.size(), bends, share, visits);
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] -= moves[v];
   }
   double farthest = 0.0;

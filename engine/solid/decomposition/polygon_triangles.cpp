@@ -26,6 +26,10 @@ int sideOf(const Vec2& a, const Vec2& b, const Vec2& p, double tolerance_m) {
 /// Most corners are far from an ear: they are told by this, much sooner than by the sides of lines.
 struct Reach {
   Vec2 lowest, highest;
+  void add(const Vec2& p) {
+    lowest = lowest.cwiseMin(p);
+    highest = highest.cwiseMax(p);
+  }
   /// Whether the way from d to e does, by being on one side of it.
   bool misses(const Vec2& d, const Vec2& e) const {
     return (d.x() < lowest.x() && e.x() < lowest.x()) || (d.x() > highest.x() && e.x() > highest.x()) ||
@@ -146,11 +150,79 @@ class JoinedRing {
   bool complete_ = false;
 };
 
+/// The nodes of a ring in blocks of those that follow each other, with a box around the sides of each: what
+/// is far from an ear is told a block at a time.
+class RingBlocks {
+ public:
+  RingBlocks(std::size_t node_count, const std::vector<int>& after) : after_(after), place_(node_count) {}
+
+  template <class PlaceOf>
+  void begin(const std::vector<int>& ring, const PlaceOf& p) {
+    ring_ = ring;
+    blocks_.clear();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      place_[at(ring[i])] = i;
+      if (i % kSize == 0) blocks_.push_back({{p(ring[i]), p(ring[i])}, 0});
+      Block& block = blocks_.back();
+      block.box.add(p(ring[i]));
+      block.box.add(p(ring[(i + 1) % ring.size()]));
+      ++block.left;
+    }
+  }
+
+  /// The side from `before` ends at `end` now.
+  void cutOff(int ear, int before, const Vec2& end) {
+    --blocks_[blockOf(ear)].left;
+    blocks_[blockOf(before)].box.add(end);
+  }
+
+  /// The first node on the way around from one to another that `is_in_the_way`, or -1; only asked of those in
+  /// blocks that `reach` does not miss.
+  template <class Condition>
+  int first(int from, int until, const Reach& reach, const Condition& is_in_the_way) const {
+    for (int k = from; k != until;) {
+      const std::size_t block = blockOf(k);
+      if (reach.misses(blocks_[block].box.lowest, blocks_[block].box.highest)) {
+        k = blockOf(until) == block && place_[at(until)] > place_[at(k)] ? until : firstOfNext(block);
+        continue;
+      }
+      for (; k != until && blockOf(k) == block; k = after_[at(k)])
+        if (is_in_the_way(k)) return k;
+    }
+    return -1;
+  }
+
+ private:
+  static constexpr std::size_t kSize = 32;
+  struct Block {
+    Reach box;
+    int left;
+  };
+  std::size_t blockOf(int node) const { return place_[at(node)] / kSize; }
+
+  int firstOfNext(std::size_t block) const {
+    do block = (block + 1) % blocks_.size();
+    while (blocks_[block].left == 0);
+    std::size_t i = block * kSize;
+    while (after_[at(ring_[i])] < 0) ++i;
+    return ring_[i];
+  }
+
+  const std::vector<int>& after_;  // a node that is gone has none
+  std::vector<int> ring_;
+  std::vector<std::size_t> place_;  // of each node of the ring
+  std::vector<Block> blocks_;
+};
+
 /// Clips ears off a ring, and takes it apart where it touches itself.
 class EarClipping {
  public:
   EarClipping(const JoinedRing& joined, const std::vector<Vec2>& corners, double tolerance_m)
-      : nodes_(joined.ring()), corners_(corners), tolerance_m_(tolerance_m), bridges_(joined.bridges()) {
+      : nodes_(joined.ring()),
+        corners_(corners),
+        tolerance_m_(tolerance_m),
+        blocks_(nodes_.size(), after_),
+        bridges_(joined.bridges()) {
     const int n = static_cast<int>(nodes_.size());
     for (const Node& node : nodes_)
       extent_ = std::max(extent_, (corners[at(node.corner)] - corners[at(nodes_[0].corner)]).norm());
@@ -197,6 +269,7 @@ class EarClipping {
   /// Until nothing is left of the ring; parts of it that remain are added to `rings`.
   bool clip(int start, std::vector<int>& rings) {
     std::vector<int> ring = ringFrom(start);
+    blocks_.begin(ring, [&](int node) { return p(node); });
     const std::vector<Touch> touches = touchesOf(ring);
     std::vector<double> quality;
     quality.reserve(ring.size());
@@ -248,6 +321,7 @@ class EarClipping {
     after_[at(before)] = after;
     before_[at(after)] = before;
     after_[at(ear)] = kGone;
+    blocks_.cutOff(ear, before, p(after));
   }
 
   void join(int side, int other) { raw_joins_.push_back({side, other}); }
@@ -365,11 +439,8 @@ class EarClipping {
     const Vec2 &a = p(before), &b = p(ear), &c = p(after);
     const Reach reach{a.cwiseMin(b).cwiseMin(c).array() - tolerance_m_,
                       a.cwiseMax(b).cwiseMax(c).array() + tolerance_m_};
-    for (int k = after_[at(after)]; k != before; k = after_[at(k)]) {
-      const Vec2& q = p(k);
-      if (!reach.misses(q, q) && holds(a, b, c, q)) return k;
-    }
-    return kGone;
+    return blocks_.first(after_[at(after)], before, reach,
+                         [&](int k) { return !reach.misses(p(k), p(k)) && holds(a, b, c, p(k)); });
   }
 
   /// Whether q is inside the triangle or on the open side from a to c.
@@ -383,20 +454,18 @@ class EarClipping {
   int sideAcross(int before, int after) const {
     const Vec2 &a = p(before), &c = p(after);
     const Reach reach{a.cwiseMin(c), a.cwiseMax(c)};
-    for (int k = after; k != before; k = after_[at(k)]) {
+    return blocks_.first(after, before, reach, [&](int k) {
       const Vec2 &d = p(k), &e = p(after_[at(k)]);
-      if (reach.misses(d, e)) continue;
-      if (sideOf(a, c, d, tolerance_m_) * sideOf(a, c, e, tolerance_m_) < 0 &&
-          sideOf(d, e, a, tolerance_m_) * sideOf(d, e, c, tolerance_m_) < 0)
-        return k;
-    }
-    return kGone;
+      return !reach.misses(d, e) && sideOf(a, c, d, tolerance_m_) * sideOf(a, c, e, tolerance_m_) < 0 &&
+             sideOf(d, e, a, tolerance_m_) * sideOf(d, e, c, tolerance_m_) < 0;
+    });
   }
 
   std::vector<Node> nodes_;
   const std::vector<Vec2>& corners_;
   double tolerance_m_;
   std::vector<int> before_, after_;
+  RingBlocks blocks_;                // of the ring that is clipped
   std::vector<Obstacle> obstacles_;  // by node, as are:
   std::vector<double> known_;        // qualities of those whose ring has been taken apart
   std::vector<std::size_t> places_;  // on the way around a ring that may be taken apart

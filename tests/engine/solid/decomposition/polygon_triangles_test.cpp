@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 #include <numeric>
+
+#include "tests/oracle/test_shapes.h"
 
 namespace carom {
 namespace {
@@ -103,6 +106,42 @@ TEST(PolygonTriangles, CloseASlit) {
             {1, 1},
             {1, 0}});
   expectFilled(slit);
+}
+
+std::vector<Vec2> spikes(int corners, double least, double most, bool clockwise, oracle::Random& random) {
+  std::vector<Vec2> ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (clockwise ? -i : i) / corners;
+    ring.push_back(random.uniform(least, most) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return ring;
+}
+
+// Spikes around the middle and around a hole, so many that most corners are not looked at for an ear.
+TEST(PolygonTriangles, FillRingsOfHundredsOfCorners) {
+  oracle::Random random(73);
+  for (const int corners : {31, 32, 33, 64, 65, 200, 700}) {
+    Polygon star, crown;
+    star.add(spikes(corners, 0.05, 1.0, false, random));
+    expectFilled(star);
+    crown.add(spikes(corners, 0.6, 1.0, false, random));
+    crown.add(spikes(corners / 2, 0.1, 0.5, true, random));
+    expectFilled(crown);
+  }
+}
+
+// A strip that winds around itself: ears are few, and what is in the way of one is far along the ring.
+TEST(PolygonTriangles, FillAStripThatWindsAroundItself) {
+  Polygon spiral;
+  std::vector<Vec2> ring;
+  const auto along = [](double turns, double radius) {
+    const double angle = 2.0 * std::numbers::pi * turns;
+    return Vec2(radius * Vec2(std::cos(angle), std::sin(angle)));
+  };
+  for (int i = 0; i <= 400; ++i) ring.push_back(along(i / 80.0, 0.15 + 0.1 * i / 80.0));
+  for (int i = 400; i >= 0; --i) ring.push_back(along(i / 80.0, 0.10 + 0.1 * i / 80.0));
+  spiral.add(ring);
+  expectFilled(spiral);
 }
 
 TEST(PolygonTriangles, SayNothingOfARingThatCrossesItself) {
