@@ -436,9 +436,8 @@ class Merging {
     Eigen::AlignedBox3d reach = a.bounds;
     reach.min().array() -= tolerance_m_;
     reach.max().array() += tolerance_m_;
-    if (!reach.intersects(b.bounds) || !mayJoin(a, b) || !mayJoin(b, a)) return std::nullopt;
     const std::pair<int, int> pair = std::minmax({a.number, b.number});
-    if (apart_.contains(pair)) return std::nullopt;
+    if (!reach.intersects(b.bounds) || apart_.contains(pair)) return std::nullopt;
     ConvexPiece whole;
     std::vector<Vec3> points = a.points;
     points.insert(points.end(), b.points.begin(), b.points.end());
@@ -451,7 +450,8 @@ class Merging {
     };
     // First without faces that are merged: to make those flat takes longest, and most pairs do not fit. It
     // reaches to the outermost points, where merged faces go between them.
-    if (!fits({}, 2.0) || !fits({.coordinate_error_m = settings_.coordinate_error_m}, 1.0)) {
+    if (!mayJoin(a, b) || !mayJoin(b, a) || !fits({}, 2.0) ||
+        !fits({.coordinate_error_m = settings_.coordinate_error_m}, 1.0)) {
       apart_.insert(pair);
       return std::nullopt;
     }
