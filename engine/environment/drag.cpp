@@ -65,7 +65,8 @@ Lead leadOf(std::span<const Vec3> facet, const Vec3& normal, const Vec6& velocit
     reach = std::max(reach, std::abs(dot(along, corner - lead.middle)));
     speed = std::max(speed, velocityAt(velocity, corner).norm());
   }
-  if (reach > 0.0) lead.slope = along.norm() / (speed * reach) * along;
+  // Squares of next to no speed are none: what stands has no leading edge.
+  if (speed * reach > 0.0) lead.slope = along.norm() / (speed * reach) * along;
   return lead;
 }
 

@@ -114,6 +114,21 @@ TEST(Drag, NoDragEverDrives) {
   }
 }
 
+// Speeds whose squares are no numbers any more, of what comes to rest: found by the explorer's seed 736035.
+TEST(Drag, OfNextToNoSpeedIsNextToNone) {
+  oracle::Random random(24);
+  for (int exponent = -150; exponent >= -323; --exponent)
+    for (int k = 0; k < 20; ++k) {
+      Vec6 v = Vec6::Zero();
+      for (Eigen::Index i = 0; i < 6; ++i)
+        v[i] = std::pow(10.0, exponent + (k % 4) * random.uniform(-15.0, 0.0)) * random.uniform(-1.0, 1.0);
+      StreamDrag drag = pressureOn(boxPolyhedron(Vec3(3e-3, 2e-3, 4e-3)), v);
+      addPointDrag(Vec3(1e-3, 2e-3, 0.0), 1.0, Vec3::UnitZ(), drag);
+      ASSERT_TRUE(drag.quadratic.allFinite()) << v.transpose();
+      EXPECT_LT(drag.quadratic.norm(), 1e-140) << v.transpose();
+    }
+}
+
 TEST(Drag, GrowsWithTheSquareOfTheSpeed) {
   oracle::Random random(25);
   const ConvexPolyhedron hull = oracle::randomHull(random, 20);
