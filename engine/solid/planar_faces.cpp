@@ -71,7 +71,7 @@ class BentFaces {
   }
 
   /// How far each corner is from its face's plane.
-  Heights bends(std::span<const Vec3> vertices) const {
+  Heights bendsAt(std::span<const Vec3> vertices) const {
     Heights bends(cornerCount());
     for (const Face& face : faces_) {
       for (std::size_t k = face.first; k < face.end; ++k)
@@ -185,7 +185,7 @@ double shortestEdge(std::span<const Vec3> vertices, std::span<const std::vector<
 }  // namespace
 
 double largestBend(std::span<const Vec3> vertices, std::span<const std::vector<int>> loops) {
-  return largestOf(BentFaces(vertices, loops).bends(vertices));
+  return largestOf(BentFaces(vertices, loops).bendsAt(vertices));
 }
 
 double flattenFaces(std::vector<Vec3>& vertices, std::span<const std::vector<int>> loops) {
@@ -204,7 +204,7 @@ double flattenFaces(std::vector<Vec3>& vertices, std::span<const std::vector<int
   std::size_t visits = 0;
   for (int round = 0; round < kNewtonRounds; ++round) {
     const BentFaces faces(moved, loops);
-    const Heights bends = faces.bends(moved);
+    const Heights bends = faces.bendsAt(moved);
     const double bend = largestOf(bends);
     if (!(bend < least_bend)) break;
     flattest = moved;

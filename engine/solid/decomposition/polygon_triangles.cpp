@@ -150,6 +150,8 @@ class JoinedRing {
   bool complete_ = false;
 };
 
+constexpr int kGone = -1;  // no node, or what follows one that has been clipped
+
 /// The nodes of a ring in blocks of those that follow each other, with a box around the sides of each: what
 /// is far from an ear is told a block at a time.
 class RingBlocks {
@@ -176,8 +178,8 @@ class RingBlocks {
     blocks_[blockOf(before)].box.add(end);
   }
 
-  /// The first node on the way around from one to another that `is_in_the_way`, or -1; only asked of those in
-  /// blocks that `reach` does not miss.
+  /// The first node on the way around from one to another that `is_in_the_way`, or kGone; only asked of those
+  /// in blocks that `reach` does not miss.
   template <class Condition>
   int first(int from, int until, const Reach& reach, const Condition& is_in_the_way) const {
     for (int k = from; k != until;) {
@@ -189,11 +191,11 @@ class RingBlocks {
       for (; k != until && blockOf(k) == block; k = after_[at(k)])
         if (is_in_the_way(k)) return k;
     }
-    return -1;
+    return kGone;
   }
 
  private:
-  static constexpr std::size_t kSize = 32;
+  static constexpr std::size_t kSize = 32;  // what is found is the same for any
   struct Block {
     Reach box;
     int left;
@@ -204,11 +206,11 @@ class RingBlocks {
     do block = (block + 1) % blocks_.size();
     while (blocks_[block].left == 0);
     std::size_t i = block * kSize;
-    while (after_[at(ring_[i])] < 0) ++i;
+    while (after_[at(ring_[i])] == kGone) ++i;
     return ring_[i];
   }
 
-  const std::vector<int>& after_;  // a node that is gone has none
+  const std::vector<int>& after_;
   std::vector<int> ring_;
   std::vector<std::size_t> place_;  // of each node of the ring
   std::vector<Block> blocks_;
@@ -249,7 +251,6 @@ class EarClipping {
  private:
   static constexpr double kNoEar = -1.0;
   static constexpr double kUnknown = -2.0;
-  static constexpr int kGone = -1;  // no node, or what follows one that has been clipped
   /// What keeps a corner from being an ear: a node, and the side that begins there.
   struct Obstacle {
     int node = kGone, after = kGone;
