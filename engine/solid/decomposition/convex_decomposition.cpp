@@ -301,7 +301,7 @@ class Cutting {
     }
     for (std::vector<int>& shell : shells) {
       std::sort(shell.begin(), shell.end());
-      waiting_.push_back(piece.part(shell));
+      waiting_.push_back(piece.part(shell).withoutFlatPoints());
     }
   }
 

@@ -432,26 +432,30 @@ void CutSurface::splitEdge(int half, int p) {
 
 /// The closed ways along the rim; one that comes to a vertex twice is two.
 std::vector<std::vector<int>> CutSurface::rims(const Section& section) const {
+  constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   std::vector<char> taken(mates_.size(), 0);
+  std::vector<std::size_t> place(points_.size(), kNowhere);  // on the way, of the sides' tails
   std::vector<std::vector<int>> found;
+  const auto cutBack = [&](std::vector<int>& way, std::size_t length) {
+    const auto first = way.begin() + static_cast<std::ptrdiff_t>(length);
+    for (auto half = first; half != way.end(); ++half) place[at(tail(*half))] = kNowhere;
+    found.emplace_back(first, way.end());
+    way.erase(first, way.end());
+  };
   for (int start = 0; start < 3 * triangleCount(); ++start) {
     if (taken[at(start)] || !isRim(start, section)) continue;
     std::vector<int> way;
     for (int half = start; !taken[at(half)];) {
       taken[at(half)] = 1;
-      const auto before =
-          std::find_if(way.begin(), way.end(), [&](int other) { return tail(other) == tail(half); });
-      if (before != way.end()) {
-        found.emplace_back(before, way.end());
-        way.erase(before, way.end());
-      }
+      if (place[at(tail(half))] != kNowhere) cutBack(way, place[at(tail(half))]);
+      place[at(tail(half))] = way.size();
       way.push_back(half);
       half = next(half);
       // Around the vertex, through what is below the plane, to where the rim goes on.
       for (std::size_t turns = 0; !isRim(half, section) && turns < mates_.size(); ++turns)
         half = next(mate(half));
     }
-    found.push_back(std::move(way));
+    cutBack(way, 0);
   }
   return found;
 }

@@ -60,6 +60,8 @@ class CutSurface {
   std::vector<std::vector<int>> shells() const;
   /// The surface of whole shells, whose triangles are in order. Everything keeps its order.
   CutSurface part(std::span<const int> triangles) const;
+  /// The same surface without the points in the middle of flat facets and of straight edges between two.
+  CutSurface withoutFlatPoints() &&;
 
  private:
   struct Facet {
@@ -67,6 +69,7 @@ class CutSurface {
     double normal_error = 0.0;  // radians
   };
   class Curves;
+  class FlatPoints;
   struct Section;
   struct Rims;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/foundation/index.h"
 #include "tests/oracle/test_shapes.h"
 
 namespace carom {
@@ -33,7 +34,7 @@ double areaOf(const Polygon& polygon) {
 }
 
 // Every side in one join, and those of a join at the same two places; no triangle clockwise; areas add up.
-void expectFilled(const Polygon& polygon) {
+void expectFilled(const Polygon& polygon, double area_error = 1e-13) {
   const std::optional<PolygonTriangles> made = polygonTriangles(polygon.rings, polygon.corners, 1e-14);
   ASSERT_TRUE(made);
   double area = 0.0;
@@ -50,7 +51,7 @@ void expectFilled(const Polygon& polygon) {
       sides[static_cast<int>(3 * t + k)] = {polygon.corners[static_cast<std::size_t>(loop[k])],
                                             polygon.corners[static_cast<std::size_t>(loop[(k + 1) % 3])]};
   }
-  EXPECT_NEAR(area, areaOf(polygon), 1e-13);
+  EXPECT_NEAR(area, areaOf(polygon), area_error);
   for (const auto& [side, other] : made->joins) {
     ASSERT_TRUE(sides.contains(side) && sides.contains(other)) << side << ' ' << other;
     EXPECT_EQ(sides[side].first, sides[other].second);
@@ -107,6 +108,37 @@ TEST(PolygonTriangles, CloseASlit) {
             {1, 1},
             {1, 0}});
   expectFilled(slit);
+}
+
+TEST(PolygonTriangles, TakeTheCornersOfASideWithoutLengthForTwo) {
+  Polygon square;
+  square.add({{0, 0}, {1, 0}, {1, 0}, {1, 1}, {1, 1}, {1, 1}, {0, 1}, {0, 0}});
+  expectFilled(square);
+}
+
+// Squares in a row that touch in corners, as one ring that goes out below and comes back above; and petals
+// that all touch in one point. Nothing joins two of them.
+TEST(PolygonTriangles, ComeApartAtAThousandTouches) {
+  constexpr int kSquares = 1000, kPetals = 200;
+  Polygon row, flower;
+  std::vector<Vec2> there, back, petals;
+  for (int i = 0; i < kSquares; ++i) {
+    there.insert(there.end(), {Vec2(i, 0.0), Vec2(i + 0.5, -0.5)});
+    back.insert(back.end(), {Vec2(kSquares - i, 0.0), Vec2(kSquares - i - 0.5, 0.5)});
+  }
+  there.insert(there.end(), back.begin(), back.end());
+  row.add(there);
+  expectFilled(row, 1e-10);
+  EXPECT_EQ(polygonTriangles(row.rings, row.corners, 1e-12)->triangles.size(), at(2 * kSquares));
+
+  for (int i = 0; i < kPetals; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPetals, wide = 0.3 * std::numbers::pi / kPetals;
+    petals.insert(petals.end(), {Vec2::Zero(), Vec2(std::cos(angle - wide), std::sin(angle - wide)),
+                                 Vec2(std::cos(angle + wide), std::sin(angle + wide))});
+  }
+  flower.add(petals);
+  expectFilled(flower);
+  EXPECT_EQ(polygonTriangles(flower.rings, flower.corners, 1e-14)->triangles.size(), at(kPetals));
 }
 
 std::vector<Vec2> spikes(int corners, double least, double most, bool clockwise, oracle::Random& random) {
