@@ -291,11 +291,11 @@ class EventLoop {
     const bool leads = spent <= kMostClearings;
     if (leads) {
       clearing_.add(index, found, rest, spent > kTurningClearings, table_, bodies_);
-      clearing_.gather(changed_, time_s, table_, bodies_);
+      clearing_.gather(changed_, time_s, bodies_);
     }
     for (const int i : changed_) paths_.bring(i, time_s);
     if (leads) {
-      const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, table_, bodies_);
+      const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, bodies_);
       if (stopWedging(time_s)) return;
       for (std::size_t k = 0; k < changed_.size(); ++k) {
         paths_.lead(changed_[k], paths[k].velocity);

@@ -31,6 +31,13 @@ Velocity meanMotion(const Body& body, double time_s, double rest_s) {
 
 }  // namespace
 
+void PathClearing::beginStep() {
+  for (const Place& place : places_)
+    for (const int body : {place.body_a, place.body_b}) places_of_[at(body)].clear();
+  places_.clear();
+  gathered_.clear();
+}
+
 double PathClearing::turningSpeed(const ShapePair& pair, double time_s, double rest_s,
                                   const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
   const auto motionOf = [&](int body) { return meanMotion(bodies[at(body)], time_s, rest_s); };
@@ -45,6 +52,8 @@ void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool
   const double missing_m = pair.window.rest - found.closest.distance_m;
   Place place;
   place.pair = index;
+  place.body_a = pair.body_a;
+  place.body_b = pair.body_b;
   place.n_W = found.closest.n_W;
   place.p_A_W = found.closest.p_A_W;
   place.p_B_W = found.closest.p_B_W;
@@ -54,44 +63,53 @@ void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool
   const double fastest =
       std::max(bodies[at(pair.body_a)].path.fastestSpin(), bodies[at(pair.body_b)].path.fastestSpin());
   const bool turns_by_much = rest_s * fastest > kMuch;
-  place.turned = (turns_by_much || holds_turning) &&
-                 std::any_of(places_.begin(), places_.end(), [&](const Place& former) {
-                   return former.pair == index && cameBack(former, found.time_s, table, bodies);
-                 });
   place.features = found.closest.features;
-  const auto same = std::find_if(places_.begin(), places_.end(), [&](const Place& former) {
-    return former.pair == index && former.features == place.features;
-  });
-  last_added_ = static_cast<std::size_t>(same - places_.begin());
-  if (same == places_.end())
-    places_.push_back(place);
-  else
-    *same = place;
+  places_of_.resize(bodies.size());
+  const std::vector<int>&of_a = places_of_[at(place.body_a)], &of_b = places_of_[at(place.body_b)];
+  const std::vector<int>& known = of_a.size() < of_b.size() ? of_a : of_b;
+  const auto isOfPair = [&](int former) { return places_[at(former)].pair == index; };
+  place.turned = (turns_by_much || holds_turning) && std::ranges::any_of(known, [&](int former) {
+                   return isOfPair(former) && cameBack(places_[at(former)], found.time_s, bodies);
+                 });
+  const auto same = std::ranges::find_if(
+      known, [&](int former) { return isOfPair(former) && places_[at(former)].features == place.features; });
+  last_added_ = same == known.end() ? static_cast<int>(places_.size()) : *same;
+  if (same != known.end()) {
+    places_[at(last_added_)] = place;
+    return;
+  }
+  places_.push_back(place);
+  for (const int body : {place.body_a, place.body_b}) places_of_[at(body)].push_back(last_added_);
 }
 
 // Whether nothing else has led the bodies of a place since they were led apart there.
-bool PathClearing::cameBack(const Place& place, double time_s, const PairTable& table,
-                            const std::vector<Body>& bodies) const {
-  const ShapePair& pair = table.pairs()[at(place.pair)];
-  for (const int body : {pair.body_a, pair.body_b})
+bool PathClearing::cameBack(const Place& place, double time_s, const std::vector<Body>& bodies) const {
+  for (const int body : {place.body_a, place.body_b})
     if (canBeLed(bodies[at(body)]) && bodies[at(body)].path.start_s != place.led_s) return false;
   return place.led_s < time_s;
 }
 
-void PathClearing::gather(std::vector<int>& members, double time_s, const PairTable& table,
-                          const std::vector<Body>& bodies) {
-  for (Place& place : places_) place.gathered = false;
+void PathClearing::gather(std::vector<int>& members, double time_s, const std::vector<Body>& bodies) {
+  gathered_.clear();
+  is_member_.resize(bodies.size(), 0);
+  is_gathered_.resize(places_.size(), 0);
+  for (const int member : members) is_member_[at(member)] = 1;
   for (std::size_t k = 0; k < members.size(); ++k)
-    for (Place& place : places_) {
-      const ShapePair& pair = table.pairs()[at(place.pair)];
-      if (place.gathered || (pair.body_a != members[k] && pair.body_b != members[k])) continue;
-      place.gathered = true;
-      const int other = pair.body_a == members[k] ? pair.body_b : pair.body_a;
+    for (const int index : places_of_[at(members[k])]) {
+      if (is_gathered_[at(index)]) continue;
+      is_gathered_[at(index)] = 1;
+      gathered_.push_back(index);
+      const Place& place = places_[at(index)];
+      const int other = place.body_a == members[k] ? place.body_b : place.body_a;
       // Of one instant, events come in the order of their ranks: another's path may begin a rounding later.
-      if (canBeLed(bodies[at(other)]) && bodies[at(other)].path.start_s <= time_s &&
-          std::find(members.begin(), members.end(), other) == members.end())
-        members.push_back(other);
+      if (is_member_[at(other)] || !canBeLed(bodies[at(other)]) || bodies[at(other)].path.start_s > time_s)
+        continue;
+      is_member_[at(other)] = 1;
+      members.push_back(other);
     }
+  for (const int member : members) is_member_[at(member)] = 0;
+  for (const int index : gathered_) is_gathered_[at(index)] = 0;
+  std::ranges::sort(gathered_);  // rows in the order in which places were added
 }
 
 void PathClearing::setPaths(const std::vector<int>& members, double time_s, double rest_s,
@@ -134,16 +152,14 @@ void PathClearing::holdTurning(const Row& row) {
   if (spin_b >= spin_a) hold(paths_[at(row.b)]);
 }
 
-void PathClearing::setRows(double time_s, double rest_s, const PairTable& table,
-                           const std::vector<Body>& bodies) {
+void PathClearing::setRows(double time_s, double rest_s, const std::vector<Body>& bodies) {
   rows_.clear();
-  for (Place& place : places_) {
-    if (!place.gathered) continue;
-    const ShapePair& pair = table.pairs()[at(place.pair)];
+  for (const int index : gathered_) {
+    Place& place = places_[at(index)];
     Row& row = rows_.emplace_back();
     row.place = &place;
-    row.a = pathOf(pair.body_a, time_s, rest_s, bodies);
-    row.b = pathOf(pair.body_b, time_s, rest_s, bodies);
+    row.a = pathOf(place.body_a, time_s, rest_s, bodies);
+    row.b = pathOf(place.body_b, time_s, rest_s, bodies);
     row.r_a = place.p_A_W - paths_[at(row.a)].center;
     row.r_b = place.p_B_W - paths_[at(row.b)].center;
     if (place.turned) holdTurning(row);
@@ -215,11 +231,10 @@ void PathClearing::findWedging(std::size_t led) {
 }
 
 std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members, double time_s,
-                                                 double rest_s, const PairTable& table,
-                                                 const std::vector<Body>& bodies) {
+                                                 double rest_s, const std::vector<Body>& bodies) {
   const auto begin = [&] {
     setPaths(members, time_s, rest_s, bodies);
-    setRows(time_s, rest_s, table, bodies);
+    setRows(time_s, rest_s, bodies);
   };
   begin();
   wedging_.clear();
@@ -229,7 +244,7 @@ std::span<const ImpulseBody> PathClearing::solve(const std::vector<int>& members
         !staysNear(before_,
                    paths_)) {  // nothing keeps all of them apart: at least the one that was added last
       findWedging(members.size());
-      for (std::size_t i = 0; i < places_.size(); ++i) places_[i].gathered = i == last_added_;
+      gathered_.assign(1, last_added_);
       begin();
       sweepRows();
     }

@@ -21,7 +21,7 @@ namespace carom {
 
 class PathClearing {
  public:
-  void beginStep() { places_.clear(); }
+  void beginStep();
 
   /// Two bodies at the floor, as a search has found them, `rest_s` before the end of the step.
   /// `holds_turning`: they have come back so often that it is time to look whether turning brought them.
@@ -29,13 +29,12 @@ class PathClearing {
            const std::vector<Body>& bodies);
 
   /// Adds to `members` who can be led and hangs together with them by places.
-  void gather(std::vector<int>& members, double time_s, const PairTable& table,
-              const std::vector<Body>& bodies);
+  void gather(std::vector<int>& members, double time_s, const std::vector<Body>& bodies);
 
   /// Mean velocities over the rest of the step by which the members of the last `gather`, which have been
   /// brought to `time_s`, stay apart; where no such are found, those of the last place that was added.
   std::span<const ImpulseBody> solve(const std::vector<int>& members, double time_s, double rest_s,
-                                     const PairTable& table, const std::vector<Body>& bodies);
+                                     const std::vector<Body>& bodies);
 
   /// If the last `solve` found no paths that keep all apart: who was not led, and presses the others
   /// together.
@@ -51,6 +50,8 @@ class PathClearing {
  private:
   struct Place {
     int pair = -1;
+    int body_a = -1;
+    int body_b = -1;
     FeaturePair features;
     Vec3 n_W;
     Vec3 p_A_W;
@@ -59,7 +60,6 @@ class PathClearing {
     double slack_mps = 0.0;   ///< A place that parts slower by no more than this has been led apart.
     bool turned = false;      ///< Turning brought it back: only moving its bodies keeps it away.
     double led_s = 0.0;       ///< When its bodies were led apart last.
-    bool gathered = false;    ///< In the last `gather`.
   };
   struct Row {
     Place* place = nullptr;
@@ -71,13 +71,12 @@ class PathClearing {
     double impulse = 0.0;
   };
 
-  bool cameBack(const Place& place, double time_s, const PairTable& table,
-                const std::vector<Body>& bodies) const;
+  bool cameBack(const Place& place, double time_s, const std::vector<Body>& bodies) const;
   int addPath(int body, double time_s, double rest_s, const std::vector<Body>& bodies);
   int pathOf(int body, double time_s, double rest_s, const std::vector<Body>& bodies);
   void setPaths(const std::vector<int>& members, double time_s, double rest_s,
                 const std::vector<Body>& bodies);
-  void setRows(double time_s, double rest_s, const PairTable& table, const std::vector<Body>& bodies);
+  void setRows(double time_s, double rest_s, const std::vector<Body>& bodies);
   void holdTurning(const Row& row);
   /// Whether all rows are apart.
   bool sweepRows();
@@ -87,8 +86,11 @@ class PathClearing {
   void push(const Row& row, double impulse);
   double partingOf(const Row& row) const;
 
-  std::vector<Place> places_;  ///< Of this step.
-  std::size_t last_added_ = 0;
+  std::vector<Place> places_;                ///< Of this step.
+  std::vector<std::vector<int>> places_of_;  ///< By body.
+  int last_added_ = 0;
+  std::vector<int> gathered_;  ///< Places that members of the last `gather` are at.
+  std::vector<char> is_member_, is_gathered_;
   std::vector<ImpulseBody> paths_;
   std::vector<ImpulseBody> before_;  ///< The members' as they were.
   std::vector<int> path_of_;         ///< By body: its place in `paths_`; -1: none.
