@@ -288,27 +288,41 @@ class EventLoop {
       changed_.push_back(i);
       spent = std::max(spent, ++bodies_[at(i)].cleared);
     }
-    const bool leads = spent <= kMostClearings;
-    if (leads) {
+    if (spent <= kMostClearings) {
       clearing_.add(index, found, rest, spent > kTurningClearings, table_, bodies_);
-      clearing_.gather(changed_, time_s, bodies_);
-    }
-    for (const int i : changed_) paths_.bring(i, time_s);
-    if (leads) {
-      const std::span<const ImpulseBody> paths = clearing_.solve(changed_, time_s, rest, bodies_);
-      if (stopWedging(time_s)) return;
-      for (std::size_t k = 0; k < changed_.size(); ++k) {
-        paths_.lead(changed_[k], paths[k].velocity);
-        lifts_.join(changed_.front(), changed_[k], bodies_);
-        closed_.meet(changed_.front(), changed_[k], bodies_);
-      }
-      for (const int i : changed_) paths_.findOpening(i);
-    } else if (spent <= kMostClearings + kMostHalvings) {
-      for (const int i : changed_) paths_.halve(i);
+      if (!leadApart(time_s)) return;
     } else {
-      for (const int i : changed_) paths_.hold(i);
+      for (const int i : changed_) {
+        paths_.bring(i, time_s);
+        if (spent <= kMostClearings + kMostHalvings)
+          paths_.halve(i);
+        else
+          paths_.hold(i);
+      }
     }
     searchAgain(time_s);
+  }
+
+  // Leads the bodies of the place that was added last, which have changed, and who hangs together with them
+  // as far as these must give way. False where kinematic bodies were stopped instead.
+  bool leadApart(double time_s) {
+    const std::size_t met = changed_.size();
+    clearing_.gather(changed_, time_s, bodies_);
+    const std::span<const ImpulseBody> paths =
+        clearing_.solve(changed_, time_s, settings_.step_s - time_s, bodies_);
+    if (stopWedging(time_s)) return false;
+    std::size_t led = 0;
+    for (std::size_t k = 0; k < changed_.size(); ++k) {
+      if (k >= met && !clearing_.isLed(k)) continue;  // its path goes on, with all that is known of it
+      const int body = changed_[led++] = changed_[k];
+      paths_.bring(body, time_s);
+      paths_.lead(body, paths[k].velocity);
+      lifts_.join(changed_.front(), body, bodies_);
+      closed_.meet(changed_.front(), body, bodies_);
+    }
+    changed_.resize(led);
+    for (const int i : changed_) paths_.findOpening(i);
+    return true;
   }
 
   // Stops the kinematic bodies that lead the others together; whether there are any.
@@ -317,8 +331,10 @@ class EventLoop {
     const std::size_t others = changed_.size();
     for (const int body : clearing_.wedging()) stopDriven(body, time_s);
     if (changed_.size() == others) return false;
-    for (const int body : std::span(changed_).first(others))
+    for (const int body : std::span(changed_).first(others)) {
+      paths_.bring(body, time_s);
       if (bodies_[at(body)].travel == Travel::kBallistic) planner_.plan(body, bodies_[at(body)]);
+    }
     searchAgain(time_s);
     return true;
   }

@@ -85,7 +85,7 @@ void PathClearing::add(int index, const TimeOfImpact& found, double rest_s, bool
 // Whether nothing else has led the bodies of a place since they were led apart there.
 bool PathClearing::cameBack(const Place& place, double time_s, const std::vector<Body>& bodies) const {
   for (const int body : {place.body_a, place.body_b})
-    if (canBeLed(bodies[at(body)]) && bodies[at(body)].path.start_s != place.led_s) return false;
+    if (canBeLed(bodies[at(body)]) && bodies[at(body)].path.start_s > place.led_s) return false;
   return place.led_s < time_s;
 }
 

@@ -31,10 +31,16 @@ class PathClearing {
   /// Adds to `members` who can be led and hangs together with them by places.
   void gather(std::vector<int>& members, double time_s, const std::vector<Body>& bodies);
 
-  /// Mean velocities over the rest of the step by which the members of the last `gather`, which have been
-  /// brought to `time_s`, stay apart; where no such are found, those of the last place that was added.
+  /// Mean velocities from `time_s` over the rest of the step by which the members of the last `gather` stay
+  /// apart; where no such are found, those of the last place that was added.
   std::span<const ImpulseBody> solve(const std::vector<int>& members, double time_s, double rest_s,
                                      const std::vector<Body>& bodies);
+
+  /// Whether the last `solve` gave a member another velocity than it had.
+  bool isLed(std::size_t member) const {
+    return paths_[member].velocity.linear != before_[member].velocity.linear ||
+           paths_[member].velocity.angular != before_[member].velocity.angular;
+  }
 
   /// If the last `solve` found no paths that keep all apart: who was not led, and presses the others
   /// together.
