@@ -12,7 +12,7 @@
 
 namespace carom {
 
-/// Of more rows than these it is cheaper to sweep: every pivot eliminates them anew.
+/// Of more rows than these it is cheaper to sweep, where that converges: every pivot eliminates them anew.
 inline constexpr std::size_t kMostPivotedRows = 32;
 
 /// Impulses of rows whose speeds they change by `response` times them (symmetric, positive semidefinite), so
@@ -22,8 +22,7 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
                                              const Eigen::VectorXd& slack);
 
 /// Gives bodies the normal impulses by which all rows, which have had none, part at their lowest speeds less
-/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none, or for more than
-/// `kMostPivotedRows`.
+/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none.
 bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps);
 
 }  // namespace carom

@@ -23,6 +23,9 @@ constexpr double kSlack = 0.05;
 constexpr double kMuch = 0.25;
 // Rows visited in one solve, at most: 0.1 ms.
 constexpr int kVisits = 2000;
+// Rows that are pivoted, at most: where they are given up, bodies are led into others and frozen, so that it
+// may cost some milliseconds.
+constexpr std::size_t kMostLedRows = 128;
 
 // What a body's path does in the mean over the rest of the step.
 Velocity meanMotion(const Body& body, double time_s, double rest_s) {
@@ -192,6 +195,7 @@ bool PathClearing::sweepRows() {
 }
 
 bool PathClearing::pivotRows() {
+  if (rows_.size() > kMostLedRows) return false;
   std::vector<ContactRow> rows(rows_.size());
   Eigen::VectorXd slack(static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
