@@ -1,7 +1,6 @@
 #include "engine/solid/decomposition/ear_clipping.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -178,6 +177,7 @@ class EarClipping {
   /// Until nothing is left of the ring; parts that are taken off it wait for their turn.
   bool clip(int start) {
     begin(ringFrom(start));
+    if (left_ < 2) return false;  // a corner alone has no side
     start = partedAtTouches(start);
     for (const int node : ringFrom(start)) ask(node);
     while (left_ > 2) {

@@ -40,8 +40,8 @@ struct PolygonTriangles {
 };
 
 /// No corner may occur twice, in one ring or in two. Corners nearer to a line than `tolerance_m` are on it.
-/// Nothing where rounding leaves no way: the triangles found would not fill the region. Cost: quadratic in
-/// the corners, mostly.
+/// Nothing where rounding leaves no way: the triangles found would not fill the region. Cost: corners times
+/// their logarithm, mostly; for each hole, its corners times those around it.
 std::optional<PolygonTriangles> polygonTriangles(const Rings& rings, const std::vector<Vec2>& corners,
                                                  double tolerance_m);
 
