@@ -72,8 +72,7 @@ void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, d
     row.lowest_speed = 0.0;
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
-  if (stops.size() > kMostPivotedRows ||
-      !pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
+  if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
     solveContacts(stops, bodies, {mostSweeps(rows), tolerated_mps, false});
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse += stops[i].impulse;
 }

@@ -51,7 +51,9 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
   return std::nullopt;
 }
 
-bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps) {
+bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps,
+               std::size_t most_rows) {
+  if (rows.size() > most_rows) return false;
   const auto size = static_cast<Eigen::Index>(rows.size());
   const auto rowAt = [&](Eigen::Index i) -> ContactRow& { return rows[static_cast<std::size_t>(i)]; };
   Eigen::VectorXd missing(size);

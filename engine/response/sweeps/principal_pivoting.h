@@ -22,7 +22,9 @@ std::optional<Eigen::VectorXd> pivotImpulses(const Eigen::MatrixXd& response, co
                                              const Eigen::VectorXd& slack);
 
 /// Gives bodies the normal impulses by which all rows, which have had none, part at their lowest speeds less
-/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none.
-bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps);
+/// their `slack_mps`. False, and nothing changes, where `pivotImpulses` finds none, or for more than
+/// `most_rows`.
+bool pivotRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Eigen::VectorXd& slack_mps,
+               std::size_t most_rows = kMostPivotedRows);
 
 }  // namespace carom

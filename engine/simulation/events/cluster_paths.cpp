@@ -27,8 +27,7 @@ void ContactCluster::pivotPaths() {
   for (std::size_t i = 0; i < before.size(); ++i) before[i].velocity = solve_before_[i];
   std::vector<ImpulseBody> paths = before;
   const auto size = static_cast<Eigen::Index>(rows.size());
-  if (rows.size() > kMostPivotedRows ||
-      !pivotRows(rows, paths, Eigen::VectorXd::Constant(size, kPathShare * safeResidual())) ||
+  if (!pivotRows(rows, paths, Eigen::VectorXd::Constant(size, kPathShare * safeResidual())) ||
       !staysNear(before, paths))
     return;
   rows_ = rows;

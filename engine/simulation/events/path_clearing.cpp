@@ -195,7 +195,6 @@ bool PathClearing::sweepRows() {
 }
 
 bool PathClearing::pivotRows() {
-  if (rows_.size() > kMostLedRows) return false;
   std::vector<ContactRow> rows(rows_.size());
   Eigen::VectorXd slack(static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -208,7 +207,7 @@ bool PathClearing::pivotRows() {
     rows[i].lowest_speed = row.place->wanted_mps;
     slack[static_cast<Eigen::Index>(i)] = row.place->slack_mps;
   }
-  return carom::pivotRows(rows, paths_, slack);
+  return carom::pivotRows(rows, paths_, slack, kMostLedRows);
 }
 
 void PathClearing::push(const Row& row, double impulse) {

@@ -95,6 +95,8 @@ TEST(PivotRows, KeepALightBodyApartFromTheGroundAndAHeavyOne) {
   EXPECT_NEAR(bodies[1].velocity.linear.z(), 0.0, 1e-6);
   EXPECT_NEAR(bodies[2].velocity.linear.z(), -0.25, 1e-6);
   EXPECT_NEAR(rows[0].impulse.x(), 750.0, 1e-3);
+  std::vector<ContactRow> many(33, rows[0]);
+  EXPECT_FALSE(pivotRows(many, bodies, Eigen::VectorXd::Zero(33)));
 }
 
 }  // namespace
