@@ -1,8 +1,8 @@
-"""mutation.py [--count 200] [--seed 1] [--only engine/contact] [--out build/mutation]: whether the tests notice when the
-engine is wrong. Makes small changes to the engine's sources, one at a time, in a copy of the tree: a sign, a comparison, a
-constant, a line that is dropped. Each is built and tried by the tests of its own folder, then by all of the engine's and
-the physics' tests. What is noticed, by a test that fails or runs four times as long, is killed; what is not survives, and
-wants a test or a reason. Prints a line a change, the survivors again and the share that was killed.
+"""mutation.py [--count 200] [--seed 1] [--from 0] [--only engine/contact] [--out build/mutation]: whether the tests notice
+when the engine is wrong. Makes small changes to the engine's sources, one at a time, in a copy of the tree: a sign, a
+comparison, a constant, a line that is dropped. Each is built and tried by the tests of its own folder, then by all of the
+engine's and the physics' tests. What is noticed, by a test that fails or runs four times as long, is killed; what is not
+survives, and wants a test or a reason. Prints a line a change, the survivors again and the share that was killed.
 
 Needs what the build needs; the copy is built without the program. A change that does not compile is not counted."""
 import argparse
@@ -20,7 +20,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MEMORY_BYTES = 4 << 30  # a loop that never ends may fill it before its time is over
 BINARIES = ("engine_tests", "no_allocation_tests", "physics_tests")
-JOBS = os.cpu_count() or 1
+JOBS = len(os.sched_getaffinity(0))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,9 +46,9 @@ REPLACEMENTS = {
     "sign": [(r"(?<=[\w)\]] )([+-])(?= [\w(])", lambda sign: "-" if sign == "+" else "+"),
              (r"(?<= )([+-]=)(?= )", lambda sign: "-=" if sign == "+=" else "+=")],
     "comparison": [(r"(?<=[\w)\]] )(<=|>=|<|>|==|!=)(?= [\w(-])",
-                    lambda c: {"<": ">", ">": "<", "<=": "<", ">=": ">", "==": "!=", "!=": "=="}[c]),
+                    lambda c: {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "!=", "!=": "=="}[c]),
                    (r"(?<= )(&&|\|\|)(?= )", lambda c: "||" if c == "&&" else "&&")],
-    "constant": [(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|0x1p-\d+|\d+)(?![\w.])",
+    "constant": [(r"(?<![\w.])(0x1p-\d+|\d+(?:\.\d+)?(?:e-?\d+)?)(?![\w.])",
                   lambda c: {"0": "1", "0.0": "1.0", "1": "2"}.get(c, f"({c} * 2)"))],
 }
 # A statement by itself that a program compiles without.
@@ -173,13 +173,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200, help="changes that are tried (200)")
     parser.add_argument("--seed", type=int, default=1, help="which (1)")
+    parser.add_argument("--from", dest="first", type=int, default=0, help="so many of them are passed over (0)")
     parser.add_argument("--only", default="", help="a regular expression that the sources' paths hold")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build" / "mutation", help="where the copy is made")
     parser.add_argument("--list", action="store_true", help="prints the changes and tries none")
     parser.add_argument("options", nargs="*", help="options for CMake, after --")
     options = parser.parse_args()
     if options.list:
-        for change in chosen(ROOT, options.only, options.count, options.seed):
+        for change in chosen(ROOT, options.only, options.count, options.seed)[options.first:]:
             print(change)
         return 0
     copy = Copy(options.out.resolve(), options.options)
@@ -192,7 +193,7 @@ def main():
             sys.exit(f"the tree as it is fails {killer}")
         limits_s[binary] = 4 * (time.monotonic() - began) + 10
     killed, survivors = 0, []
-    for change in chosen(copy.tree, options.only, options.count, options.seed):
+    for change in chosen(copy.tree, options.only, options.count, options.seed)[options.first:]:
         outcome = survives(copy, change, limits_s)
         if outcome is None:
             print(f"not built    {change}", flush=True)

@@ -40,9 +40,8 @@ std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_
   std::vector<int> order(proxies.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int i, int j) {
-    const double low_i = proxies[static_cast<std::size_t>(i)].bounds.low[axis];
-    const double low_j = proxies[static_cast<std::size_t>(j)].bounds.low[axis];
-    return low_i < low_j || (low_i == low_j && i < j);
+    return proxies[static_cast<std::size_t>(i)].bounds.low[axis] <
+           proxies[static_cast<std::size_t>(j)].bounds.low[axis];
   });
   std::vector<Proxy> sorted;  // side by side, as the sweep meets them
   sorted.reserve(order.size());

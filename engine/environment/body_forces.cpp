@@ -125,7 +125,7 @@ void dragCapsule(const PartSurface& part, const PartCut& cut, bool wet, const St
     addPointDrag(p, share * stream.half_density * own.value_or(kCylinderDrag) * 2.0 * r * length,
                  edge.direction, drag);
     const double linear = share * 2.0 * std::numbers::pi * r * length * stream.linear;
-    if (linear > 0.0) addPointLinear(p, linear, linear * 2.0 / 3.0 * r * r, drag);
+    addPointLinear(p, linear, linear * 2.0 / 3.0 * r * r, drag);
   }
   for (int v = 0; v < 2; ++v) {
     const Vec3& p = part.part->core.vertex(v);
@@ -133,7 +133,7 @@ void dragCapsule(const PartSurface& part, const PartCut& cut, bool wet, const St
     addPointDrag(p, share * stream.half_density * own.value_or(kBallDrag) * std::numbers::pi * r * r,
                  Vec3::Zero(), drag);
     const double linear = share * 4.0 * std::numbers::pi * r * r * stream.linear;
-    if (linear > 0.0) addPointLinear(p, linear, linear * 2.0 / 3.0 * r * r, drag);
+    addPointLinear(p, linear, linear * 2.0 / 3.0 * r * r, drag);
   }
 }
 

@@ -152,5 +152,28 @@ TEST(GivenMass, ScalesTheDensity) {
   EXPECT_NEAR(world.bodies()[0].material.density_kgpm3, 7.5 / 0.06, 1e-10);
 }
 
+// In air its work is found halfway through each step. From standstill v = F / (m w) (sin w t, 1 - cos w t).
+TEST(ForceInTheBodysAxes, DoesTheWorkOfTheClosedFormInAirToo) {
+  WorldSettings settings{1.0 / 60.0, kNoGravity};
+  settings.air.density_kgpm3 = 1e-9;
+  World world(settings);
+  BodyDescription d;
+  d.solid = world.addSolid(Solid::ball(0.2));
+  const double mass = 1000.0 * world.solids()[0].volume();
+  const double w = 10.0, force = 10.0;
+  d.material = rubbing(0.5);
+  d.angular_velocity = Vec3(0, 0, w);
+  d.load.force_B = Vec3(force, 0, 0);
+  world.addBody(d);
+  ASSERT_TRUE(world.start().empty());
+  const double before = energyOf(world), most = 2.0 * force * force / (mass * w * w);
+  for (int i = 1; i <= 60; ++i) {
+    world.step();
+    const double gained = 0.5 * most * (1.0 - std::cos(w * i / 60.0));
+    EXPECT_NEAR(energyOf(world) - before, gained, 0.02 * most) << i;
+    EXPECT_NEAR(world.audit().work_J, gained, 0.02 * most) << i;
+  }
+}
+
 }  // namespace
 }  // namespace carom::physics

@@ -395,5 +395,19 @@ TEST(LevelAxes, HaveNoWiderSlabThanTheDistance) {
   EXPECT_GT(axes_seen, 1000 / kShare);
 }
 
+// Solids with as many vertices and edges, of different sizes: which of two pairs of features that mirror each
+// other comes first is a matter of the solids, in whatever order they are given.
+TEST(CanonicalFeatures, OfSolidsThatDifferInSizeAlone_MirrorImagesHaveOneOrder) {
+  PosedPair p;
+  p.a.core = boxPolyhedron({1, 2, 1});
+  p.b.core = boxPolyhedron({0.5, 1, 0.25});
+  p.X_WB.position = Vec3(0.3, 0.2, 2.0);
+  const PosedPair q = swapped(p);
+  const FeaturePair x{vertexFeature(0), edgeFeature(3)}, y = swapped(x);
+  const bool first = comesBefore(p.pair(), x, y);
+  EXPECT_NE(comesBefore(p.pair(), y, x), first);
+  EXPECT_EQ(comesBefore(q.pair(), swapped(x), swapped(y)), first);
+}
+
 }  // namespace
 }  // namespace carom

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <cmath>
+
 #include "engine/contact/time_of_impact.h"
 #include "tests/oracle/test_shapes.h"
 
@@ -53,6 +56,51 @@ TEST(Landing, IsNotForThoseThatBounce) {
   const TimeOfImpact found = drop.find(false);
   EXPECT_EQ(found.outcome, TimeOfImpact::Outcome::kImpact);
   EXPECT_EQ(found.time_s, 0.0);
+}
+
+// Two ridges that cross, each turning about the other's direction. With h from a box's middle to its edge and
+// the angles a and b that they have turned by, the common normal is (sin a cos b, -cos a sin b, cos a cos b)
+// over the root of 1 - sin^2 a sin^2 b.
+TEST(Landing, OfCrossingEdgesThatTurn_HappensAtTheLandingGapToo) {
+  const double h = std::sqrt(0.5), quarter = 0.25 * std::numbers::pi;
+  const ConvexPart box = Solid::box(Vec3::Ones()).parts()[0];
+  const CollisionWindow window = collisionWindow(box, box);
+  int landed = 0;
+  for (const double spin_a : {-10.0, 10.0})
+    for (const double spin_b : {-8.0, 8.0})
+      for (const double speed : {0.4, 1.0})
+        for (double gap = 1.2e-3; gap < 4e-3; gap += 2e-4) {
+          SCOPED_TRACE(testing::Message()
+                       << "spins " << spin_a << ' ' << spin_b << " speed " << speed << " gap " << gap);
+          const Trajectory below{0.0,
+                                 {oracle::turned(Vec3::UnitX(), quarter), Vec3::Zero()},
+                                 Vec3::Zero(),
+                                 Vec3::Zero(),
+                                 Vec3(0, spin_a, 0)};
+          const Trajectory above{0.0,
+                                 {oracle::turned(Vec3::UnitY(), quarter), Vec3(0, 0, 2.0 * h + gap)},
+                                 Vec3(0, 0, -speed),
+                                 Vec3::Zero(),
+                                 Vec3(spin_b, 0, 0)};
+          const auto gapAt = [&](double t) {
+            const double a = spin_a * t, b = spin_b * t, z = 2.0 * h + gap - speed * t;
+            const double sines = std::sin(a) * std::sin(b);
+            return (std::cos(a) * std::cos(b) * z - h * (std::cos(a) + std::cos(b))) /
+                   std::sqrt(1.0 - sines * sines);
+          };
+          if (gapAt(kStep) > 0.95 * window.landing) continue;
+          const ImpactSearch search{window, 0.1, 0.0, kStep, true};
+          FeaturePair tracked;
+          const ClosestFeatures begin = closestFeatures(box, below.X_WB, box, above.X_WB, tracked);
+          const double reach = box.core.radiusAbout(Vec3::Zero());
+          const TimeOfImpact found =
+              timeOfImpact({&box, &below, reach}, {&box, &above, reach}, search, begin, tracked);
+          ASSERT_EQ(found.outcome, TimeOfImpact::Outcome::kImpact);
+          EXPECT_NEAR(found.closest.distance_m, gapAt(found.time_s), 1e-12);
+          EXPECT_NEAR(gapAt(found.time_s), window.landing, 0.05 * window.landing + 1e-12);
+          ++landed;
+        }
+  EXPECT_GT(landed, 40);
 }
 
 }  // namespace

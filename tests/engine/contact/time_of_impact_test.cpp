@@ -93,6 +93,7 @@ TEST(TimeOfImpact, WithinAStep_IsFoundInFewQueries) {
       const TimeOfImpact found = find(ground, ball, searchOf(ground, ball, begin + step, begin));
       EXPECT_EQ(found.outcome, Outcome::kImpact) << h << ' ' << share;
       EXPECT_LE(found.queries, 6) << h << ' ' << share;
+      EXPECT_GE(found.states, found.queries) << "each query visits one pair of features at least";
     }
 }
 

@@ -211,5 +211,21 @@ TEST(BodyForces, MirroredAndTurnedAboutTheVerticalTheyAreTheSame) {
   EXPECT_LT((-mirrored(reflected.tail<3>()) - expected.tail<3>()).norm(), 1e-10 * expected.norm());
 }
 
+// Linear drag is its coefficient times the surface, however small: the side along the axis and half a ball at
+// each end. About the axis and across it that differs by what the places along it make of it.
+TEST(BodyForces, ACapsulesLinearDragIsThatOfItsSurfaceAtItsPlaces) {
+  const double r = 0.15, length = 0.5;
+  const Subject s(Solid::capsule(r, length));
+  const double side = 2.0 * std::numbers::pi * r * length, ends = 4.0 * std::numbers::pi * r * r;
+  for (const double drag_mps : {1e-3, 0.05}) {
+    const Mat6 linear = s.forces(pool(0.0, drag_mps), {someTurn(), Vec3(0.0, 0.0, -3.0)}).linear;
+    const double c = 1000.0 * drag_mps;
+    EXPECT_NEAR(linear(0, 0), c * (side + ends), 1e-12 * c);
+    EXPECT_LT((linear.topRightCorner<3, 3>().norm()), 1e-12 * c);
+    EXPECT_NEAR(linear(3, 3) - linear(5, 5), c * (side / 12.0 + ends / 4.0) * length * length, 1e-12 * c);
+    EXPECT_NEAR(linear(4, 4), linear(3, 3), 1e-12 * c);
+  }
+}
+
 }  // namespace
 }  // namespace carom

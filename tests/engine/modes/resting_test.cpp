@@ -145,5 +145,13 @@ TEST(LiesStill, AsksForTheFastestPoint) {
   EXPECT_FALSE(liesStill({Vec3::Zero(), Vec3(0, 0.6 * v, 0)}, 2.0));
 }
 
+// On its way through a step a point may count as still at some speed; what is to rest has none.
+TEST(CanRest, WhatCountedAsStillOnItsWay_IsAskedToStandStill) {
+  Stack s(0.0);
+  s.put({0.6, 0.5, 0.2}, 0.5);
+  for (ContactRow& row : s.rows) row.still_slip = Vec2(0.1, -0.05);
+  EXPECT_TRUE(s.rests());
+}
+
 }  // namespace
 }  // namespace carom

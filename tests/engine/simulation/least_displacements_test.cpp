@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/oracle/test_shapes.h"
 
 namespace carom {
@@ -92,6 +94,23 @@ TEST(LeastDisplacements, OpeningsThatContradictEachOther_MissInEqualParts) {
   const LeastDisplacements least = leastDisplacements(slot, 2);
   for (const double missing : least.missing_m) EXPECT_NEAR(missing, 2.5 / 3.0, 1e-5);
   EXPECT_NEAR(least.displacement_W[0].x(), 1.0 - 2.5 / 3.0, 1e-5);
+}
+
+// Body 0 alone among many that do not give way. Those around a cone about z ask for just as much as 0.3 m up
+// is along them, all others for less: their forces add up to a way up, so that is the least.
+TEST(LeastDisplacements, OneBodyAmongManyThatDoNotGiveWay_MovesOutBetweenThem) {
+  oracle::Random random(21);
+  std::vector<Opening> openings;
+  for (int i = 0; i < 40; ++i) {
+    const double around = 2.0 * std::numbers::pi * i / 40.0;
+    const Vec3 n(std::sin(0.8) * std::cos(around), std::sin(0.8) * std::sin(around), std::cos(0.8));
+    openings.push_back({-1, 0, n, 0.3 * n.z()});
+    const Vec3 other = random.direction();
+    openings.push_back({-1, 0, other, 0.3 * other.z() - random.uniform(0.01, 0.2)});
+  }
+  const LeastDisplacements least = leastDisplacements(openings, 1);
+  EXPECT_LT((least.displacement_W[0] - Vec3(0, 0, 0.3)).norm(), 1e-6);
+  EXPECT_LT(least.products, 500);
 }
 
 }  // namespace

@@ -9,15 +9,17 @@ namespace carom {
 namespace {
 
 // So many stacks of two boxes, apart from each other.
-World stacks(int count) {
+World stacks(int count, double density_kgpm3 = 1000.0) {
   World world({.step_s = 1.0 / 60});
+  Material material;
+  material.density_kgpm3 = density_kgpm3;
   const int box = world.addSolid(Solid::box(Vec3(0.5, 0.4, 0.3)));
   const int floor = world.addSolid(Solid::box({200, 20, 1}));
   world.addBody({floor, {Quat::Identity(), Vec3(0, 0, -0.5)}, Vec3::Zero(), Vec3::Zero(), Material{}, true});
   for (int i = 0; i < count; ++i)
     for (int level = 0; level < 2; ++level) {
       const Vec3 p(1.1 * i - 90.0, 0.2 * (i % 3), 0.1503 + 0.3003 * level);
-      world.addBody({box, {Quat::Identity(), p}, Vec3::Zero(), Vec3::Zero(), Material{}, false});
+      world.addBody({box, {Quat::Identity(), p}, Vec3::Zero(), Vec3::Zero(), material, false});
     }
   EXPECT_TRUE(world.start().empty());
   return world;
@@ -45,6 +47,12 @@ TEST(RestingIslands, LookAtTheirOwnRowsOnly) {
     EXPECT_EQ(most.rows, 8 * count) << "all stacks come to rest in one step";
     EXPECT_EQ(most.rows, most.contact_points);
   }
+}
+
+// However lightly they press: two stories are asked about together, and each row once.
+TEST(RestingIslands, AreWholeStacksOfTheLightestBoxesToo) {
+  const Looked most = mostLookedAt(stacks(10, 0.5), 20);
+  EXPECT_EQ(most.rows, 80);
 }
 
 // What moves beside them is none of their business.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "engine/foundation/contract.h"
 #include "engine/simulation/world.h"
 #include "tests/oracle/overlap_oracle.h"
@@ -65,6 +67,18 @@ TEST(Threads, ChangeNoBitOfACrowd) {
 
 TEST(Threads, AreAtLeastOne) {
   EXPECT_THROW(World(WorldSettings{.threads = 0}), ContractViolation);
+}
+
+TEST(Threads, AreAsManyAsTheSettingsSay) {
+  const std::filesystem::path tasks = "/proc/self/task";
+  if (!std::filesystem::exists(tasks)) GTEST_SKIP() << "this system does not list a program's threads there";
+  const auto running = [&] {
+    return std::distance(std::filesystem::directory_iterator(tasks), std::filesystem::directory_iterator());
+  };
+  const auto before = running();
+  World world = bondedCrowd(3);
+  world.step();
+  EXPECT_EQ(running(), before + 2) << "the caller is one of the three";
 }
 
 }  // namespace

@@ -199,5 +199,32 @@ TEST(Mode, HasADistinctNameEach) {
   EXPECT_STREQ(modeName(Mode::kResting), "resting");
 }
 
+// A query visits one pair of features at least, and nothing is counted backwards.
+TEST(World, CountsTheWorkOfItsQueries) {
+  World w({1.0 / 60, Vec3(0, 0, -9.81), true});
+  addGround(w);
+  Material bouncing;
+  bouncing.restitution = 0.5;
+  w.addBody({w.addSolid(Solid::ball(0.2)),
+             {Quat::Identity(), Vec3(0, 0, 1)},
+             Vec3::Zero(),
+             Vec3::Zero(),
+             bouncing,
+             false});
+  addBox(w, {0.5, 0.4, 0.3}, {oracle::turned({1, 2, 3}, 0.5), Vec3(3, 0, 1)});
+  ASSERT_TRUE(w.start().empty());
+  long newton_steps = 0, queries = 0;
+  for (int i = 0; i < 120; ++i) {
+    w.step();
+    const StepCounters counters = w.audit().last_step;
+    EXPECT_GE(counters.newton_steps, 0) << i;
+    EXPECT_GE(counters.states_walked, counters.distance_queries) << i;
+    newton_steps += counters.newton_steps;
+    queries += counters.distance_queries;
+  }
+  EXPECT_GT(newton_steps, 0);
+  EXPECT_GT(queries, 0);
+}
+
 }  // namespace
 }  // namespace carom

@@ -67,5 +67,23 @@ TEST(PlanarFaces, FarFromTheOriginTheyAreAsPlanarAsCoordinatesAllow) {
   EXPECT_LT(largestBend(vertices, loopsOf(solid)), 1e-11) << "coordinates of 2e4 round by 2e-12";
 }
 
+// The same over an oblong, whose sides are no axes of its plane: the pattern is that of the product of the
+// two coordinates along the sides.
+TEST(PlanarFaces, OneRaisedCornerIsSharedByAllFour_HoweverTheFaceIsTurned) {
+  const double h = 1e-6;
+  const Loops loops{{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  const double shares[] = {h / 4, -h / 4, h / 4, -h / 4};
+  for (const double angle : {0.3, 1.0, 2.2}) {
+    std::vector<Vec3> vertices{{2, 1, 0}, {-2, 1, 0}, {-2, -1, 0}, {2, -1, h}, {0, 0, 2}};
+    for (Vec3& v : vertices) v = oracle::turned(Vec3::UnitZ(), angle) * v;
+    const std::vector<Vec3> before = vertices;
+    EXPECT_NEAR(largestBend(vertices, loops), h / 4, 4 * h * h) << angle;
+    EXPECT_NEAR(flattenFaces(vertices, loops), h / 4, 4 * h * h) << angle;
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_LT((vertices[i] - before[i] - Vec3(0, 0, shares[i])).norm(), 10 * h * h) << angle << ' ' << i;
+    EXPECT_LT((vertices[4] - before[4]).norm(), 1e-12) << angle;
+  }
+}
+
 }  // namespace
 }  // namespace carom

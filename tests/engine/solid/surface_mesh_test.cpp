@@ -99,5 +99,31 @@ TEST(SurfaceCrossing, FindsWhereTwoCubesGoThroughEachOther) {
   EXPECT_FALSE(findCrossing(placed(torus(20, 10)), 1e-12));
 }
 
+// Within the box of a U but not within its walls; and within those.
+TEST(SurfaceMesh, WhatIsInTheOpeningOfAnotherIsNoCavity) {
+  const SurfaceMesh u = cells({3, 1, 3}, [](int x, int, int z) { return x != 1 || z == 0; });
+  for (const double x : {1.05, 1.45, 1.8})
+    for (const double y : {0.05, 0.45, 0.85})
+      for (const double z : {1.05, 1.5, 2.0, 2.5, 2.85}) {
+        const ClosedSurface made = closedSurface(joined(u, cube(), false, 0.1, Vec3(x, y, z)));
+        EXPECT_EQ(made.cavities, 0) << x << ' ' << y << ' ' << z;
+        EXPECT_NEAR(surfaceMass(made.mesh).mass, 7.001, 1e-12) << x << ' ' << y << ' ' << z;
+      }
+  const ClosedSurface hollow = closedSurface(joined(u, cube(), false, 0.1, Vec3(0.4, 0.3, 1.7)));
+  EXPECT_EQ(hollow.cavities, 1);
+  EXPECT_NEAR(surfaceMass(hollow.mesh).mass, 6.999, 1e-12);
+}
+
+TEST(SurfaceCrossing, FindsATriangleThatGoesThroughOneThatItSharesACornerWith) {
+  SurfaceMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  const std::optional<Vec3> p = findCrossing(mesh, 1e-12);
+  ASSERT_TRUE(p);
+  EXPECT_LT((*p - Vec3(0.5, 0.5, 0.0)).norm(), 1e-15);
+  mesh.triangles[1] = {0, 1, 4};
+  EXPECT_FALSE(findCrossing(mesh, 1e-12)) << "a side in common";
+}
+
 }  // namespace
 }  // namespace carom

@@ -114,5 +114,35 @@ TEST(PlateOfTiles, GoesOnSpinningOnAnother) {
   EXPECT_NEAR(world.state(spinning).angular_velocity.z() / 3.0, 1.0, 1e-4);
 }
 
+// Rails of capsules whose cores meet end to end: their tops are one line. Whichever end of the one before is
+// at the joint, a box glides over it.
+TEST(FlushRails, NeitherBrakeNorLiftABox) {
+  const double radius = 0.1;
+  for (const double speed : {1.0, -1.0}) {
+    SCOPED_TRACE(speed);
+    SmallWorld world(240.0);
+    for (const double y : {-0.3, 0.3})
+      for (const double x : {-1.0, 1.0}) {
+        Placement rail{Solid::capsule(radius, 2.0)};
+        rail.X_WB = {oracle::turned(Vec3::UnitY(), 0.5 * std::numbers::pi), Vec3(x, y, -radius)};
+        rail.material = rubbing(0.0);
+        rail.is_static = true;
+        world.add(rail);
+      }
+    Placement p{Solid::box(Vec3(0.6, 1.0, 0.2))};
+    p.X_WB.position = Vec3(-0.9 * speed, 0.0, 0.1 + restGap(0.2));
+    p.velocity = Vec3(speed, 0.0, 0.0);
+    p.material = rubbing(0.0);
+    const int box = world.add(p);
+    world.start();
+    const double height = world.position(box).z();
+    for (int i = 0; i < 400; ++i) {
+      world.step();
+      ASSERT_NEAR(world.velocity(box).x(), speed, 1e-9) << i;
+      ASSERT_NEAR(world.position(box).z(), height, 1e-5) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom::physics

@@ -91,5 +91,33 @@ TEST(Stream, WindPushesACrateOverTheFloorOnlyWhenItBeatsFriction) {
   }
 }
 
+// What bore it in the last step bears nothing in flight: a ball that has rolled off a table, in next to no
+// air, goes in each step by the mean of its velocities before and after.
+TEST(Stream, WhatHasLeftItsSupportFallsEvenly) {
+  WorldSettings settings{1.0 / 60.0};
+  settings.air.density_kgpm3 = 1e-9;
+  SmallWorld world(settings);
+  Placement table{Solid::box(Vec3(1.0, 1.0, 1.0))};
+  table.X_WB.position = Vec3(0.0, 0.0, -0.5);
+  table.material = rubbing(0.0);
+  table.is_static = true;
+  world.add(table);
+  Placement p{Solid::ball(0.2)};
+  p.X_WB.position = Vec3(-0.3, 0.0, 0.2 + restGap(0.4));
+  p.velocity = Vec3(2.0, 0.0, 0.0);
+  p.material = rubbing(0.0);
+  const int ball = world.add(p);
+  world.start();
+  world.run(0.55);
+  ASSERT_GT(world.position(ball).x(), 0.75) << "beyond the edge";
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 from = world.position(ball), before = world.velocity(ball);
+    world.step();
+    const Vec3 way = 0.5 / 60.0 * (before + world.velocity(ball));
+    EXPECT_LT((world.position(ball) - from - way).norm(), 1e-9) << i;
+    EXPECT_NEAR((world.velocity(ball) - before).z(), settings.gravity.z() / 60.0, 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace carom::physics

@@ -409,5 +409,40 @@ TEST(TrackedSurface, IsClosedWindsAroundAndStaysOutsideTheDepth_AtEveryStepOfAWa
   }
 }
 
+// One of the two has no faces: the polytope of the other is remembered as well.
+TEST(TrackedDepth, OfABallsCentreInABox_IsFollowed) {
+  const ConvexPart box{boxPolyhedron({2, 2, 2}), 0.0};
+  const ConvexPart ball{ConvexPolyhedron::point(Vec3::Zero()), 0.25};
+  PairMemory memory;
+  for (int i = 0; i < 100; ++i) {
+    const Pose X_WB{Quat::Identity(), Vec3(0.3 + 1e-3 * i, 0.2, 0.6)};
+    const ClosestFeatures c = closestFeatures(box, Pose{}, ball, X_WB, memory);
+    ASSERT_NEAR(c.distance_m, -0.4 - 0.25, 1e-14) << i;
+    ASSERT_GE(memory.penetration.triangleCount(), 4) << i;
+    if (i > 0) {
+      ASSERT_EQ(c.states, 1) << i;
+    }
+  }
+}
+
+// A face of more corners than prove a facet by themselves: the polytope proves it, from the last one on.
+TEST(TrackedDepth, OfAFaceOfManyCorners_IsFollowedByThePolytope) {
+  const ConvexPart prism{oracle::prism(60, 1.0, 1.0), 0.0}, box{boxPolyhedron({1, 1, 1}), 0.0};
+  Pose X_WB{oracle::turned(Vec3(1.0, 0.3, 0.2), 0.8), Vec3(0.1, 0.05, 0.0)};
+  double lowest = 0.0;
+  for (const Vec3& v : box.core.vertices()) lowest = std::min(lowest, (X_WB.rotation * v).z());
+  X_WB.position.z() = 0.5 - lowest - 0.05;  // its lowest corner is 5 cm below the prism's top
+  PairMemory memory;
+  int followed = 0;
+  constexpr int kSteps = 200;
+  for (int i = 0; i < kSteps; ++i) {
+    X_WB.position.x() += 1e-5;
+    const ClosestFeatures c = closestFeatures(prism, Pose{}, box, X_WB, memory);
+    ASSERT_NEAR(c.distance_m, -0.05, 1e-14) << i;
+    followed += c.states == 1;
+  }
+  EXPECT_GE(followed, kSteps * 95 / 100);
+}
+
 }  // namespace
 }  // namespace carom

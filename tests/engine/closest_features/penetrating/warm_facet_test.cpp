@@ -89,6 +89,8 @@ Outcomes descend(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double de
       outcomes.proven += warm->proven;
       EXPECT_NEAR(warm->gap.gap_m, gapAlong(pair, warm->gap.normal), 2.0 * noise) << i;
       EXPECT_LE(warm->gap.gap_m, best.gap_m + 2.0 * noise) << i;
+      const Vec3 between = warm->gap.p_b - warm->gap.p_a - warm->gap.gap_m * warm->gap.normal;
+      EXPECT_LT(between.norm(), 2.0 * noise) << i;
       if (warm->proven) {
         EXPECT_NEAR(warm->gap.gap_m, best.gap_m, 2.0 * noise) << i;
       }

@@ -47,5 +47,18 @@ TEST(ExhaustiveSearch, OfAPointAndASegment_IsTheirDistance) {
   EXPECT_EQ(beside.features.a.kind, FeatureKind::kEdge);
 }
 
+// The second one's only edge is nearest to a point, and goes through a box that no end of it is in.
+TEST(ExhaustiveSearch, OfASegmentAsTheSecond_SeesItsOnlyEdge) {
+  const ConvexPolyhedron segment = ConvexPolyhedron::segment({0, 0, -2}, {0, 0, 2});
+  const ConvexPolyhedron point = ConvexPolyhedron::point(Vec3::Zero()), box = boxPolyhedron({1, 1, 1});
+  const FeatureDistance beside =
+      exhaustiveSearch(PolyhedronPair(point, {Quat::Identity(), Vec3(0.5, 0, 0.25)}, segment, Pose()));
+  EXPECT_FALSE(beside.crossing);
+  EXPECT_DOUBLE_EQ(beside.distance(), 0.5);
+  EXPECT_EQ(beside.features.b.kind, FeatureKind::kEdge);
+  EXPECT_TRUE(exhaustiveSearch(PolyhedronPair(box, Pose(), segment, Pose())).crossing);
+  EXPECT_TRUE(exhaustiveSearch(PolyhedronPair(segment, Pose(), box, Pose())).crossing);
+}
+
 }  // namespace
 }  // namespace carom

@@ -86,5 +86,21 @@ TEST(LeavingNoRoom, NotWhatAWedgePressesOut_UnlessFrictionHoldsItOrTheWedgeIsToo
   EXPECT_TRUE(wedged(0.3, 0.5));
 }
 
+// Two faces at an angle 2 h, pressed together at 1 m/s, press out what is between them with 1 / (2 sin h)
+// times that, as their impulses are equal: blocked where that is more than thirty times, whatever it weighs.
+TEST(LeavingNoRoom, AWedgeBlocksFromALeverageOfThirtyOn_WhateverTheMass) {
+  for (const double mass : {1e-3, 1.0, 1e3})
+    for (const double share : {0.98, 1.02}) {
+      const double s = share / 60.0, c = std::sqrt(1.0 - s * s);
+      Row row;
+      row.bodies = {driven(Vec3(0.0, 0.0, 1.0)),
+                    impulseBody(boxInertia(mass, Vec3::Ones()), Quat::Identity(), Vec3::Zero(), {}),
+                    immovable()};
+      row.touch(0, 1, Vec3(s, 0.0, c), Vec3::Zero(), 0.0);
+      row.touch(1, 2, Vec3(-s, 0.0, c), Vec3::Zero(), 0.0);
+      EXPECT_EQ(row.hasNoRoom(), share < 1.0) << mass << " kg, " << share;
+    }
+}
+
 }  // namespace
 }  // namespace carom

@@ -234,5 +234,45 @@ TEST(TurningResistance, OfARollingBallTakesItsLimitAtOnce) {
   }
 }
 
+// About an axis that does not resist there is no torque, and its equation falls away: five are left, or four.
+TEST(TurningResistance, HoldingWithoutAnAxis_IsTheSolutionOfTheOtherEquations) {
+  Random random(610);
+  for (int i = 0; i < 200; ++i) {
+    const bool rolling = i % 2 == 0;
+    Meeting m = resistedMeeting(random, 1, 1e6, 1e6, 1e6);
+    ContactRow& row = m.rows[0];
+    row.resistance = rolling ? TurningResistance{1e6, 0.0} : TurningResistance{0.0, 1e6};
+    const std::vector<Eigen::Index> kept =
+        rolling ? std::vector<Eigen::Index>{0, 1, 2, 4, 5} : std::vector<Eigen::Index>{0, 1, 2, 3};
+    const auto size = static_cast<Eigen::Index>(kept.size());
+    Vec6 velocity;
+    velocity << rowVelocity(row, m.bodies), rowSpin(row, m.bodies);
+    Eigen::MatrixXd response(size, size);
+    Eigen::VectorXd start(size);
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const Eigen::Index k = kept[static_cast<std::size_t>(c)];
+      std::vector<ImpulseBody> tried = m.bodies;
+      if (k < 3)
+        applyToRow(row, Vec3::Unit(k), tried);
+      else
+        applyTorqueToRow(row, Vec3::Unit(k - 3), tried);
+      Vec6 change;
+      change << rowVelocity(row, tried), rowSpin(row, tried);
+      change -= velocity;
+      for (Eigen::Index r = 0; r < size; ++r) response(r, c) = change(kept[static_cast<std::size_t>(r)]);
+      start(c) = velocity(k);
+    }
+    const Eigen::VectorXd solved = response.fullPivLu().solve(-start);
+    Vec6 expected = Vec6::Zero();
+    for (Eigen::Index c = 0; c < size; ++c) expected(kept[static_cast<std::size_t>(c)]) = solved(c);
+    RowLoad load;
+    const bool holds = holdsTurning(row, m.bodies, velocity.head<3>(), load);
+    EXPECT_EQ(holds, expected(0) >= 0.0) << i;
+    EXPECT_LT((load.impulse - expected.head<3>()).norm() + (load.torque - expected.tail<3>()).norm(),
+              1e-9 * expected.norm())
+        << i;
+  }
+}
+
 }  // namespace
 }  // namespace carom
