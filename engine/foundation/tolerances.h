@@ -84,7 +84,8 @@ inline constexpr double kGapSpeed = 0.1;
 
 // Events of one step.
 
-/// Elastic events of a body up to which they are solved between the two bodies of a pair alone.
+/// Elastic events of a body up to which they are solved between the two bodies of a pair alone; impacts of a
+/// pair after which those that turning alone brings back are none.
 inline constexpr int kPairEvents = 8;
 /// Events of a body up to which they are solved with all that the pair presses; then the body is frozen.
 inline constexpr int kEventsPerBody = 24;

@@ -7,12 +7,14 @@
 #include "engine/response/newton_solver.h"
 #include "engine/response/sweeps/energy_bound.h"
 #include "engine/response/sweeps/principal_pivoting.h"
+#include "engine/response/sweeps/turning_resistance.h"
 
 namespace carom {
 namespace {
 
-// Of each of the two phases, at most; of few rows it is steps of Newton's method that converge.
+// Of each of the two phases, at most, where Newton's method, whose steps bound themselves, does not solve it.
 constexpr int kCollisionSweeps = 400;
+// Of few rows that pivots have found no way to stop: there may be none, and each sweep presses on.
 constexpr int kSweepsOfFew = 60;
 constexpr double kConverged = 1e-12;      // of the approach speed: a sweep that changes less is the last
 constexpr double kLeastApproach = 1e-10;  // of the approach speed: points that approach more slowly are left
@@ -50,12 +52,8 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
   setShare(low);
 }
 
-int mostSweeps(std::span<const ContactRow> rows) {
-  return rows.size() <= kMostNewtonRows ? kSweepsOfFew : kCollisionSweeps;
-}
-
 void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  solveContactsByNewton(rows, bodies, {mostSweeps(rows), kConverged * approach_mps, true});
+  solveContactsByNewton(rows, bodies, {kCollisionSweeps, kConverged * approach_mps, true});
 }
 
 // What the solves have left approaching, where they have not converged (rough ground that rows contradict
@@ -72,31 +70,31 @@ void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, d
     row.lowest_speed = 0.0;
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
-  if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps)))
-    solveContacts(stops, bodies, {mostSweeps(rows), tolerated_mps, false});
+  if (!pivotRows(stops, bodies, Eigen::VectorXd::Constant(size, tolerated_mps))) {
+    const int sweeps = rows.size() <= kMostNewtonRows ? kSweepsOfFew : kCollisionSweeps;
+    solveContacts(stops, bodies, {sweeps, tolerated_mps, false});
+  }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse += stops[i].impulse;
 }
 
 }  // namespace
 
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                        std::span<const double> restitution) {
-  CollisionReport report;
+void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution) {
+  double lowest_mps = 0.0;
   std::vector<Vec3> before(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     before[i] = rowVelocity(rows[i], bodies);
-    report.approach_mps = std::min(report.approach_mps, before[i].x());
+    lowest_mps = std::min(lowest_mps, before[i].x());
     rows[i].lowest_speed = 0.0;
-    rows[i].resistance = {};
+    endResistance(rows[i]);
   }
-  const double approach_mps = std::abs(report.approach_mps);  // no minus zero where nothing approaches
+  const double approach_mps = std::abs(lowest_mps);  // no minus zero where nothing approaches
   if (rows.size() == 1) {
     ContactRow& row = rows.front();
     row.impulse =
         pointCollisionImpulse({rowResponse(row, bodies), before[0], row.friction, restitution.front()});
     applyToRow(row, row.impulse, bodies);
-    report.impulse_Ns = row.impulse.x();
-    return report;
+    return;
   }
   solveRows(rows, bodies, approach_mps);
   takeBackGain(rows, bodies);
@@ -111,14 +109,9 @@ CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodie
       rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution[i] * std::min(before[i].x(), 0.0) : 0.0;
     }
     solveRows(rows, bodies, approach_mps);
-    if (twiceEnergyGain(rows, before, bodies) > 0.0) {
-      report.restitution_cut = true;
-      cutRestitution(rows, before, compressed, bodies);
-    }
+    if (twiceEnergyGain(rows, before, bodies) > 0.0) cutRestitution(rows, before, compressed, bodies);
   }
   stopApproaches(rows, bodies, kLeastApproach * approach_mps);
-  for (const ContactRow& row : rows) report.impulse_Ns += row.impulse.x();
-  return report;
 }
 
 }  // namespace carom

@@ -13,15 +13,8 @@
 
 namespace carom {
 
-struct CollisionReport {
-  double approach_mps = 0.0;  ///< The most negative separating speed before.
-  double impulse_Ns = 0.0;    ///< Sum of the normal impulses.
-  bool restitution_cut = false;
-};
-
 /// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to. `restitution`: one a
 /// row.
-CollisionReport collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
-                        std::span<const double> restitution);
+void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution);
 
 }  // namespace carom

@@ -119,9 +119,8 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
     count(report.visits);
   };
   while (true) {  // each round is two sweeps or more of the number that ends it
-    const bool careful = total.sweeps < settings.careful_sweeps;
     SolverSettings round{.sweeps = kWideSweeps,
-                         .residual_mps = careful ? settings.residual_mps : settings.coarse_residual_mps,
+                         .residual_mps = settings.residual_mps,
                          .friction = settings.friction,
                          .in_the_mean = settings.in_the_mean,
                          .crew = settings.crew};
@@ -135,7 +134,6 @@ SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseB
     if (!stirs.areMostIn(chosen)) {
       SolverSettings rest = settings;
       rest.sweeps -= total.sweeps;
-      rest.careful_sweeps = std::max(0, rest.careful_sweeps - total.sweeps);
       sweepAll(rest);
       return total;
     }

@@ -14,7 +14,8 @@ namespace carom {
 inline constexpr std::size_t kFocusedRows = 1000;
 
 /// Like solveContactsFinely, which it is for fewer than `kFocusedRows` rows. Sweeps, asked for and reported,
-/// are so many row visits as sweeps over all rows would make; the last round may go beyond.
+/// are so many row visits as sweeps over all rows would make; the last round may go beyond. All sweeps over a
+/// crowd are careful.
 SolverReport solveContactsFocused(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                   const SolverSettings& settings);
 

@@ -35,11 +35,16 @@ void requireDescription(const BodyDescription& d, std::size_t solids) {
   REQUIRE(d.X_WB.position.allFinite() && std::abs(d.X_WB.rotation.norm() - 1.0) < 1e-9,
           d.X_WB.rotation.norm());
   REQUIRE(d.linear_velocity.allFinite() && d.angular_velocity.allFinite());
-  REQUIRE(d.is_static || d.is_kinematic || d.material.density_kgpm3 > 0.0, d.material.density_kgpm3);
+  REQUIRE(d.is_static || d.is_kinematic ||
+              (d.material.density_kgpm3 > 0.0 && std::isfinite(d.material.density_kgpm3)),
+          d.material.density_kgpm3);
   requireMotion(d);
   REQUIRE(d.material.drag_coefficient.value_or(0.0) >= 0.0);
   REQUIRE(d.material.restitution >= 0.0 && d.material.restitution <= 1.0, d.material.restitution);
-  REQUIRE(d.material.static_friction >= 0.0 && d.material.dynamic_friction >= 0.0);
+  REQUIRE(d.material.static_friction >= 0.0 && std::isfinite(d.material.static_friction),
+          d.material.static_friction);
+  REQUIRE(d.material.dynamic_friction >= 0.0 && std::isfinite(d.material.dynamic_friction),
+          d.material.dynamic_friction);
   REQUIRE(d.material.rolling_resistance_m >= 0.0 && std::isfinite(d.material.rolling_resistance_m),
           d.material.rolling_resistance_m);
   REQUIRE(d.material.spinning_resistance_m >= 0.0 && std::isfinite(d.material.spinning_resistance_m),

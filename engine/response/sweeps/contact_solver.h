@@ -2,9 +2,10 @@
 // Simultaneous impulses at many contact points: block Gauss-Seidel on accumulated impulses with the true
 // Coulomb cone (paper §2.4: an impulse at every colliding point; §3: friction in every collision). For each
 // row: separating speed >= `lowest_speed`, normal impulse >= 0, complementary; the friction impulse opposes
-// the sliding velocity, at most the static coefficient's share when it can hold the point, else the dynamic
-// one's. Order matters to the path, not to the converged answer; rows are swept forwards and backwards in
-// turn. Tested in tests/engine/response/sweeps/contact_solver_test.cpp.
+// the sliding velocity, at most the coefficient's share of the normal one: the static coefficient of a point
+// that does not slide when the row is prepared, else the dynamic one. Order matters to the path, not to the
+// converged answer; rows are swept forwards and backwards in turn. Tested in
+// tests/engine/response/sweeps/contact_solver_test.cpp.
 
 #include <cmath>
 #include <limits>

@@ -38,6 +38,12 @@ inline void undoLoads(std::span<ContactRow> rows, std::span<ImpulseBody> bodies)
 /// pressed apart by what presses them together, contacts would have no impulses to agree on.
 void prepareResistance(ContactRow& row, std::span<const ImpulseBody> bodies);
 
+/// From now on the row resists no turning: resistance belongs to lasting contact, not to collisions.
+inline void endResistance(ContactRow& row) {
+  row.resistance = {};
+  row.resists_turning = false;
+}
+
 /// What a row gives its bodies, about (n, t1, t2).
 struct RowLoad {
   Vec3 impulse = Vec3::Zero();  ///< N s.

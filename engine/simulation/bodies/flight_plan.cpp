@@ -78,7 +78,6 @@ void FlightPlanner::plan(int index, Body& body) const {
   if (dt > 0.0) body.turning_B = R_WB.conjugate() * body.spinGained(body.inertia, R_WB, spin, dt) / dt;
 }
 
-// The acceleration by gravity and by a constant force.
 // What a force and gravity make of the body's velocity, m/s^2.
 Vec3 FlightPlanner::accelerationBy(const Vec3& force_W, const Body& body) const {
   Vec3 acceleration = environment_.gravity;

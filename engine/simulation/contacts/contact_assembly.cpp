@@ -62,13 +62,15 @@ class Assembly {
 
   std::vector<std::size_t> addLandings(std::span<const int> pairs) {
     std::vector<RowStretch> stretches(2);
-    keepRows(pairs, stretches[0]);
+    std::vector<int> ascending(pairs.begin(), pairs.end());
+    std::sort(ascending.begin(), ascending.end());
+    keepRows(ascending, stretches[0]);
     for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
     for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
     addQueries(stretches[1].counters);
     contacts_.stretches.swap(stretches);
     joinRows();
-    return islandsOf(pairs);
+    return islandsOf(ascending);
   }
 
  private:
@@ -406,7 +408,8 @@ class Assembly {
     }
   }
 
-  // The rows of all other pairs, which have been solved; what those of `pairs` gave is given back.
+  // The rows of all other pairs, which have been solved; what those of `pairs`, which ascend, gave is given
+  // back.
   void keepRows(std::span<const int> pairs, RowStretch& kept) {
     std::vector<int> meeting;
     for (const int i : pairs) {
@@ -419,7 +422,7 @@ class Assembly {
     for (const LastingContacts::PairRows& of_pair : contacts_.pair_rows) {
       const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
       const bool is_met = meets(pair.body_a) || meets(pair.body_b);
-      if (is_met && isOneOf(of_pair.pair, pairs)) {
+      if (is_met && std::binary_search(pairs.begin(), pairs.end(), of_pair.pair)) {
         for (std::size_t i = of_pair.begin; i < of_pair.end; ++i)
           takeBackLoad(contacts_.rows[i], contacts_.bodies);
         continue;
@@ -433,17 +436,13 @@ class Assembly {
     }
   }
 
-  static bool isOneOf(int pair, std::span<const int> pairs) {
-    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
-  }
-
-  // Those with the rows that have just been made.
+  // Those with the rows that have just been made, of `pairs`, which ascend.
   std::vector<std::size_t> islandsOf(std::span<const int> pairs) const {
     std::vector<std::size_t> islands;
     for (std::size_t i = 0; i < contacts_.islands.size(); ++i) {
       // The rows kept come first in their island, those just made last.
       const auto of_island = contacts_.pairsOf(contacts_.islands[i]);
-      if (isOneOf(of_island.back().pair, pairs)) islands.push_back(i);
+      if (std::binary_search(pairs.begin(), pairs.end(), of_island.back().pair)) islands.push_back(i);
     }
     return islands;
   }

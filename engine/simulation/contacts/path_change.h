@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// Of the collision speed: the fastest closing that a path keeps towards a gap in the window.
+/// Of the collision speed: the fastest closing that a path, or a momentum, keeps towards a gap in the window.
 inline constexpr double kSlowShare = 0.5;
 
 /// Twice the energy of a body at these velocities, J; 0 for one that cannot move. What turns about one axis

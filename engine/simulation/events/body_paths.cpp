@@ -72,18 +72,10 @@ void BodyPaths::drive(Body& body, const Velocity& end) {
                      restOf(body)});
 }
 
-void BodyPaths::lead(int index, const Velocity& mean) {
+void BodyPaths::lead(int index, const Velocity& mean, bool bends) {
   Body& body = bodies_[at(index)];
-  const double rest = restOf(body);
   body.travel = Travel::kCarried;
-  carryAlong(body, mean, rest, false);
-}
-
-void BodyPaths::leadInContact(int index, const Velocity& mean, bool bends) {
-  Body& body = bodies_[at(index)];
-  const double rest = restOf(body);
-  body.travel = Travel::kCarried;
-  carryAlong(body, mean, rest, bends);
+  carryAlong(body, mean, restOf(body), bends);
 }
 
 Velocity BodyPaths::meanOfPath(const Body& body, double time_s) const {
@@ -122,8 +114,9 @@ void BodyPaths::findOpening(int index) {
 
 void BodyPaths::halve(int index) {
   const Trajectory& path = bodies_[at(index)].path;
-  lead(index, {0.5 * path.meanVelocity(path.start_s, restOf(bodies_[at(index)])),
-               0.5 * path.angularVelocityAt(path.start_s)});
+  const Velocity mean{path.meanVelocity(path.start_s, restOf(bodies_[at(index)])),
+                      path.angularVelocityAt(path.start_s)};
+  lead(index, {0.5 * mean.linear, 0.5 * mean.angular}, false);
 }
 
 void BodyPaths::hold(int index) {

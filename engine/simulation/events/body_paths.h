@@ -22,7 +22,8 @@ class BodyPaths {
         counters_(counters),
         ended_(ended) {}
 
-  /// Ends a body's path at `time_s`, from where it goes on as before until it is given another.
+  /// Ends a body's path at `time_s`, from where it must be given another: what tumbles would not go on as
+  /// before.
   void bring(int index, double time_s);
 
   /// From where its path begins to the end of the step: in flight.
@@ -36,10 +37,8 @@ class BodyPaths {
   /// Its momentum goes to the velocities `end`, but the body, which was held, does not move.
   void driveHeld(int index, const Velocity& end);
 
-  /// Straight on at this mean velocity, without an impulse.
-  void lead(int index, const Velocity& mean);
-  /// The same where contacts lead it; the path may bend.
-  void leadInContact(int index, const Velocity& mean, bool bends);
+  /// On at this mean velocity, without an impulse; where contacts lead it, the path may bend.
+  void lead(int index, const Velocity& mean, bool bends);
   /// Of one of those that have been led together, once all are: what the forces of its contacts do on its
   /// path where that opens them (openingPower).
   void findOpening(int index);

@@ -184,7 +184,7 @@ void ContactCluster::addPair(int index, const ClosestFeatures& closest) {
   for (std::size_t i = first; i < sources_.size(); ++i) {
     rows_.push_back(sources_[i].row);
     rows_.back().lowest_speed = lowestSpeed(sources_[i]);
-    if (stage_ == Stage::kMomentum) rows_.back().resistance = {};  // it belongs to lasting contact
+    if (stage_ == Stage::kMomentum) endResistance(rows_.back());
   }
   if (stage_ == Stage::kSupport) takeOverForces(first, sources_.size() - first);
 }
@@ -199,7 +199,7 @@ bool ContactCluster::isInternal(int index) {
   const PlacedPair contact = placed(index);
   if (!isAtEdges(contact, shapes_)) return false;
   for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
-    if (bodies_[at(body)].is_static) continue;
+    if (!bodies_[at(body)].yields()) continue;
     for (const int other : table_.pairsOf(body))
       if (other != index && look(other).distance_m <= table_.pairs()[at(other)].window.manifold &&
           passesEdge(contact, placed(other), restOfStep(), bodies_, shapes_))
@@ -367,8 +367,7 @@ std::vector<double> ContactCluster::findRestitution() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ShapePair& pair = table_.pairs()[at(sources_[i].pair)];
     if (rowVelocity(rows_[i], momentum_).x() >= -pair.collision_speed_mps) continue;
-    restitution[i] =
-        combinedRestitution(bodies_[at(pair.body_a)].material, bodies_[at(pair.body_b)].material);
+    restitution[i] = pair.restitution;
     members_[at(rows_[i].a)].collided = members_[at(rows_[i].b)].collided = true;
   }
   return restitution;

@@ -65,13 +65,13 @@ class ContactCluster {
 
   /// Empties the cluster and gives it the pair of an event, found with `closest` at `time_s`.
   void begin(int pair, const ClosestFeatures& closest, double time_s);
+  /// The same with a pair that is not an event: its closest features are looked up.
+  void begin(int pair, double time_s);
   /// After a collision: gives it the pair of another event of this instant, whose collision comes next; they
   /// are supported together.
   void addEvent(int pair, const ClosestFeatures& closest);
   /// Whether it has room for that: its bodies have not joined, and there are few rows.
   bool hasRoomFor(const ShapePair& pair) const;
-  /// The same with a pair that is not an event: its closest features are looked up.
-  void begin(int pair, double time_s);
   /// The collision at the contacts, between the bodies of the event alone or with all that they press.
   void collide(bool spreads);
   /// What kinematic bodies did by the impulses of the collision, J.

@@ -316,7 +316,7 @@ class EventLoop {
       if (k >= met && !clearing_.isLed(k)) continue;  // its path goes on, with all that is known of it
       const int body = changed_[led++] = changed_[k];
       paths_.bring(body, time_s);
-      paths_.lead(body, paths[k].velocity);
+      paths_.lead(body, paths[k].velocity, false);
       lifts_.join(changed_.front(), body, bodies_);
       closed_.meet(changed_.front(), body, bodies_);
     }
@@ -510,7 +510,7 @@ class EventLoop {
         paths_.bring(index, time_s);
         changed_.push_back(index);
       }
-      paths_.leadInContact(index, cluster_.path(i), !crowded && cluster_.bends(i));
+      paths_.lead(index, cluster_.path(i), !crowded && cluster_.bends(i));
       for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
         lifts_.join(first, index, bodies_);
     }

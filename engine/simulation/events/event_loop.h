@@ -34,7 +34,7 @@ struct StepWatchers {
   StepPaths* paths = nullptr;   ///< Of the paths that events have ended.
 };
 
-/// Kept from step to step for its room: nothing of it says what happens in a step.
+/// Kept from step to step for its room, and through a step for what its substeps share.
 struct EventMemory {
   SearchMemory searches;
   ClusterMemory cluster;

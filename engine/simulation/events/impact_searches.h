@@ -23,7 +23,7 @@ struct Prediction {
   TimeOfImpact found;
 };
 
-/// Kept from step to step for its room: nothing of it says what happens in a step.
+/// Kept from step to step for its room, and through a step for what its substeps share.
 struct SearchMemory {
   std::vector<Prediction> predictions;  ///< By place of the pair.
   std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
