@@ -42,12 +42,12 @@ class ContactPaths {
   void set() {
     beginAtMeans();
     const double residual_mps = kPathGapShare * boundPaths() / step_s_;
-    std::vector<std::size_t> raised(islands_.begin(), islands_.end());
-    solve(raised, residual_mps);
-    for (int round = 0; round < kTurningRounds && !raised.empty() && raiseForTurning(); ++round) {
+    solve(islands_, residual_mps);
+    std::vector<std::size_t> turning(islands_.begin(), islands_.end());
+    for (int round = 0; round < kTurningRounds && raiseForTurning(turning); ++round) {
       rememberPaths();
-      solve(raised, residual_mps);
-      std::erase_if(raised, [this](std::size_t island) { return takesBackLeap(island); });
+      solve(turning, residual_mps);
+      std::erase_if(turning, [this](std::size_t island) { return takesBackLeap(island); });
     }
     findOpenings();
     takeMomentum();
@@ -70,6 +70,13 @@ class ContactPaths {
       for (std::size_t i = begin; i < end; ++i) work(at(bodies_[i]));
     });
   }
+
+  // A pair that what turns in its island may be raised by.
+  struct Turning {
+    LastingContacts::PairRows rows;
+    std::size_t island = 0;
+    bool raised = false;
+  };
 
   void beginAtMeans() {
     contacts_.paths.resize(world_.bodies.size());
@@ -147,19 +154,27 @@ class ContactPaths {
     });
   }
 
-  bool raiseForTurning() {
-    std::atomic<bool> raised = false;
-    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+  // Leaves of the islands those of which some row has been raised; whether there are any.
+  bool raiseForTurning(std::vector<std::size_t>& islands) {
+    std::vector<Turning> pairs;
+    for (const std::size_t island : islands)
+      for (const LastingContacts::PairRows& of_pair : contacts_.pairsOf(contacts_.islands[island]))
+        pairs.push_back({of_pair, island});
+    world_.crew.runStretches(pairs.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       StepCounters counters;
-      if (carom::raiseForTurning({world_.bodies, world_.shapes, 0.0, step_s_}, pair, contacts_.paths,
-                                 std::span(contacts_.rows).subspan(rows.begin, rows.end - rows.begin),
-                                 counters))
-        raised = true;
-      if (counters.distance_queries == 0) return;
+      for (std::size_t k = begin; k < end; ++k) {
+        const LastingContacts::PairRows& rows = pairs[k].rows;
+        pairs[k].raised = carom::raiseForTurning(
+            {world_.bodies, world_.shapes, 0.0, step_s_}, world_.table.pairs()[at(rows.pair)],
+            contacts_.paths, std::span(contacts_.rows).subspan(rows.begin, rows.end - rows.begin), counters);
+      }
       std::atomic_ref(counters_.distance_queries) += counters.distance_queries;
       std::atomic_ref(counters_.states_walked) += counters.states_walked;
     });
-    return raised;
+    islands.clear();
+    for (const Turning& pair : pairs)
+      if (pair.raised && (islands.empty() || islands.back() != pair.island)) islands.push_back(pair.island);
+    return !islands.empty();
   }
 
   // Without friction. Where few sweeps do not do, one pass from the supports upwards leaves only what is

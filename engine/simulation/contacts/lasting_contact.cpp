@@ -192,10 +192,10 @@ void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islan
   const auto solve = [&](std::size_t island, int sweeps, bool again) {
     const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
     if (!again && stands(rows, motions)) {
-      SolverReport report =
+      const SolverReport report =
           solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew);
-      report.residual_mps = 0.0;  // it has budgets of its own
-      return report;
+      counters.row_visits += report.visits;
+      return SolverReport{};  // it has budgets of its own
     }
     return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
                              gravity_speed, world.crew);

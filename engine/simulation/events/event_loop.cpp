@@ -299,6 +299,7 @@ class EventLoop {
         else
           paths_.hold(i);
       }
+      for (const int i : changed_) paths_.findOpening(i);
     }
     searchAgain(time_s);
   }
@@ -515,6 +516,8 @@ class EventLoop {
         lifts_.join(first, index, bodies_);
     }
     for (const int i : changed_) paths_.findOpening(i);
+    for (std::size_t i = 0; i < cluster_.size(); ++i)
+      if (cluster_.keepsPath(i)) paths_.findOpening(cluster_.member(i).body);
   }
 
   void searchAgain(double time_s) {
