@@ -31,6 +31,29 @@ void readKeyframes(const Json& json, Body& body) {
   }
 }
 
+/// A smooth leg speeds up evenly from rest for half of its time and brakes evenly: its mean speed is half of
+/// its peak (engine/motion/prescribed_path.h).
+double peakOverMean(Interpolation interpolation) {
+  return interpolation == Interpolation::kSmooth ? 2.0 : 1.0;
+}
+
+/// A path is as fast as any other body may be, at its fastest.
+void requireSpeeds(const Json& keyframes, const Body& body) {
+  for (std::size_t k = 1; k < body.keyframes.size(); ++k) {
+    const Keyframe &from = body.keyframes[k - 1], &to = body.keyframes[k];
+    const double peak_per_s = peakOverMean(body.interpolation) / (to.time_s - from.time_s);
+    const auto require = [&](double way, const char* unit) {
+      const double speed = way * peak_per_s;
+      if (!(speed <= kSpeed.high))
+        keyframes.items()[k].fail("takes " + plainNumber(speed) + unit + " from the keyframe before, " +
+                                  plainNumber(to.time_s - from.time_s) + " s earlier; accepted: at most " +
+                                  plainNumber(kSpeed.high));
+    };
+    require((to.X_WB.position - from.X_WB.position).norm(), " m/s");
+    require(from.X_WB.rotation.angularDistance(to.X_WB.rotation), " rad/s");
+  }
+}
+
 bool isSamePose(const Pose& a, const Pose& b) {
   return a.position == b.position && a.rotation.angularDistance(b.rotation) < kSameTurn;
 }
@@ -49,6 +72,7 @@ void readKinematic(const Json& json, Body& body) {
       how->fail(how->shown() + " is unknown; accepted: linear, smooth");
     if (name == "smooth") body.interpolation = Interpolation::kSmooth;
   }
+  requireSpeeds(json.at("keyframes"), body);
   if (const Json* repeats = json.find("repeats")) {
     body.path_repeats = repeats->asBoolean();
     if (body.path_repeats && !isSamePose(body.keyframes.front().X_WB, body.keyframes.back().X_WB))

@@ -173,6 +173,17 @@ const Refusal kRefusals[] = {
      bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 1 }, { \"time\": 1 } ] }"),
      ":3: bodies[0].kinematic.keyframes[1].time: 1 is not after the keyframe before; accepted: times that "
      "rise"},
+    // 10 m and a right angle, each in 1e-6 s; a smooth leg is twice as fast in its middle.
+    {"KeyframesFasterThanAnyBody",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 0 }, { \"time\": 0.000001, "
+                      "\"position\": [6, 8, 0] } ] }"),
+     ":3: bodies[0].kinematic.keyframes[1]: takes 1e+07 m/s from the keyframe before, 1e-06 s earlier; "
+     "accepted: at most 100000"},
+    {"KeyframesTurningFasterThanAnyBody",
+     bodyScene(kBox + ", \"kinematic\": { \"interpolation\": \"smooth\", \"keyframes\": [ { \"time\": 0 }, { "
+                      "\"time\": 0.000001, \"rotation\": { \"axis\": [0, 0, 1], \"degrees\": 90 } } ] }"),
+     ":3: bodies[0].kinematic.keyframes[1]: takes 3.14159e+06 rad/s from the keyframe before, 1e-06 s "
+     "earlier; accepted: at most 100000"},
     {"KeyframesAndPosition",
      bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 1 } ] }, \"position\": [0, 0, 1]"),
      ":3: bodies[0].position: given together with keyframes, which say where the body is; accepted: one of "
@@ -282,6 +293,19 @@ TEST(SceneFile, FindsMeshesBesideTheSceneBeforeTheAssets) {
   };
   EXPECT_EQ(file(folder.path() / "s.json"), folder.path() / "meshes/gem.obj");
   EXPECT_EQ(file("nowhere/s.json"), std::filesystem::path(CAROM_SOURCE_DIR) / "assets/meshes/gem.obj");
+}
+
+// 30 m in 0.0005 s are 60000 m/s on the mean: so fast goes a linear leg, a smooth one 120000 in its middle.
+TEST(SceneFile, APathIsHeldToTheLimitOfSpeedsWhereItIsFastest) {
+  const auto scene = [](const std::string& how) {
+    return bodyScene(
+        kBox + ", \"kinematic\": { \"interpolation\": \"" + how +
+        "\", \"keyframes\": [ { \"time\": 0 }, { \"time\": 0.0005, \"position\": [30, 0, 0] } ] }");
+  };
+  EXPECT_NO_THROW(parseScene(scene("linear"), "s.json"));
+  EXPECT_NE(
+      thrownMessage<InputError>([&] { parseScene(scene("smooth"), "s.json"); }).find("takes 120000 m/s"),
+      std::string::npos);
 }
 
 }  // namespace
