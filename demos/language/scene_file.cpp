@@ -127,6 +127,14 @@ Body readBody(const ExpandedBody& written, const Materials& materials, std::vect
   return body;
 }
 
+/// What a body is called: as it is written, and each of its copies.
+std::vector<std::string> namesOf(const Body& body) {
+  std::vector<std::string> names{body.name};
+  if (body.repeat.total() > 1)
+    for (int copy = 0; copy < body.repeat.total(); ++copy) names.push_back(nameOfCopy(body, copy));
+  return names;
+}
+
 std::vector<Body> readBodies(const ExpandedScene& scene, const Materials& materials,
                              std::vector<std::string>& warnings) {
   std::vector<Body> bodies;
@@ -135,10 +143,10 @@ std::vector<Body> readBodies(const ExpandedScene& scene, const Materials& materi
   for (const ExpandedBody& written : scene.expanded) {
     bodies.push_back(readBody(written, materials, warnings));
     const Json& item = written.json;
-    if (!names.insert(bodies.back().name).second)
-      item.at("name").fail(item.at("name").shown() + " names two bodies");
     total += bodies.back().repeat.total();
     if (total > kMostBodies) item.fail("more bodies than " + std::to_string(kMostBodies));
+    for (const std::string& name : namesOf(bodies.back()))
+      if (!names.insert(name).second) item.at("name").fail(Json(name).shown() + " names two bodies");
   }
   if (bodies.empty()) scene.bodies.fail("a scene needs at least one body");
   return bodies;

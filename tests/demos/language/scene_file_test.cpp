@@ -133,6 +133,14 @@ const Refusal kRefusals[] = {
      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox + " },\n { \"name\": \"a\", " + kBox +
          " } ] }",
      ":2: bodies[1].name: \"a\" names two bodies"},
+    {"NameOfACopy",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", \"repeat\": { \"count\": 2, \"step\": [2, 0, 0] }, " +
+         kBox + " },\n { \"name\": \"a[1]\", " + kBox + " } ] }",
+     ":2: bodies[1].name: \"a[1]\" names two bodies"},
+    {"CopyOfAName",
+     "{ \"format\": 1, \"bodies\": [ { \"name\": \"a[1]\", " + kBox +
+         " },\n { \"name\": \"a\", \"repeat\": { \"count\": 2, \"step\": [2, 0, 0] }, " + kBox + " } ] }",
+     ":2: bodies[1].name: \"a[1]\" names two bodies"},
     {"BlindCamera",
      "{ \"format\": 1, \"bodies\": [ { \"name\": \"a\", " + kBox +
          " } ],\n \"cameras\": { \"main\": { \"eye\": [1, 2, 3], \"target\": [1, 2, 3] } } }",
