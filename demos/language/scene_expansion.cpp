@@ -181,6 +181,13 @@ void requireName(const Json& place, const std::string& name) {
                "\" is no name for a variable; accepted: letters, digits and _, not those of functions");
 }
 
+/// What a file and those that it includes at its top have in common; their variables are in a scope.
+struct Common {
+  std::set<std::string> given;  ///< Variables that whoever includes has set, whatever the files say.
+  std::set<std::string> variables;
+  std::vector<Json::Member> materials;  ///< Of the included files; later ones take the place of earlier.
+};
+
 class Expander {
  public:
   Expander(ExpandedScene& out, std::size_t& grown) : out_(out), allowance_(grown) {}
@@ -188,10 +195,8 @@ class Expander {
   void scene(const Json& json, const std::filesystem::path& file) {
     Scope scope(allowance_);
     out_.scene = Json::object().placedAs(json);
-    std::vector<Json::Member> materials;
-    if (const Json* include = json.find("include")) takeCommon(*include, file, scope, materials);
-    const Json* set = json.find("set");
-    if (set != nullptr) takeVariables(*set, scope, {});
+    Common common;
+    takeCommon(json, file, scope, common);
     for (const auto& [key, value] : json.members()) {
       if (key == "set" || key == "include" || key == "bodies" || key == "materials" || key == "$schema")
         continue;
@@ -199,24 +204,32 @@ class Expander {
       out_.scene.set(key, is_plain ? value : resolved(value, scope));
     }
     takeNumbers(json.find("caption"), scope);
-    if (const Json* own = json.find("materials")) {
-      Json all = resolved(*own, scope);
-      for (const auto& [name, value] : materials)
-        if (all.find(name) == nullptr) all.set(name, value);
-      out_.scene.set("materials", all);
-    } else if (!materials.empty()) {
-      Json all = Json::object();
-      for (const auto& [name, value] : materials) all.set(name, value);
-      out_.scene.set("materials", all);
-    }
+    const Json materials = takeMaterials(json, scope, common);
+    if (!materials.members().empty()) out_.scene.set("materials", materials);
     if (const Json* bodies = json.find("bodies")) {
       out_.has_bodies = true;
       out_.bodies = *bodies;
       list(*bodies, scope, {Pose{}, false, "", file, nullptr});
     }
-    if (set != nullptr)
+    if (const Json* set = json.find("set"))
       for (const auto& [name, value] : set->members())
         if (!scope.isUsed(name)) warn(value, "\"" + name + "\" is set and not used");
+  }
+
+  /// "include" at a file's top: variables and materials of other files, which its own take the place of.
+  void takeCommon(const Json& json, const std::filesystem::path& file, Scope& scope, Common& common) {
+    const Json include = json.find("include") != nullptr ? json.at("include") : Json::array();
+    for (const Json& name : include.items()) {
+      std::filesystem::path at;
+      const Json other = readIncluded(name, file, at);
+      ++depth_;
+      takeCommon(other, at, scope, common);
+      --depth_;
+      if (const Json* own = other.find("materials"))
+        for (const auto& [key, value] : own->members())
+          common.materials.emplace_back(key, resolved(value, scope));
+    }
+    if (const Json* set = json.find("set")) takeVariables(*set, scope, common);
   }
 
  private:
@@ -247,11 +260,11 @@ class Expander {
     }
   }
 
-  /// `given` are those that whoever includes has set.
-  static void takeVariables(const Json& set, Scope& scope, const std::set<std::string>& given) {
+  static void takeVariables(const Json& set, Scope& scope, Common& common) {
     for (const auto& [name, value] : set.members()) {
       requireName(value, name);
-      if (given.count(name) == 0) scope.push({name, resolved(value, scope)});
+      common.variables.insert(name);
+      if (common.given.count(name) == 0) scope.push({name, resolved(value, scope)});
     }
   }
 
@@ -268,16 +281,13 @@ class Expander {
     return other;
   }
 
-  /// "include" of a scene: variables and materials of other files, which its own take the place of.
-  void takeCommon(const Json& include, const std::filesystem::path& file, Scope& scope,
-                  std::vector<Json::Member>& materials) {
-    for (const Json& name : include.items()) {
-      std::filesystem::path at;
-      const Json other = readIncluded(name, file, at);
-      if (const Json* set = other.find("set")) takeVariables(*set, scope, {});
-      if (const Json* own = other.find("materials"))
-        for (const auto& [key, value] : own->members()) materials.emplace_back(key, resolved(value, scope));
-    }
+  /// The file's materials, and those of the files that it includes, which its own take the place of.
+  static Json takeMaterials(const Json& json, Scope& scope, const Common& common) {
+    const Json* own = json.find("materials");
+    Json all = own != nullptr ? resolved(*own, scope) : Json::object();
+    for (auto at = common.materials.rbegin(); at != common.materials.rend(); ++at)
+      if (all.find(at->first) == nullptr) all.set(at->first, at->second);
+    return all;
   }
 
   void list(const Json& bodies, Scope& scope, const Surroundings& around) {
@@ -343,20 +353,19 @@ class Expander {
     Surroundings inner = within(item, scope, around);
     const Json other = readIncluded(item.at("include"), around.file, inner.file);
     Scope own(allowance_);
-    std::set<std::string> given;
-    if (const Json* set = item.find("set"))
-      for (const auto& [name, value] : set->members()) {
-        const Json* known = other.find("set");
-        if (known == nullptr || known->find(name) == nullptr)
-          value.fail("\"" + name + "\" is no variable of " + item.at("include").shown());
-        own.push({name, resolved(value, scope)});
-        given.insert(name);
-      }
-    if (const Json* set = other.find("set")) takeVariables(*set, own, given);
-    Json materials = Json::object();
-    if (const Json* theirs = other.find("materials")) materials = resolved(*theirs, own);
-    inner.materials = &materials;
+    Common common;
+    const Json changed = item.find("set") != nullptr ? item.at("set") : Json::object();
+    for (const auto& [name, value] : changed.members()) {
+      own.push({name, resolved(value, scope)});
+      common.given.insert(name);
+    }
     ++depth_;
+    takeCommon(other, inner.file, own, common);
+    for (const auto& [name, value] : changed.members())
+      if (common.variables.count(name) == 0)
+        value.fail("\"" + name + "\" is no variable of " + item.at("include").shown());
+    const Json materials = takeMaterials(other, own, common);
+    inner.materials = &materials;
     list(other.at("bodies"), own, inner);
     --depth_;
   }
@@ -464,6 +473,23 @@ class Setter {
   Json value_;
 };
 
+/// A variable that no file of the scene knows would have no effect.
+void requireVariable(const Json& scene, const std::filesystem::path& file, const std::string& setting,
+                     const std::string& name) {
+  const Json* set = scene.find("set");
+  if (set != nullptr && set->find(name) != nullptr) return;
+  ExpandedScene out;
+  std::size_t grown = 0;
+  Allowance allowance(grown);
+  Scope scope(allowance);
+  Common common;
+  Expander(out, grown).takeCommon(scene, file, scope, common);
+  if (common.variables.count(name) == 0)
+    throw UsageError(
+        "--set " + setting + ": \"" + name + "\" is no variable of the scene" +
+        acceptedNames(name, std::vector<std::string>(common.variables.begin(), common.variables.end())));
+}
+
 /// JSON where it is that, else a text: --set bodies.crate.color=#ff0000.
 Json valueOf(const std::string& text) {
   try {
@@ -481,11 +507,15 @@ ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file, 
   return out;
 }
 
-Json withSetting(const Json& scene, const std::string& setting) {
+Json withSetting(Json scene, const std::filesystem::path& file, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   const std::vector<std::string> words = pathWords(setting.substr(0, equals));
   if (equals == std::string::npos || words.empty())
     throw UsageError("--set " + setting + ": accepted: PATH=VALUE such as bodies.crate.position=[0,0,3]");
+  if (words.size() > 1 && words[0] == "set") {
+    requireVariable(scene, file, setting, words[1]);
+    if (scene.find("set") == nullptr) scene.set("set", Json::object().placedAs(scene));
+  }
   return Setter(setting, words, valueOf(setting.substr(equals + 1))).put(scene, 0);
 }
 

@@ -36,7 +36,7 @@ ExpandedScene expandScene(const Json& scene, const std::filesystem::path& file, 
 
 /// "set.r=0.1", "bodies.crate.position=[0,0,3]", "rate=480": puts the value into the scene; a body, camera or
 /// material goes by its name, an item of any list by its number. Throws UsageError where there is no such
-/// place.
-Json withSetting(const Json& scene, const std::string& setting);
+/// place, and for a variable that neither the scene nor a file that it includes at its top has.
+Json withSetting(Json scene, const std::filesystem::path& file, const std::string& setting);
 
 }  // namespace carom::demos

@@ -316,7 +316,7 @@ Json parsedScene(std::string_view text, const std::filesystem::path& path) {
 Scene parseScene(std::string_view text, const std::filesystem::path& path,
                  const std::vector<std::string>& settings) {
   Json json = parsedScene(text, path);
-  for (const std::string& setting : settings) json = withSetting(json, setting);
+  for (const std::string& setting : settings) json = withSetting(std::move(json), path, setting);
   std::size_t grown = 0;
   try {
     Scene scene = readScene(json, path, grown);

@@ -111,6 +111,43 @@ TEST(SceneExpansion, AnIncludedFileBringsBodiesMaterialsAndVariablesThatCanBeSet
   EXPECT_THROW(sceneOf("{\"include\": \"loop.json\"}", "", folder.path() / "s.json"), InputError);
 }
 
+TEST(SceneExpansion, AnIncludedFileHasWhatItIncludesItself) {
+  const TemporaryFolder folder;
+  folder.file("far.json", R"({"set": {"k": 2, "l": "=10*k"}, "materials": {"ice": {"density": 900}}})");
+  folder.file("near.json", R"({"include": ["far.json"], "materials": {"snow": {"density": 100}}})");
+  folder.file("tower.json", R"({"format": 1, "include": ["near.json"], "bodies": [)"
+                            R"({"name": "a", "material": "ice", "shape": {"box": ["=k", "=l", 1]}},)"
+                            R"({"name": "b", "material": "snow", "shape": {"box": [1, 1, 1]}}]})");
+  const auto sizeOf = [&](const std::string& more) {
+    const Scene scene =
+        sceneOf(R"({"include": "tower.json", "name": "t")" + more + "}", "", folder.path() / "s.json");
+    EXPECT_EQ(scene.bodies[0].material.density_kgpm3, 900.0);
+    EXPECT_EQ(scene.bodies[1].material.density_kgpm3, 100.0);
+    EXPECT_EQ(scene.included.size(), 3u);
+    return std::get<BoxShape>(scene.bodies[0].shape.form).size_m;
+  };
+  EXPECT_EQ(sizeOf(""), Vec3(2, 20, 1));
+  EXPECT_EQ(sizeOf(R"(, "set": {"k": 3})"), Vec3(3, 30, 1));
+  const std::string refused = thrownMessage<InputError>([&] { sizeOf(R"(, "set": {"m": 3})"); });
+  EXPECT_NE(refused.find("\"m\" is no variable of \"tower.json\""), std::string::npos) << refused;
+  folder.file("self.json", R"({"format": 1, "include": ["self.json"], "bodies": []})");
+  const std::string endless = thrownMessage<InputError>([&] { readSceneFile(folder.path() / "self.json"); });
+  EXPECT_NE(endless.find("deeper than 8 levels"), std::string::npos) << endless;
+}
+
+TEST(SceneExpansion, OfTwoMaterialsOfOneNameTheLaterIncludedIsTaken) {
+  const TemporaryFolder folder;
+  folder.file("one.json", R"({"set": {"k": 1}, "materials": {"ice": {"density": 100}}})");
+  folder.file("two.json", R"({"set": {"k": 2}, "materials": {"ice": {"density": 200}}})");
+  const std::string body = R"({"name": "a", "material": "ice", "shape": {"box": ["=k", 1, 1]}})";
+  for (const char* own : {"", R"("materials": {"wood": {}},)"}) {
+    const Scene scene =
+        sceneOf(body, R"("include": ["one.json", "two.json"],)" + std::string(own), folder.path() / "s.json");
+    EXPECT_EQ(scene.bodies[0].material.density_kgpm3, 200.0) << own;
+    EXPECT_EQ(std::get<BoxShape>(scene.bodies[0].shape.form).size_m.x(), 2.0) << own;
+  }
+}
+
 // A few lines that would fill any memory, or never end: each ends in one line.
 TEST(SceneExpansion, WhatGrowsWithoutBoundIsRefused) {
   std::string doubled = R"({"format": 1, "set": {"v0": ["a", "b"], "w0": "0123456789")";
@@ -169,6 +206,29 @@ TEST(SceneSetting, GoesByNamesAndNumbers) {
   EXPECT_THROW(parseScene(text, "s.json", {"bodies.b.position=[1,2,3]"}), UsageError);
   EXPECT_THROW(parseScene(text, "s.json", {"rate"}), UsageError);
   EXPECT_THROW(parseScene(text, "s.json", {"ratte=1"}), InputError);
+}
+
+TEST(SceneSetting, ChangesVariablesThatThereAreOfTheSceneOrOfWhatItIncludes) {
+  const TemporaryFolder folder;
+  folder.file("common.json", R"({"set": {"wide": 2}})");
+  const auto widthOf = [&](const std::string& more, const std::string& setting) {
+    const Scene scene = parseScene(
+        R"({"format": 1, )" + more + R"("bodies": [{"name": "a", "shape": {"box": ["=wide", 1, 1]}}]})",
+        folder.path() / "s.json", {setting});
+    return std::get<BoxShape>(scene.bodies[0].shape.form).size_m.x();
+  };
+  const std::string own = R"("set": {"wide": 2},)", included = R"("include": ["common.json"],)";
+  EXPECT_EQ(widthOf(own, "set.wide=3"), 3.0);
+  EXPECT_EQ(widthOf(included, "set.wide=3"), 3.0);
+  EXPECT_EQ(widthOf(included + R"("set": {"k": "=2*wide"},)", "set.wide=3"), 3.0);
+  for (const std::string& scene : {own, included}) {
+    EXPECT_EQ(
+        thrownMessage<UsageError>([&] { widthOf(scene, "set.wdie=3"); }),
+        "--set set.wdie=3: \"wdie\" is no variable of the scene; did you mean \"wide\"? accepted: wide");
+  }
+  const std::string none = thrownMessage<UsageError>(
+      [] { parseScene(R"({"format": 1, "bodies": []})", "s.json", {"set.wide=3"}); });
+  EXPECT_EQ(none, "--set set.wide=3: \"wide\" is no variable of the scene; accepted: none");
 }
 
 // Patterns.
