@@ -90,11 +90,17 @@ double valueOf(const CaptionPart& part, const CaptionText& caption, const Captio
   const NamedNumber numberOf = [&](const std::string& name) -> std::optional<double> {
     for (std::size_t i = 0; i < part.bodies.size(); ++i)
       if (name == bodyName(i)) return facts.body(part.bodies[i]);
-    if (const auto found = caption.variables.find(name); found != caption.variables.end())
-      return found->second;
-    if (std::find(std::begin(kCaptionNames), std::end(kCaptionNames), name) != std::end(kCaptionNames))
+    const auto variable = caption.variables.find(name);
+    const bool is_set = variable != caption.variables.end();
+    if (std::find(std::begin(kCaptionNames), std::end(kCaptionNames), name) != std::end(kCaptionNames)) {
+      if (is_set)
+        throw InputError(
+            "\"" + name +
+            "\" is a variable of the scene and the caption's own figure; accepted: a variable of "
+            "another name");
       return facts.scene(name);
-    return std::nullopt;
+    }
+    return is_set ? std::optional(variable->second) : std::nullopt;
   };
   return evaluate(part.text, numberOf, names);
 }

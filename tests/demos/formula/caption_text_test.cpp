@@ -29,8 +29,16 @@ TEST(CaptionText, ReckonsWithBodiesWhoseNamesHaveBracketsAndDots) {
   EXPECT_EQ(lineOf("{=[crate.x]-[row[1].vx]} and {body:left.row[2].speed:0}"), "-9.25 and 7");
 }
 
-TEST(CaptionText, AVariableOfTheSceneGoesBeforeTheTime) {
-  EXPECT_EQ(lineOf("{=time}", {{"time", 9.0}}), "9.00");
+TEST(CaptionText, TheTimeAndTheEnergiesAreNoVariablesOfAScene) {
+  for (const std::string name : {"time", "energy", "kinetic"}) {
+    const std::map<std::string, double> set{{name, 5.0}};
+    EXPECT_EQ(
+        thrownMessage<InputError>([&] { readCaption("t = {=1+" + name + "}", set); }),
+        "\"" + name +
+            "\" is a variable of the scene and the caption's own figure; accepted: a variable of another "
+            "name");
+    EXPECT_EQ(lineOf("the " + name + " is {=2*g}", {{name, 5.0}, {"g", 2.0}}), "the " + name + " is 4.00");
+  }
 }
 
 TEST(CaptionText, ShowsADashForWhatIsNotFiniteInAFrame) {
