@@ -324,16 +324,17 @@ Scene parseScene(std::string_view text, const std::filesystem::path& path,
     return scene;
   } catch (const JsonError& error) {
     constexpr std::size_t kWrittenByAProgram = 1 << 18;  // Bytes; a person writes less.
-    const std::vector<std::string> all = mistakesOf(
-        std::move(json), path, error, text.size() < kWrittenByAProgram ? 100 : 1, [&](const Json& rest) {
-          if (grown > static_cast<std::size_t>(kMostJsonValues)) throw InputError("read often enough");
-          readScene(rest, path, grown);
-        });
-    const std::string count = std::to_string(all.size());
-    throw SceneMistakes(
-        all.size() == 1 ? all.front()
-                        : all.front() + " (the first of " + count + " mistakes; carom check lists them all)",
-        all);
+    const Mistakes mistakes = mistakesOf(std::move(json), path, error,
+                                         text.size() < kWrittenByAProgram ? 100 : 1, [&](const Json& rest) {
+                                           if (grown > static_cast<std::size_t>(kMostJsonValues))
+                                             throw InputError("read often enough");
+                                           readScene(rest, path, grown);
+                                         });
+    const std::size_t count = mistakes.all.size();
+    const std::string others =
+        count == 1 ? ""
+                   : " (the first of " + std::to_string(count) + " mistakes; carom check lists them all)";
+    throw SceneMistakes(mistakes.first + others, mistakes.all);
   }
 }
 

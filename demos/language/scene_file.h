@@ -14,7 +14,7 @@
 
 namespace carom::demos {
 
-/// All that is wrong with a scene's file; `what` is the first of it.
+/// All that is wrong with a scene's file; `what` is what was met first, which follows from nothing else.
 class SceneMistakes : public InputError {
  public:
   SceneMistakes(const std::string& message, std::vector<std::string> mistakes)

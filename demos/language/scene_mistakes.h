@@ -11,9 +11,13 @@
 
 namespace carom::demos {
 
-/// Each mistake with its remedy, in the order of the file, given the first; at most `most`, for `read`, which
-/// throws the first of those that are left, reads the scene again for each. Never empty.
-std::vector<std::string> mistakesOf(Json json, const std::filesystem::path& path, JsonError first, int most,
-                                    const std::function<void(const Json&)>& read);
+struct Mistakes {
+  std::string first;             ///< That was met: what stands in no placeholder and follows from no other.
+  std::vector<std::string> all;  ///< In the order of the file; never empty.
+};
+/// Each mistake with its remedy, given the first; at most `most`, for `read`, which throws the first of those
+/// that are left, reads the scene again for each.
+Mistakes mistakesOf(Json json, const std::filesystem::path& path, JsonError first, int most,
+                    const std::function<void(const Json&)>& read);
 
 }  // namespace carom::demos

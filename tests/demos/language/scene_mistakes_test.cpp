@@ -192,5 +192,71 @@ TEST(SceneMistakes, OneMistakeIsToldOnceWhateverFollowsFromIt) {
   }
 }
 
+std::vector<std::string> allOf(const std::string& text, const std::filesystem::path& path = "s.json") {
+  try {
+    parseScene(text, path);
+  } catch (const SceneMistakes& mistakes) {
+    // What is told first is one of them, whatever is added about the others.
+    const std::string first = mistakes.what();
+    EXPECT_TRUE(std::any_of(mistakes.all.begin(), mistakes.all.end(), [&](const std::string& mistake) {
+      return first.rfind(mistake, 0) == 0;
+    })) << first;
+    return mistakes.all;
+  }
+  return {};
+}
+
+TEST(SceneMistakes, WhatStandsForANameIsNotToldOf) {
+  const std::vector<std::string> all =
+      allOf(R"({"format":1,"bodies":[{"for":{"i":2},"bodies":[{"name":"a","shape":{"box":[1,1,1]}}]}]})");
+  ASSERT_EQ(all.size(), 1u) << testing::PrintToString(all);
+  EXPECT_EQ(all[0].rfind("s.json:1:56: bodies[0].bodies[0].name: \"a\" names two bodies", 0), 0u) << all[0];
+}
+
+TEST(SceneMistakes, BodiesOfAFileThatIsNotThereLackNothingElse) {
+  const std::vector<std::string> all = allOf(
+      R"({"format":1,"bodies":[{"include":"nosuch.json","name":"b"}],"cameras":{"main":{"follow":"b.a"}}})");
+  ASSERT_EQ(all.size(), 1u) << testing::PrintToString(all);
+  EXPECT_EQ(all[0].rfind("s.json:1:34: bodies[0].include: no file \"nosuch.json\"", 0), 0u) << all[0];
+  const std::vector<std::string> common = allOf(
+      R"({"format":1,"include":["nosuch.json"],"bodies":[{"name":"a","material":"m","shape":{"box":["=k",1,1]}}]})");
+  ASSERT_EQ(common.size(), 1u) << testing::PrintToString(common);
+  EXPECT_EQ(common[0].rfind("s.json:1:24: include[0]: no file \"nosuch.json\"", 0), 0u) << common[0];
+}
+
+TEST(SceneMistakes, FilesThatIncludeEachOtherAreToldOfAlone) {
+  const TemporaryFolder folder;
+  folder.file("a.json", R"({"format":1,"bodies":[{"include":"b.json","name":"b"}]})");
+  folder.file("b.json", R"({"format":1,"bodies":[{"include":"a.json","name":"a"}]})");
+  const std::vector<std::string> all =
+      allOf(R"({"format":1,"bodies":[{"include":"b.json","name":"b"}]})", folder.path() / "a.json");
+  ASSERT_EQ(all.size(), 1u) << testing::PrintToString(all);
+  EXPECT_NE(all[0].find("include each other deeper than 8 levels"), std::string::npos) << all[0];
+}
+
+TEST(SceneMistakes, ALoopAndAGroupThatAreWrongLackNoShape) {
+  for (const char* item : {R"({"for":{"i":-1},"bodies":[]})", R"({"name":"g","bodies":5})"}) {
+    const std::vector<std::string> all = allOf(R"({"format":1,"bodies":[)" + std::string(item) + "]}");
+    ASSERT_EQ(all.size(), 1u) << testing::PrintToString(all);
+    EXPECT_EQ(all[0].find("shape"), std::string::npos) << all[0];
+  }
+}
+
+TEST(SceneMistakes, APathIsToldOfOnceAndTheRestOfItsBodyIsRead) {
+  const std::vector<std::string> all =
+      allOf(R"({"format":1,"bodies":[{"name":"a","shape":{"box":[1,1,1]},"color":7,"material":{"density":0},)"
+            R"("kinematic":{"keyframes":[{"time":0},{"time":1,"position":[1,0,0]}],"repeats":true}}]})");
+  ASSERT_EQ(all.size(), 2u) << testing::PrintToString(all);
+  EXPECT_NE(all[0].find("bodies[0].color: "), std::string::npos) << all[0];
+  EXPECT_NE(all[1].find("bodies[0].kinematic.repeats: "), std::string::npos) << all[1];
+}
+
+// A mistake that hides others of its body until it is out: keys that only begin like a body's own.
+TEST(SceneMistakes, AKeyThatBeginsLikeAnotherHidesNothing) {
+  const std::vector<std::string> all = allOf(
+      R"({"format":1,"bodies":[{"name":"a","shape":{"box":[1,1,1]},"names":1,"repeats":2,"color":7}]})");
+  ASSERT_EQ(all.size(), 3u) << testing::PrintToString(all);
+}
+
 }  // namespace
 }  // namespace carom::demos
