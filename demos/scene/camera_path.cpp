@@ -120,6 +120,11 @@ CameraPath::CameraPath(const SceneCamera& camera, const SceneWorld& start, doubl
   } else if (const auto* dolly = std::get_if<Dolly>(&camera_.motion)) {
     if (dolly->body) body_ = bodyNamed(*dolly->body, start.names);
     curve_.emplace(dolly->points);
+    first_s_ = dolly->start_s;
+    last_s_ = dolly->start_s + dolly->seconds;
+  } else if (const auto* path = std::get_if<CameraKeyframes>(&camera_.motion)) {
+    first_s_ = path->keys.front().time_s;
+    last_s_ = path->keys.back().time_s;
   } else if (const auto* moving = std::get_if<FrameMoving>(&camera_.motion)) {
     std::vector<Vec3> points = start.movedPoints();
     if (points.empty()) points = fittedPoints(start);  // Nothing moves.
@@ -159,21 +164,22 @@ renderer::Camera CameraPath::alongKeyframes(double time_s) const {
   return camera;
 }
 
-renderer::Camera CameraPath::alongDolly(double time_s, std::span<const BodyState> bodies) const {
+renderer::Camera CameraPath::alongDolly(double time_s, const Vec3& body) const {
   const auto& dolly = std::get<Dolly>(camera_.motion);
   const double share = (time_s - dolly.start_s) / dolly.seconds;
   renderer::Camera camera = camera_;
   camera.eye = curve_->at(dolly.eased ? easedShare(share) : share);
-  if (dolly.body) camera.target = bodies[body_].X_WB.position;
+  if (dolly.body) camera.target = body;
   return camera;
 }
 
-renderer::Camera CameraPath::at(double time_s, std::span<const BodyState> bodies) const {
+/// As the scene says, with the followed body's centre of mass there.
+renderer::Camera CameraPath::written(double time_s, const Vec3& body) const {
   if (std::holds_alternative<CameraKeyframes>(camera_.motion)) return alongKeyframes(time_s);
-  if (std::holds_alternative<Dolly>(camera_.motion)) return alongDolly(time_s, bodies);
+  if (std::holds_alternative<Dolly>(camera_.motion)) return alongDolly(time_s, body);
   renderer::Camera camera = camera_;
   if (const auto* follow = std::get_if<FollowBody>(&camera_.motion)) {
-    camera.target = bodies[body_].X_WB.position;
+    camera.target = body;
     camera.eye = camera.target + *follow->offset_m;
   } else if (const auto* orbit = std::get_if<Orbit>(&camera_.motion)) {
     // The whole turns are taken off first: fmod is exact.
@@ -182,6 +188,34 @@ renderer::Camera CameraPath::at(double time_s, std::span<const BodyState> bodies
     camera.eye =
         camera.target + Vec3(orbit->radius_m * turn.cosine, orbit->radius_m * turn.sine, orbit->height_m);
   }
+  return camera;
+}
+
+/// From the eye to the target at the nearest time before, or else after, at which they are apart; the body
+/// goes there at the velocity that it has. A function of the path, the time and the body's state, so that a
+/// frame has the same camera whichever others are drawn.
+Vec3 CameraPath::directionNear(double time_s, const BodyState& body) const {
+  constexpr double kSoonest = 1e-9;  // of the path's duration
+  constexpr int kDoublings = 40;     // up to a thousand durations
+  const double moving_s = std::clamp(time_s, first_s_, last_s_);
+  for (const double sign : {-1.0, 1.0}) {
+    double by_s = sign * kSoonest * (last_s_ - first_s_);
+    for (int k = 0; k < kDoublings; ++k, by_s *= 2.0) {
+      const Vec3 there = body.X_WB.position + by_s * body.linear_velocity;
+      const renderer::Camera camera = written(moving_s + by_s, there);
+      const Vec3 direction = camera.target - camera.eye;
+      if (direction.norm() > kSmallestLength_m) return direction.normalized();
+    }
+  }
+  return -FitView().direction.normalized();  // They are never apart.
+}
+
+renderer::Camera CameraPath::at(double time_s, std::span<const BodyState> bodies) const {
+  const BodyState body = bodies.empty() ? BodyState() : bodies[body_];
+  renderer::Camera camera = written(time_s, body.X_WB.position);
+  const bool goes_along_a_path = last_s_ > first_s_;
+  if (goes_along_a_path && !((camera.target - camera.eye).norm() > kSmallestLength_m))
+    camera.target = camera.eye + kSmallestLength_m * directionNear(time_s, body);
   return camera;
 }
 

@@ -34,17 +34,21 @@ class CameraPath {
   /// is not there. A camera that frames what moves runs the scene once, here.
   CameraPath(const SceneCamera& camera, const SceneWorld& start, double aspect);
 
-  /// The camera at a time, with the bodies in the states that they have then.
+  /// The camera at a time, with the bodies in the states that they have then. Where its eye meets its target
+  /// it looks as it did on the way there.
   renderer::Camera at(double time_s, std::span<const BodyState> bodies) const;
 
  private:
   bool standAt(const FitRequest& request, const std::vector<Vec3>& points);
   renderer::Camera alongKeyframes(double time_s) const;
-  renderer::Camera alongDolly(double time_s, std::span<const BodyState> bodies) const;
+  renderer::Camera alongDolly(double time_s, const Vec3& body) const;
+  renderer::Camera written(double time_s, const Vec3& body) const;
+  Vec3 directionNear(double time_s, const BodyState& body) const;
 
   SceneCamera camera_;
   std::size_t body_ = 0;  // followed, or looked at
   std::optional<CurvedPath> curve_;
+  double first_s_ = 0.0, last_s_ = 0.0;  // between which the eye moves by itself
 };
 
 }  // namespace carom::demos
