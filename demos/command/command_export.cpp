@@ -8,6 +8,7 @@
 
 #include "demos/asset/asset_path.h"
 #include "demos/format/progress.h"
+#include "demos/language/scene_values.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
 #include "demos/page/player_page.h"
@@ -79,7 +80,7 @@ Plan simulatedPlan(const ExportOptions& options) {
   const FrameClock clock({options.fps.value_or(usual_fps), scene.rate_hz});
   const int frames = clock.frameCount(scene.duration_s);
   if (frames < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame to export");
+    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame to export");
   return {options.choice, scene, clock, frames};
 }
 

@@ -7,6 +7,7 @@
 
 #include "demos/format/content_hash.h"
 #include "demos/format/progress.h"
+#include "demos/language/scene_values.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_states.h"
 #include "demos/motion/simulation_check.h"
@@ -46,6 +47,14 @@ RecordingHeader recordingHeader(const SimulateOptions& options, const Scene& sce
   header.bodies = static_cast<int>(made.names.size());
   header.frames = FrameClock({options.fps, scene.rate_hz}).frameCount(scene.duration_s);
   return header;
+}
+
+/// The scene's own duration is its file's fault.
+[[noreturn]] void refuseStepless(const SceneChoice& choice, const Scene& scene) {
+  const std::string what = "the duration of " + plainNumber(scene.duration_s) + " s holds no step at " +
+                           plainNumber(scene.rate_hz) + " a second; accepted: at least half a step";
+  if (choice.duration_s) throw UsageError(what);
+  throw InputError(scene.file.string() + ": " + what);
 }
 
 /// What there is to write of each frame.
@@ -96,8 +105,8 @@ ExitCode simulate(const SimulateOptions& options) {
   const FrameClock clock({options.fps, scene.rate_hz});
   const int steps = clock.stepCount(scene.duration_s);
   if (!options.output.empty() && clock.frameCount(scene.duration_s) < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame to record");
-  if (steps < 1) throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no step");
+    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame to record");
+  if (steps < 1) refuseStepless(options.choice, scene);
 
   catchInterrupts();
   const int frames = clock.frameCount(scene.duration_s);

@@ -4,6 +4,7 @@
 #include "demos/frames/frame_identity.h"
 #include "demos/frames/frame_selection.h"
 #include "demos/frames/frame_stream.h"
+#include "demos/language/scene_values.h"
 #include "demos/record/recorded_scene.h"
 #include "demos/scene/scene_world.h"
 #include "demos/video/contact_sheet.h"
@@ -38,7 +39,7 @@ RenderPlan planned(const RenderOptions& options, const std::optional<RecordingRe
   const Scene scene = chosenScene(choice);
   const double scene_fps = recording ? recording->header().fps : options.fps / options.speed;
   if (scene.duration_s * scene_fps > kMostFrames)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds more than " +
+    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds more than " +
                      std::to_string(kMostFrames) + " frames");
   const FrameClock clock =
       options.at_s ? FrameClock::still(*options.at_s, scene.rate_hz) : FrameClock({scene_fps, scene.rate_hz});
@@ -60,8 +61,8 @@ RenderPlan planned(const RenderOptions& options, const std::optional<RecordingRe
     plan.frame_count = recording->header().frames;
   }
   if (plan.frame_count < 1)
-    throw UsageError("the duration of " + std::to_string(scene.duration_s) + " s holds no frame at " +
-                     std::to_string(plan.fps) + " fps");
+    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame at " +
+                     plainNumber(plan.fps) + " fps");
   plan.frames = options.sheet.empty()
                     ? shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard))
                     : sheetFrames(readSheet(options.sheet), plan.frame_count);

@@ -89,7 +89,8 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"--fps 0: accepted: above 0", {"render", "sliding", "--fps", "0"}},
       {"--fps nan: accepted: above 0", {"render", "sliding", "--fps", "nan"}},
       {"--duration -1: accepted: above 0", {"simulate", "sliding", "--duration", "-1"}},
-      {"holds no frame", {"render", "sliding", "--duration", "0.001"}},
+      {"the duration of 0.001 s holds no frame at 30 fps", {"render", "sliding", "--duration", "0.001"}},
+      {"the duration of 1e-300 s holds no step", {"simulate", "sliding", "--duration", "1e-300"}},
       {"--camera man: no such camera", {"render", "sliding", "--camera", "man"}},
       {"-o frame.jpg: accepted:", {"render", "sliding", "-o", "frame.jpg"}},
       {"--expect-hash 12: accepted:", {"simulate", "sliding", "--expect-hash", "12"}},
@@ -102,6 +103,21 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
     EXPECT_EQ(end.out, "");
     expectOneLine(end, part);
   }
+}
+
+// 0.04 s at 10 steps a second: the file's fault, of which pictures of its start know nothing.
+TEST(Program, ASceneThatHoldsNoStepEndsWith3) {
+  const TemporaryFolder folder;
+  const std::string scene = folder
+                                .file("short.json",
+                                      "{ \"format\": 1, \"duration\": 0.04, \"rate\": 10, \"bodies\": [ { "
+                                      "\"name\": \"a\", \"shape\": "
+                                      "{ \"box\": [1, 1, 1] } } ] }")
+                                .string();
+  const ProgramEnd end = runCarom({"simulate", scene});
+  EXPECT_EQ(end.code, 3);
+  expectOneLine(end, "short.json: the duration of 0.04 s holds no step at 10 a second");
+  EXPECT_EQ(runCarom({"simulate", scene, "--duration", "0.05"}).code, 0);
 }
 
 TEST(Program, BadScenesAndAssetsEndWith3) {
