@@ -302,6 +302,12 @@ Json Json::movedTo(const Json& place) const {
   return moved;
 }
 
+Json Json::movedInto(const Json& owner, const std::string& key) const {
+  Json moved = movedTo(owner);
+  moved.place(owner.path_.empty() ? key : owner.path_ + "." + key);
+  return moved;
+}
+
 Json Json::without(const std::string& path) const {
   Json rest = *this;
   rest.items_.clear();

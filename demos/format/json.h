@@ -75,6 +75,8 @@ class Json {
 
   /// This value at the place of another: what stands for it is complained of there.
   Json movedTo(const Json& place) const;
+  /// This value at the place that a member of that name would have in another.
+  Json movedInto(const Json& owner, const std::string& key) const;
   /// The same without what is in it, which stays where it was written.
   Json placedAs(const Json& place) const;
 

@@ -1,5 +1,6 @@
 #include "demos/language/scene_expansion.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -435,7 +436,7 @@ class Setter {
     // What is left out in the file can be given; whether the key is one is the scene reader's matter.
     if (!found) {
       if (next + 1 < words_.size()) refuse(json, word, keysOf(json));
-      changed.set(word, value_.movedTo(json));
+      changed.set(word, value_.movedInto(json, word));
     }
     return changed;
   }
@@ -491,7 +492,12 @@ void requireVariable(const Json& scene, const std::filesystem::path& file, const
 }
 
 /// JSON where it is that, else a text: --set bodies.crate.color=#ff0000.
-Json valueOf(const std::string& text) {
+Json valueOf(const std::string& text, const std::string& setting) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size())
+    throw UsageError("--set " + setting + ": " + text +
+                     " is beyond double precision; accepted: -1.8e308 to 1.8e308");
   try {
     return Json::parse(text, "");
   } catch (const InputError&) {
@@ -514,9 +520,9 @@ Json withSetting(Json scene, const std::filesystem::path& file, const std::strin
     throw UsageError("--set " + setting + ": accepted: PATH=VALUE such as bodies.crate.position=[0,0,3]");
   if (words.size() > 1 && words[0] == "set") {
     requireVariable(scene, file, setting, words[1]);
-    if (scene.find("set") == nullptr) scene.set("set", Json::object().placedAs(scene));
+    if (scene.find("set") == nullptr) scene.set("set", Json::object().movedInto(scene, "set"));
   }
-  return Setter(setting, words, valueOf(setting.substr(equals + 1))).put(scene, 0);
+  return Setter(setting, words, valueOf(setting.substr(equals + 1), setting)).put(scene, 0);
 }
 
 }  // namespace carom::demos

@@ -157,9 +157,10 @@ constexpr std::array kColors = std::to_array<Word>({
     {"silver", "#c0c0c0"},
 });
 
+/// Of a member; none of an item, which is not what its list's key wants.
 std::string lastKey(const std::string& path) {
-  std::string key = path.substr(path.rfind('.') == std::string::npos ? 0 : path.rfind('.') + 1);
-  return key.substr(0, key.find('['));
+  if (path.ends_with(']')) return "";
+  return path.substr(path.rfind('.') == std::string::npos ? 0 : path.rfind('.') + 1);
 }
 
 std::optional<double> numberIn(const std::string& text) {
@@ -234,7 +235,8 @@ std::string shapeRemedy(const std::string& key, const Json& value) {
   if (key == "roundedBox" && value.kind() != Json::Kind::kObject)
     return "{\"size\": [1, 1, 1], \"radius\": 0.1}";
   if (key == "box" || key == "wedge") {
-    if (is_number) return threeOf(value.asNumber());
+    const bool is_length = is_number && value.asNumber() >= kLength.low && value.asNumber() <= kLength.high;
+    if (is_number) return is_length ? threeOf(value.asNumber()) : "[1, 1, 1]";
     if (value.kind() == Json::Kind::kObject) {
       if (const Json* size = value.find("size")) return size->shown();
       return value.find("x") != nullptr ? listOf(value) : "[1, 1, 1]";

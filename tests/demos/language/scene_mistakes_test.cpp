@@ -251,6 +251,34 @@ TEST(SceneMistakes, APathIsToldOfOnceAndTheRestOfItsBodyIsRead) {
   EXPECT_NE(all[1].find("bodies[0].kinematic.repeats: "), std::string::npos) << all[1];
 }
 
+// What is wrong with a body as a whole, or with one number of a list, is not what a list of bodies or a box
+// would be wrong with.
+TEST(SceneMistakes, NoRemedyIsThatOfTheListAround) {
+  std::string many = R"({"format":1,"bodies":[)";
+  for (const char* name : {"a", "b"})
+    many += std::string(name[0] == 'b' ? "," : "") + R"({"name":")" + name +
+            R"(","shape":{"box":[1,1,1]},"repeat":{"count":15000,"step":[2,0,0]}})";
+  for (const std::string& text :
+       {withBody(R"("shape": {"box": [0, 1, 1]})"), withBody(R"("shape": {"box": 0})"),
+        withBody(R"("static": true, "linearVelocity": [1, 0, 0])"), many + "]}"}) {
+    const std::string message = thrownMessage<InputError>([&] { parseScene(text, "s.json"); });
+    EXPECT_EQ(message.find("write [0, 0, 0]"), std::string::npos) << message;
+    EXPECT_EQ(message.find("write a list"), std::string::npos) << message;
+  }
+}
+
+TEST(SceneMistakes, AValueThatWasSetIsCalledByItsKey) {
+  const std::string text = R"({"format":1,"bodies":[{"name":"a","shape":{"box":[1,1,1]}}]})";
+  const auto refusal = [&](const std::string& setting) {
+    return thrownMessage<InputError>([&] { parseScene(text, "s.json", {setting}); });
+  };
+  EXPECT_EQ(refusal("gravity=").rfind("s.json:1:1: gravity: \"\" is a string; accepted: an array", 0), 0u)
+      << refusal("gravity=");
+  const std::string color = refusal("bodies.a.color=red");
+  EXPECT_NE(color.find("bodies[0].color: \"red\" is no colour"), std::string::npos) << color;
+  EXPECT_NE(color.find("write \"#ff0000\""), std::string::npos) << color;
+}
+
 // A mistake that hides others of its body until it is out: keys that only begin like a body's own.
 TEST(SceneMistakes, AKeyThatBeginsLikeAnotherHidesNothing) {
   const std::vector<std::string> all = allOf(
