@@ -21,6 +21,7 @@
 #include "demos/asset/mesh_answer.h"
 #include "demos/asset/mesh_header.h"
 #include "demos/asset/picture_file.h"
+#include "demos/format/formatted.h"
 #include "demos/format/written_precision.h"
 #include "demos/system/bounded_process.h"
 #include "engine/foundation/contract.h"
@@ -60,11 +61,14 @@ Vec3 vectorOf(const aiVector3D& v) {
 std::vector<Place> placedVertices(const aiMesh& mesh, const AffineMap& X_FM) {
   std::vector<Place> points;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const Vec3 p = X_FM * vectorOf(mesh.mVertices[i]);
+    const Vec3 written = vectorOf(mesh.mVertices[i]);
+    const Vec3 p = X_FM * written;
     points.push_back({p.x(), p.y(), p.z()});
-    if (!p.allFinite())
-      throw Unsuitable("vertex " + std::to_string(i) + " of mesh \"" + mesh.mName.C_Str() +
-                       "\" is not finite; accepted: finite coordinates");
+    if (p.allFinite()) continue;
+    // By its coordinates: assimp's numbers are none of the file.
+    const Vec3& shown = written.allFinite() ? p : written;
+    throw Unsuitable("a vertex at " + formatted("(%g, %g, %g)", shown.x(), shown.y(), shown.z()) +
+                     " of mesh \"" + mesh.mName.C_Str() + "\" is not finite; accepted: finite coordinates");
   }
   return points;
 }

@@ -8,6 +8,7 @@
 #include "demos/format/content_hash.h"
 #include "demos/language/scene_file.h"
 #include "demos/scene/scene_world.h"
+#include "demos/scene/shape_solid.h"
 
 namespace carom::demos {
 namespace {
@@ -53,6 +54,12 @@ void checkScene(const SceneChoice& choice) {
 
 void checkMesh(const std::filesystem::path& path, bool as_hull) {
   MeshSolid mesh = meshSolid(path, {.as_hull = as_hull});
+  // A scene may scale it.
+  try {
+    requireLengths(cornersOf(mesh.parts), "mesh");
+  } catch (const InputError& refused) {
+    std::cerr << "warning: " << path.string() << ": " << refused.what() << '\n';
+  }
   int vertices = 0, faces = 0;
   for (const ConvexPart& part : mesh.parts) {
     vertices += part.core.vertexCount();
@@ -75,10 +82,14 @@ bool isMesh(const std::string& what) {
 }  // namespace
 
 ExitCode check(const CheckOptions& options) {
-  if (isMesh(options.choice.scene)) {
-    checkMesh(options.choice.scene, options.choice.as_hull);
+  const SceneChoice& choice = options.choice;
+  if (isMesh(choice.scene)) {
+    if (!choice.settings.empty() || choice.mesh)
+      throw UsageError(std::string(choice.mesh ? "--mesh" : "--set") + " is for scenes: " + choice.scene +
+                       " is a mesh itself");
+    checkMesh(choice.scene, choice.as_hull);
   } else {
-    checkScene(options.choice);
+    checkScene(choice);
   }
   return ExitCode::kOk;
 }

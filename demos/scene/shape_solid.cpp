@@ -28,7 +28,15 @@ void fitInto(std::vector<Vec3>& points, double longest_m) {
   for (Vec3& p : points) p = (p - middle) * (longest_m / longest);
 }
 
-/// A hull of a body has the size of any other shape, and lies as near.
+}  // namespace
+
+std::vector<Vec3> cornersOf(const std::vector<ConvexPart>& parts) {
+  std::vector<Vec3> corners;
+  for (const ConvexPart& part : parts)
+    corners.insert(corners.end(), part.core.vertices().begin(), part.core.vertices().end());
+  return corners;
+}
+
 void requireLengths(const std::vector<Vec3>& points, const std::string& what) {
   Eigen::AlignedBox3d bounds;
   for (const Vec3& p : points) bounds.extend(p);
@@ -43,6 +51,8 @@ void requireLengths(const std::vector<Vec3>& points, const std::string& what) {
             << " to " << kLargestLength_m << ", see \"fit\"";
   if (message.tellp() > 0) throw InputError(message.str());
 }
+
+namespace {
 
 /// The same part moved; its frame S was P before.
 ConvexPart placed(const ConvexPart& part, const Pose& X_SP) {
@@ -94,10 +104,7 @@ class PartMaker {
       if (hull.fit_m) fitInto(points, *hull.fit_m);
       made.parts.push_back({convexHull(points).polyhedron, 0.0});
     }
-    std::vector<Vec3> corners;
-    for (const ConvexPart& part : made.parts)
-      corners.insert(corners.end(), part.core.vertices().begin(), part.core.vertices().end());
-    requireLengths(corners, "hull");
+    requireLengths(cornersOf(made.parts), "hull");
     return made;
   }
 

@@ -12,6 +12,12 @@
 
 namespace carom::demos {
 
+/// The vertices of all parts.
+std::vector<Vec3> cornersOf(const std::vector<ConvexPart>& parts);
+/// A hull of a body has the size of any other shape, and lies as near. Throws InputError that calls it
+/// `what`.
+void requireLengths(const std::vector<Vec3>& points, const std::string& what);
+
 /// One hull around all meshes of the file, where they stand in it. Throws InputError, with the path, when
 /// they enclose no volume.
 ConvexPolyhedron meshHull(const std::filesystem::path& path);

@@ -206,6 +206,10 @@ TEST(MeshImport, RefusesBadFilesInOneLineWithTheReason) {
   std::memcpy(stl.data() + 84 + 12 + 8, &nan, sizeof nan);  // header, normal, x, y: the first corner's z
   EXPECT_NE(refusal(folder.file("nan.stl", stl)).find("is not finite; accepted: finite coordinates"),
             std::string::npos);
+  // By what is written in the file, whoever numbers its vertices: faces name them in another order.
+  const std::string numbered = refusal(folder.file(
+      "nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2.5 nan 0.25\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  EXPECT_EQ(numbered.rfind("a vertex at (2.5, nan, 0.25) of mesh", 0), 0u) << numbered;
 }
 
 // assimp's reader of RAW files leaves the nodes of a file of several groups unmade: the tree has wild

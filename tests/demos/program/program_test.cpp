@@ -91,6 +91,9 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"--duration -1: accepted: above 0", {"simulate", "sliding", "--duration", "-1"}},
       {"the duration of 0.001 s holds no frame at 30 fps", {"render", "sliding", "--duration", "0.001"}},
       {"the duration of 1e-300 s holds no step", {"simulate", "sliding", "--duration", "1e-300"}},
+      {"--set duration=1e400: 1e400 is beyond", {"check", "sliding", "--set", "duration=1e400"}},
+      {"--set is for scenes: gem.obj is a mesh", {"check", "gem.obj", "--set", "a=3"}},
+      {"--mesh is for scenes: gem.obj is a mesh", {"check", "gem.obj", "--mesh", "none.obj"}},
       {"--camera man: no such camera", {"render", "sliding", "--camera", "man"}},
       {"-o frame.jpg: accepted:", {"render", "sliding", "-o", "frame.jpg"}},
       {"--expect-hash 12: accepted:", {"simulate", "sliding", "--expect-hash", "12"}},
@@ -118,6 +121,20 @@ TEST(Program, ASceneThatHoldsNoStepEndsWith3) {
   EXPECT_EQ(end.code, 3);
   expectOneLine(end, "short.json: the duration of 0.04 s holds no step at 10 a second");
   EXPECT_EQ(runCarom({"simulate", scene, "--duration", "0.05"}).code, 0);
+}
+
+TEST(Program, AMeshThatNoSceneTakesAsItIsIsWarnedOf) {
+  const TemporaryFolder folder;
+  const std::string mesh =
+      folder
+          .file("huge.obj", "v 0 0 0\nv 1e7 0 0\nv 0 1e7 0\nv 0 0 1e7\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+          .string();
+  const ProgramEnd end = runCarom({"check", mesh});
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.err.rfind(
+                "warning: " + mesh + ": the mesh's longest side is 1e+07 m; accepted: 0.0001 to 100000", 0),
+            0u)
+      << end.err;
 }
 
 TEST(Program, BadScenesAndAssetsEndWith3) {

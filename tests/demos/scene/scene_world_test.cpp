@@ -76,7 +76,7 @@ TEST(SceneWorld, RefusesBodiesThatTouchAndHaveNoRoomToPart) {
   });
   EXPECT_EQ(message,
             "s.json: \"floor\" and \"ball\" touch at the start and have no room to part at (1, -1, 0) (the "
-            "deepest of 2 pairs; carom check lists them all); accepted: apart, or just touching");
+            "deepest of 2 pairs; carom check lists them all); accepted: apart");
 }
 
 TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
