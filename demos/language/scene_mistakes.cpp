@@ -141,6 +141,21 @@ const Json* meantValue(const Json& json, const std::string& path) {
   return valueAt(json, color == std::string::npos ? path : path.substr(0, color + 6));
 }
 
+std::string withRemedy(const Json& json, const JsonError& error) {
+  return error.what() + remedyFor(*meantValue(json, error.spot.path), error.what());
+}
+
+/// What is wrong with a value of the scene; none, too, where something else is.
+std::optional<JsonError> firstOf(const Json& json, const std::function<void(const Json&)>& read) {
+  try {
+    read(json);
+  } catch (const JsonError& error) {
+    return error;
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Mistakes mistakesOf(Json json, const std::filesystem::path& path, JsonError first, int most,
@@ -157,20 +172,12 @@ Mistakes mistakesOf(Json json, const std::filesystem::path& path, JsonError firs
     const std::string out = needed ? needed->first + "." + needed->second : taken(json, error);
     if (value != nullptr && gone.count(out) > 0) break;
     if (!isConsequence(error, gone) && !isMeantByAnother(error, found))
-      found.emplace_back(
-          error.spot,
-          std::string(error.what()) +
-              (value == nullptr ? "" : remedyFor(*meantValue(json, error.spot.path), error.what())));
+      found.emplace_back(error.spot, value == nullptr ? error.what() : withRemedy(json, error));
     if (value == nullptr || i + 1 == most || out.empty()) break;
     gone.insert(out);
     json = needed ? withMember(json, needed->first, needed->second, placeholder(needed->second, error.spot))
                   : json.without(out);
-    try {
-      read(json);
-    } catch (const JsonError& another) {
-      next = another;
-    } catch (const InputError&) {
-    }
+    next = firstOf(json, read);
   }
   Mistakes mistakes{found.front().second, {}};
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
