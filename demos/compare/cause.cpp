@@ -128,6 +128,20 @@ bool isAsDrawn(const renderer::DecodedRaster& frame) {
   return hexText(hash.value()) == signature;
 }
 
+/// What frames' texts say of the look, and what it is where they do not (frames/frame_identity.cpp).
+struct LookOfFrame {
+  const char* key;
+  const char* unsaid;
+};
+constexpr LookOfFrame kLooks[] = {{"Preset", "the usual one"},
+                                  {"Style", "the usual one"},
+                                  {"Light", "the usual one"},
+                                  {"Shutter", "the usual one"},
+                                  {"Background", "the usual one"},
+                                  {"Overlays", "the usual one"},
+                                  {"Caption", "off"},
+                                  {"Portable", "yes"}};
+
 Cause single(const std::string& part, const std::string& name, const std::string& text) {
   return {text, {{part, name, text}}, -1.0, "", {}, {}, ""};
 }
@@ -165,12 +179,12 @@ Cause causeByText(const renderer::DecodedRaster& actual, const renderer::Decoded
   if (differs("State")) return single("engine", "state", "physics moved: state " + change("State"));
   const std::string state = textOf(golden.text, "State");
   if (state.empty() || textOf(actual.text, "State").empty()) return {};
-  for (const char* key : {"Preset", "Style", "Light", "Shutter", "Background", "Overlays"}) {
-    const std::string a = textOf(actual.text, key), g = textOf(golden.text, key);
+  for (const LookOfFrame& look : kLooks) {
+    const std::string a = textOf(actual.text, look.key), g = textOf(golden.text, look.key);
     if (a != g)
-      return single(key == std::string("Light") ? "light" : "preset", key,
-                    std::string("the same motion, another look: ") + key + " is " +
-                        (a.empty() ? "the usual one" : a) + ", was " + (g.empty() ? "the usual one" : g));
+      return single(look.key == std::string("Light") ? "light" : "preset", look.key,
+                    std::string("the same motion, another look: ") + look.key + " is " +
+                        (a.empty() ? look.unsaid : a) + ", was " + (g.empty() ? look.unsaid : g));
   }
   return single(
       "renderer", "renderer",

@@ -58,6 +58,8 @@ renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record)
   if (manifest.cutout) text.emplace_back("Background", "none");
   if (!manifest.overlays.empty()) text.emplace_back("Overlays", manifest.overlays);
   if (manifest.has_caption) text.emplace_back("Caption", "on");
+  // Golden frames, which are kept, are portable.
+  if (!manifest.portable) text.emplace_back("Portable", "no");
   return text;
 }
 

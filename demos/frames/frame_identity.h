@@ -13,8 +13,8 @@
 
 namespace carom::demos {
 
-/// Scene, camera, time, state, program and renderer of a frame; preset and style where they are not the usual
-/// ones.
+/// Scene, camera, time, state, program and renderer of a frame; preset, style and the like where they are not
+/// the usual ones, and "Portable: no" of one whose pixels are of this CPU.
 renderer::PngText frameText(const Manifest& manifest, const FrameRecord& record);
 
 /// The bytes of a frame's file: `text` and, last, the hash of the pixels.

@@ -59,6 +59,7 @@ struct Manifest {
   Json outputs;          ///< What the numbers of other outputs mean (frame_outputs.h); null: there are none.
   std::string overlays;  ///< Names and focus; empty: none.
   bool has_caption = false;
+  bool portable = false;  ///< The same pixels on every CPU.
   renderer::ContextInfo gl;
   int frames_planned = 0;
   double wall_s = 0.0;

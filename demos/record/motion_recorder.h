@@ -21,6 +21,8 @@ class MotionRecorder {
   MotionRecorder(const MotionRecorder&) = delete;
   MotionRecorder& operator=(const MotionRecorder&) = delete;
 
+  /// A fact of how frames look that is not in the settings.
+  void addLook(const std::string& name, const std::string& value) { record_.look.emplace_back(name, value); }
   /// After every step.
   void follow(const World& world);
   /// Before the frame is drawn.

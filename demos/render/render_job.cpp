@@ -346,7 +346,12 @@ ExitCode render(const RenderOptions& options) {
   }
   RunFacts facts;
   std::optional<MotionRecorder> recorder;
-  if (hasRecord(options, overlays)) recorder.emplace(plan.scene, made, settings);
+  if (hasRecord(options, overlays)) {
+    recorder.emplace(plan.scene, made, settings);
+    if (manifest.has_caption) recorder->addLook("caption", "on");
+    if (manifest.shutter_degrees > 0.0)
+      recorder->addLook("shutter", formatted("%.9g degrees", manifest.shutter_degrees));
+  }
   const FrameClock fine_clock =
       plan.shutter.isOpen() ? FrameClock({plan.clock.fps() * plan.shutter.perFrame(), plan.scene.rate_hz})
                             : plan.clock;

@@ -85,6 +85,7 @@ Manifest emptyManifest(const RenderOptions& options, const RenderPlan& plan) {
   manifest.style = plan.style;
   manifest.light = lightText(plan.light);
   manifest.cutout = plan.cutout;
+  manifest.portable = options.portable;
   manifest.shutter_degrees = options.shutter_degrees;
   manifest.frames_planned = static_cast<int>(plan.frames.size());
   return manifest;
@@ -129,8 +130,7 @@ FolderClaim::Claim folderClaim(const RenderOptions& options, const Manifest& man
                                const FrameNames& names) {
   ContentHash identity;
   for (const auto& [key, value] : frameText(manifest, {})) identity.add(key).add(value);
-  for (const int number : {options.width, options.height, static_cast<int>(options.portable)})
-    identity.add(std::to_string(number));
+  for (const int number : {options.width, options.height}) identity.add(std::to_string(number));
   for (const double number :
        {manifest.fps, manifest.speed, manifest.steps_per_second, options.at_s.value_or(0.0)})
     identity.add(&number, sizeof number);

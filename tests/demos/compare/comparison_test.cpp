@@ -99,6 +99,21 @@ TEST_F(Judged, PhysicsIsToldFromRendererByTheStateInTheFrames) {
             "");  // nothing to explain
 }
 
+TEST_F(Judged, ALookThatTheFramesTellOfIsNoOtherRenderer) {
+  const Raster golden = flatRaster(8, 6, 9), actual = flatRaster(8, 6, 99);
+  const auto cause = [&](const PngText& more_now, const PngText& more_then) {
+    PngText now{{"State", "aa"}}, then = now;
+    now.insert(now.end(), more_now.begin(), more_now.end());
+    then.insert(then.end(), more_then.begin(), more_then.end());
+    return compared(pair(actual, golden, now, then), {}).cause.headline;
+  };
+  const std::string look = "the same motion, another look: ";
+  EXPECT_EQ(cause({{"Caption", "on"}}, {}), look + "Caption is on, was off");
+  EXPECT_EQ(cause({{"Portable", "no"}}, {}), look + "Portable is no, was yes");
+  EXPECT_EQ(cause({}, {{"Portable", "no"}}), look + "Portable is yes, was no");
+  EXPECT_EQ(cause({}, {{"Preset", "fast"}}), look + "Preset is the usual one, was fast");
+}
+
 // Frames of another moment or camera have other states or pixels without anything having moved or changed.
 TEST_F(Judged, AnotherCameraOrTimeIsNeitherPhysicsNorRenderer) {
   const Raster golden = flatRaster(8, 6, 9), actual = flatRaster(8, 6, 99);

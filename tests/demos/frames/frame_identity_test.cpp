@@ -63,6 +63,8 @@ TEST(FrameIdentity, WhateverThePixelsDependOnMakesAFrameStale) {
       [](Manifest& m, FrameRecord&) { m.camera = "other"; },
       [](Manifest& m, FrameRecord&) { m.preset = renderer::Preset::kFast; },
       [](Manifest& m, FrameRecord&) { m.style = renderer::Style::kPrint; },
+      [](Manifest& m, FrameRecord&) { m.has_caption = true; },
+      [](Manifest& m, FrameRecord&) { m.portable = true; },
       [](Manifest& m, FrameRecord&) { m.gl.version = "4.6"; },
       [](Manifest& m, FrameRecord&) { m.gl.renderer = "softpipe"; },
       [](Manifest&, FrameRecord& r) { r.state_hash ^= 1; },

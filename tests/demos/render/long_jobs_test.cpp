@@ -168,6 +168,12 @@ TEST_F(LongJob, ResumeRedrawsWhatIsMissingStaleTruncatedOrDamagedAndNothingElse)
   EXPECT_FALSE(manifest("frames").at("frames").items().at(7).at("kept").asBoolean());
 }
 
+TEST_F(LongJob, ResumeTakesNoPortableFrameForOneOfThisCpuNorTheOtherWayRound) {
+  render("frames", {"--portable", "--caption", "off"});
+  EXPECT_NE(report("frames", {"--resume", "--caption", "off"}).find("(12 drawn, 0 kept)"), std::string::npos);
+  EXPECT_NE(report("frames", {"--resume", "--portable"}).find("(12 drawn, 0 kept)"), std::string::npos);
+}
+
 TEST_F(LongJob, AfterEditingTheSceneExactlyTheStaleFramesAreRedrawn) {
   render("frames");
   folder.file("ball.json", sceneText("#0072b2"));
