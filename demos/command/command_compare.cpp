@@ -138,8 +138,8 @@ std::vector<Update> updateAll(const CompareOptions& options, const std::vector<C
     const Update planned = plannedUpdate(c);
     if (planned == Update::kReplaced || planned == Update::kAdded) undo.keep(c.pair.golden);
   }
-  for (const auto& [folder, pair] : folders)
-    if (hasRecord(*pair)) undo.keep(folder / kRecordName);
+  std::erase_if(folders, [](const auto& folder) { return !hasOtherRecord(*folder.second); });
+  for (const auto& [folder, pair] : folders) undo.keep(folder / kRecordName);
   undo.commit();
   std::vector<Update> done;
   for (const Comparison& c : comparisons) {

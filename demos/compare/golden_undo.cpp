@@ -44,11 +44,8 @@ fs::path within(const fs::path& root, const Json& name) {
 
 }  // namespace
 
-GoldenUndo::GoldenUndo(fs::path root) : root_(std::move(root)) {
-  removeAll(root_ / kUndoFolder);
-}
-
 void GoldenUndo::keep(const fs::path& file) {
+  if (replaced_.empty() && added_.empty()) removeAll(root_ / kUndoFolder);
   const fs::path name = file.lexically_relative(root_);
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::demos {
@@ -13,9 +14,10 @@ inline constexpr char kUndoFolder[] = ".carom-undo";
 
 class GoldenUndo {
  public:
-  /// Of the golden files below `root`; forgets the update before.
-  explicit GoldenUndo(std::filesystem::path root);
-  /// To be called before `file` is written or added.
+  /// Of the golden files below `root`.
+  explicit GoldenUndo(std::filesystem::path root) : root_(std::move(root)) {}
+  /// To be called before `file` is written or added. The first one forgets the update before: one that
+  /// changes nothing leaves it.
   void keep(const std::filesystem::path& file);
   /// From now on the update can be taken back; called once all is kept, and before any file is written.
   void commit();

@@ -10,10 +10,15 @@
 namespace carom::demos {
 namespace {
 
-void copyWhole(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::ifstream in = openInputFile(from);
+std::string bytesOf(const std::filesystem::path& path) {
+  std::ifstream in = openInputFile(path);
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in || bytes.empty()) throw InputError("cannot read '" + from.string() + "': it has changed meanwhile");
+  return in ? bytes : "";
+}
+
+void copyWhole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const std::string bytes = bytesOf(from);
+  if (bytes.empty()) throw InputError("cannot read '" + from.string() + "': it has changed meanwhile");
   AtomicFile file(to);
   file.write(bytes);
   file.commit();
@@ -34,14 +39,16 @@ Update updateGolden(const Comparison& comparison) {
   return update;
 }
 
-bool hasRecord(const ImagePair& pair) {
+bool hasOtherRecord(const ImagePair& pair) {
+  const std::filesystem::path actual = pair.actual.parent_path() / kRecordName;
+  const std::filesystem::path golden = pair.golden.parent_path() / kRecordName;
   std::error_code ignored;
-  return std::filesystem::is_regular_file(pair.actual.parent_path() / kRecordName, ignored);
+  if (!std::filesystem::is_regular_file(actual, ignored)) return false;
+  return !std::filesystem::is_regular_file(golden, ignored) || bytesOf(actual) != bytesOf(golden);
 }
 
 void updateRecord(const ImagePair& pair) {
-  if (hasRecord(pair))
-    copyWhole(pair.actual.parent_path() / kRecordName, pair.golden.parent_path() / kRecordName);
+  copyWhole(pair.actual.parent_path() / kRecordName, pair.golden.parent_path() / kRecordName);
 }
 
 const char* updateName(Update update) {

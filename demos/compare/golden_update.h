@@ -23,11 +23,11 @@ Update plannedUpdate(const Comparison& comparison);
 /// has gone since it was compared.
 Update updateGolden(const Comparison& comparison);
 
-/// Whether the actual frames have a record beside them.
-bool hasRecord(const ImagePair& pair);
+/// Whether the actual frames have a record beside them (cause/motion_record.h) that is not, byte for byte,
+/// that of the golden ones.
+bool hasOtherRecord(const ImagePair& pair);
 
-/// Puts the record of the actual frames' folder (cause/motion_record.h) beside the golden ones, where there
-/// is one. Throws CannotWrite.
+/// Puts that record beside the golden frames. Throws CannotWrite.
 void updateRecord(const ImagePair& pair);
 
 /// "replaced", "added", "kept" or "" for none.

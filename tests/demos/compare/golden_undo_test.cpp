@@ -29,6 +29,20 @@ TEST(GoldenUndo, PutsBackWhatWasReplacedAndRemovesWhatWasAddedOnce) {
   EXPECT_THROW(undoUpdate(folder.path()), InputError);
 }
 
+TEST(GoldenUndo, AnUpdateThatChangesNothingLeavesTheOneBefore) {
+  const TemporaryFolder folder;
+  folder.file("a.png", "old");
+  {
+    GoldenUndo undo(folder.path());
+    undo.keep(folder.path() / "a.png");
+    undo.commit();
+  }
+  folder.file("a.png", "new");
+  GoldenUndo(folder.path()).commit();
+  EXPECT_EQ(undoUpdate(folder.path()), 1);
+  EXPECT_EQ(readTextFile(folder.path() / "a.png"), "old");
+}
+
 TEST(GoldenUndo, OfAListThatLeadsElsewhereTouchesNothing) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "golden" / kUndoFolder);

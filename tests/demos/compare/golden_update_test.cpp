@@ -28,6 +28,18 @@ TEST_F(GoldenUpdate, ReplacesByteForByteWhatTheGateRefuses) {
   EXPECT_EQ(std::distance(fs::directory_iterator(golden_.parent_path()), fs::directory_iterator()), 1);
 }
 
+TEST_F(GoldenUpdate, TakesARecordOnlyWhereItIsAnother) {
+  const ImagePair pair{"f.png", actual_, golden_, true, true};
+  fs::create_directories(golden_.parent_path());
+  EXPECT_FALSE(hasOtherRecord(pair)) << "there is none";
+  folder_.file("a/states.carom", "now");
+  EXPECT_TRUE(hasOtherRecord(pair));
+  updateRecord(pair);
+  EXPECT_FALSE(hasOtherRecord(pair));
+  folder_.file("a/states.carom", "then");
+  EXPECT_TRUE(hasOtherRecord(pair));
+}
+
 TEST_F(GoldenUpdate, AddsANewFileAndItsFolder) {
   EXPECT_EQ(updateGolden(comparisonOf(true, false)), Update::kAdded);
   EXPECT_EQ(readTextFile(golden_), readTextFile(actual_));
