@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "demos/formula/random_stream.h"
 #include "demos/language/scene_values.h"
-#include "demos/scene/random_stream.h"
 #include "engine/foundation/elementary.h"
 
 namespace carom::demos {
