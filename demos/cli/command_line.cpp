@@ -1,10 +1,12 @@
 #include "demos/cli/command_line.h"
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <vector>
 
 #include "demos/cli/command_options.h"
+#include "demos/cli/given_values.h"
 #include "demos/cli/manual_page.h"
 #include "demos/cli/shell_completion.h"
 #include "demos/format/nearest_name.h"
@@ -80,7 +82,8 @@ void refuseExtras(const CommandLine& line) {
       throw UsageError("unknown option " + extras[0] + acceptedNames(extras[0], optionNames(line.app)));
     throw UsageError("unknown command \"" + extras[0] + "\"" + acceptedNames(extras[0], names));
   }
-  const std::vector<std::string> extras = line.app.remaining(true);
+  std::vector<std::string> extras = line.app.remaining(true);
+  std::erase(extras, "--");  // what follows it is no option, and has been taken as that
   if (extras.empty()) return;
   const std::string word = extras[0].substr(0, extras[0].find('='));
   const std::string name = chosen[0]->get_name();
@@ -109,6 +112,7 @@ std::string oneLine(std::string text) {
 }  // namespace
 
 std::optional<ExitCode> readCommandLine(CommandLine& line, int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -119,7 +123,9 @@ std::optional<ExitCode> readCommandLine(CommandLine& line, int argc, char** argv
     std::cout << version.what() << '\n';
     return ExitCode::kOk;
   } catch (const CLI::ParseError& error) {
-    refuseExtras(line);  // a misspelt word is the better reason when there is one
+    // A misspelt or an empty word is the better reason when there is one.
+    refuseExtras(line);
+    for (const CLI::App* command : line.app.get_subcommands()) refuseEmptyValues(*command, words);
     throw UsageError(oneLine(error.what()));
   }
   if (line.wants_manual || line.wants_completion || line.wants_zsh || line.wants_fish) {
@@ -131,6 +137,7 @@ std::optional<ExitCode> readCommandLine(CommandLine& line, int argc, char** argv
     return ExitCode::kOk;
   }
   refuseExtras(line);
+  refuseEmptyValues(*line.app.get_subcommands().at(0), words);
   if (line.help_command->parsed()) {
     std::cout << helpOf(line, line.help_of);
     return ExitCode::kOk;

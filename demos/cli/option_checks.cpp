@@ -3,6 +3,7 @@
 
 #include "demos/against/against_result.h"
 #include "demos/cli/command_options.h"
+#include "demos/cli/given_values.h"
 #include "demos/video/moving_picture.h"
 
 namespace carom::demos {
@@ -134,8 +135,6 @@ void checkBudget(CommandLine& line) {
       (!options.baseline.empty() || !options.trace.empty() || !options.csv.empty()))
     throw UsageError(
         "--against takes turns with another program: accepted without --baseline, --csv and --trace");
-  if (options.json == "-" && options.csv == "-")
-    throw UsageError("--json - and --csv -: standard output can take one of them");
 }
 
 }  // namespace
@@ -160,6 +159,12 @@ void checkValues(CommandLine& line) {
     throw UsageError("gallery --part makes the files of one scene; accepted: with one SCENE");
   checkBudget(line);
   if (!line.simulate_options.expected_hash.empty()) requireHash(line.simulate_options.expected_hash);
+  const CLI::App& command = *line.app.get_subcommands().at(0);
+  const std::vector<NamedFile> written = writtenFiles(command);
+  requireNotRead(written, readFiles(command));
+  for (SceneChoice* choice : {&line.render_options.choice, &line.simulate_options.choice,
+                              &line.export_options.choice, &line.budget_options.choice})
+    choice->written = written;
 }
 
 }  // namespace carom::demos

@@ -156,8 +156,9 @@ std::vector<std::string> pacedWords(const BudgetOptions& options, const std::vec
     else if (word.find('=') == std::string::npos)
       ++i;
   }
-  words.insert(words.end(), program.begin() + 1, program.end());
-  words.push_back("--paced");
+  std::vector<std::string> more(program.begin() + 1, program.end());
+  more.emplace_back("--paced");
+  words.insert(std::find(words.begin(), words.end(), "--"), more.begin(), more.end());
   return words;
 }
 

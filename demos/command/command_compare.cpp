@@ -19,6 +19,7 @@
 #include "demos/report/comparison_json.h"
 #include "demos/report/comparison_report.h"
 #include "demos/report/junit.h"
+#include "demos/scene/written_files.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/interrupt.h"
 #include "engine/foundation/contract.h"
@@ -50,8 +51,26 @@ bool isUpdate(const CompareOptions& options) {
   return options.update || !options.accepted.empty();
 }
 
+/// Reports and difference images are none of the files that are compared.
+void requireApart(const CompareOptions& options, const std::vector<ImagePair>& pairs) {
+  std::vector<NamedFile> written, read;
+  if (!options.report.empty() && options.report != "none") written.push_back({"--report", options.report});
+  if (!options.junit.empty()) written.push_back({"--junit", options.junit});
+  for (const ImagePair& pair : pairs) {
+    read.insert(read.end(), {{"ACTUAL", pair.actual}, {"GOLDEN", pair.golden}});
+    for (const fs::path& variant : goldenVariants(pair.golden)) read.push_back({"GOLDEN", variant});
+    if (!options.differences.empty()) written.push_back({"--differences", options.differences / pair.name});
+  }
+  for (const auto& [name, folder] : {std::pair("ACTUAL", options.actual), {"GOLDEN", options.golden}})
+    read.push_back({name, folder / kRecordName});
+  for (const std::string& mask : options.masks)
+    if (mask.starts_with("png:")) read.push_back({"--mask", mask.substr(4)});
+  requireNotRead(written, read);
+}
+
 std::vector<Comparison> compareAll(const CompareOptions& options, const Gate& gate) {
   const std::vector<ImagePair> pairs = imagePairs({options.actual, options.golden, isUpdate(options)});
+  requireApart(options, pairs);
   const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);
   Progress progress({"pair", static_cast<int>(pairs.size())}, style, std::cerr, steadySeconds);
   return comparedPairs(pairs, gate, [&progress](int count) { progress.done(count); });

@@ -64,6 +64,8 @@ Plan recordedPlan(const ExportOptions& options, const RecordingReader& recording
   refuseOptionsOfScenes(options);
   const std::filesystem::path file = options.choice.scene;
   SceneChoice choice = options.choice;
+  const NamedFile read{"the recording", file};
+  requireNotRead(choice.written, {&read, 1});
   choice.scene = options.moved.string();
   choice = recordedChoice({file, recording.header()}, choice, "export --scene");
   const Scene scene = chosenScene(choice);

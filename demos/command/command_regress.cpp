@@ -6,6 +6,7 @@
 #include "demos/format/printable.h"
 #include "demos/format/progress.h"
 #include "demos/regress/regress_index.h"
+#include "demos/scene/written_files.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/interrupt.h"
 #include "demos/system/machine_load.h"
@@ -19,10 +20,24 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
   file.commit();
 }
 
+/// A scene's folder of the output is emptied before it is drawn: no golden frame may lie in it.
+void requireApart(const RegressOptions& options, const RegressSuite& suite) {
+  std::vector<NamedFile> written, read = {{"the suite", suite.file}};
+  if (!options.junit.empty()) written.push_back({"--junit", options.junit});
+  for (const SuiteScene& scene : suite.scenes) {
+    written.push_back({"-o", options.output / scene.name});
+    std::error_code ignored;
+    std::filesystem::path folder = std::filesystem::weakly_canonical(scene.golden, ignored);
+    for (; folder.has_relative_path(); folder = folder.parent_path()) read.push_back({"the suite", folder});
+  }
+  requireNotRead(written, read);
+}
+
 }  // namespace
 
 ExitCode regress(const RegressOptions& options) {
   const RegressSuite suite = readSuite(options.suite);
+  requireApart(options, suite);
   catchInterrupts();
   std::vector<SceneOutcome> outcomes;
   {

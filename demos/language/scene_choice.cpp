@@ -35,6 +35,7 @@ Scene chosenScene(const SceneChoice& choice) {
   if (choice.duration_s) scene.duration_s = *choice.duration_s;
   for (Body& body : scene.bodies)
     if (choice.as_hull) takeHull(body.shape);
+  if (!choice.written.empty()) requireNotRead(choice.written, filesOf(scene, choice.mesh));
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "demos/scene/scene.h"
+#include "demos/scene/written_files.h"
 
 namespace carom::demos {
 
@@ -19,9 +20,11 @@ struct SceneChoice {
   bool as_hull = false;               ///< Of the mesh its convex hull.
   std::vector<std::string> settings;  ///< "path=value", put into the scene.
   int threads = 0;                    ///< That step it; 0: one for each processor, at most eight.
+  std::vector<NamedFile> written;     ///< By the command: nothing that the scene is made of.
 };
 int threadsOf(const SceneChoice& choice);
-/// Reads the scene and puts the chosen seed and duration in.
+/// Reads the scene and puts the chosen seed and duration in. Throws UsageError where one of its files is to
+/// be written.
 Scene chosenScene(const SceneChoice& choice);
 
 struct NamedCamera {
