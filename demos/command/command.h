@@ -27,7 +27,7 @@ struct SimulateOptions {
   double fps = 30.0;             ///< Of the trajectory and of the recording.
   std::filesystem::path output;  ///< The recording.
   TrajectoryPaths trajectory;
-  std::filesystem::path audit;
+  std::filesystem::path audit;  ///< "-": standard output.
   std::string expected_hash;
   Telling telling;
 };
@@ -107,9 +107,9 @@ struct BudgetOptions {
   std::string camera;
   std::string preset = "realtime";
   std::string light;  ///< Empty: the scene's.
-  std::string json;   ///< A file, "-" for standard output, or empty; so is `csv`.
+  std::string json;   ///< A file, "-" for standard output, or empty; so are the next two.
   std::string csv;
-  std::filesystem::path trace;
+  std::string trace;
   std::filesystem::path plot;  ///< .svg or .html; empty: none.
   std::filesystem::path baseline;
   double tolerance_percent = 10.0;

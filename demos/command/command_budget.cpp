@@ -16,6 +16,7 @@
 #include "demos/report/budget_plot.h"
 #include "demos/report/budget_report.h"
 #include "demos/report/trace_events.h"
+#include "demos/scene/written_files.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/build_info.h"
 #include "demos/system/interrupt.h"
@@ -55,7 +56,7 @@ BudgetSubject subjectOf(const BudgetOptions& options, const Scene& scene, const 
 }
 
 void writeText(const std::string& path, const std::string& text) {
-  if (path == "-") {
+  if (path == kStandardOutput) {
     std::cout << text;
     return;
   }
@@ -67,8 +68,8 @@ void writeText(const std::string& path, const std::string& text) {
 void tell(const BudgetOptions& options, const BudgetResult& result, const BaselineComparison* comparison) {
   if (!options.json.empty()) writeText(options.json, budgetJson(result, comparison).text(2) + "\n");
   if (!options.csv.empty()) writeText(options.csv, budgetCsv(result));
-  if (!options.trace.empty()) writeTrace(result, options.trace);
-  if (options.json != "-" && options.csv != "-") {
+  if (!options.trace.empty()) writeText(options.trace, traceText(result));
+  if (options.json != kStandardOutput && options.csv != kStandardOutput && options.trace != kStandardOutput) {
     std::cout << budgetReport(result, comparison);
     return;
   }
@@ -212,7 +213,7 @@ ExitCode budgetAgainst(const BudgetOptions& options) {
   const AgainstResult result = judgedAgainst(rounds, options.against, options.clock);
   if (!options.plot.empty()) writePlot(options.plot, plotOf(options, rounds, result));
   if (!options.json.empty()) writeText(options.json, againstJson(result).text(2) + "\n");
-  if (options.json != "-")
+  if (options.json != kStandardOutput)
     for (const std::string& line : againstLines(result)) std::cout << line << '\n';
   if (result.frame.speed == Speed::kSlower) return ExitCode::kNo;
   for (const SpeedChange& phase : result.phases)

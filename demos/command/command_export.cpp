@@ -131,10 +131,11 @@ class MotionFile {
 };
 
 void printReport(const ExportOptions& options, const Plan& plan, const SceneWorld& made) {
+  if (options.telling.quiet) return;
+  std::ostream& out = options.trajectory.csv == kStandardOutput ? std::cerr : std::cout;
   for (const std::filesystem::path& path : {options.output, options.trajectory.csv, options.trajectory.npy})
-    if (!path.empty()) std::cout << path.string() << "  ";
-  std::cout << plan.frames << " frames at " << plan.clock.fps() << " fps, " << made.names.size()
-            << " bodies\n";
+    if (!path.empty() && path != kStandardOutput) out << path.string() << "  ";
+  out << plan.frames << " frames at " << plan.clock.fps() << " fps, " << made.names.size() << " bodies\n";
 }
 
 }  // namespace

@@ -73,17 +73,17 @@ void writeFrames(FrameOutputs outputs, const SceneWorld& made, const FrameClock&
   }
 }
 
-void printFacts(const World& world, const RunFacts& facts) {
+void printFacts(const World& world, const RunFacts& facts, std::ostream& out) {
   const Audit audit = world.audit();
-  std::cout << hexText(world.stateHash()) << '\n'
-            << "steps=" << world.stepCount() << " time_s=" << world.time()
-            << " bodies=" << world.bodies().size() << " resting=" << audit.resting_bodies
-            << " kinetic_J=" << audit.kinetic_energy_J << " potential_J=" << audit.potential_energy_J
-            << " smallest_gap_m=" << facts.smallest_gap_m << " events=" << facts.events
-            << " stopped_bodies=" << facts.stopped_bodies << " iteration_limits=" << facts.iteration_limits;
-  if (facts.work_J != 0.0) std::cout << " work_J=" << facts.work_J;
-  if (facts.kinematic_late_s > 0.0) std::cout << " kinematic_late_s=" << facts.kinematic_late_s;
-  std::cout << '\n';
+  out << hexText(world.stateHash()) << '\n'
+      << "steps=" << world.stepCount() << " time_s=" << world.time() << " bodies=" << world.bodies().size()
+      << " resting=" << audit.resting_bodies << " kinetic_J=" << audit.kinetic_energy_J
+      << " potential_J=" << audit.potential_energy_J << " smallest_gap_m=" << facts.smallest_gap_m
+      << " events=" << facts.events << " stopped_bodies=" << facts.stopped_bodies
+      << " iteration_limits=" << facts.iteration_limits;
+  if (facts.work_J != 0.0) out << " work_J=" << facts.work_J;
+  if (facts.kinematic_late_s > 0.0) out << " kinematic_late_s=" << facts.kinematic_late_s;
+  out << '\n';
 }
 
 /// What the counters of `printFacts` mean, for whoever reads along.
@@ -134,7 +134,8 @@ ExitCode simulate(const SimulateOptions& options) {
   trajectory.commit();
   audits.commit();
   if (recording) recording->commit();
-  printFacts(made.world, facts);
+  const bool has_rows = options.trajectory.csv == kStandardOutput || options.audit == kStandardOutput;
+  if (!has_rows || !options.telling.quiet) printFacts(made.world, facts, has_rows ? std::cerr : std::cout);
   if (style == ProgressStyle::kLines || style == ProgressStyle::kTerminal) explainFacts();
   const std::string hash = hexText(made.world.stateHash());
   if (options.expected_hash.empty() || options.expected_hash == hash) return ExitCode::kOk;

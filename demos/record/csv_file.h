@@ -1,6 +1,8 @@
 #pragma once
-// A CSV file that is written while a run goes on and appears whole or not at all; nothing when no path is
-// given. Tested through the program in tests/demos/program/program_test.cpp.
+// A CSV file (RFC 4180) that is written while a run goes on and appears whole or not at all; on standard
+// output its rows appear as they come; nothing when no path is given. Tested in
+// tests/demos/record/trajectory_files_test.cpp, and through the program in
+// tests/demos/program/given_values_program_test.cpp.
 
 #include <filesystem>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <string>
 
 #include "demos/system/atomic_file.h"
+#include "demos/system/pipe_writer.h"
 
 namespace carom::demos {
 
@@ -18,22 +21,24 @@ inline std::ostringstream exactRow() {
   return row;
 }
 
+/// Text as one field of a row, whatever it holds.
+std::string quotedField(const std::string& text);
+
 class CsvFile {
  public:
-  /// Throws CannotWrite, as do the others.
-  CsvFile(const std::filesystem::path& path, const char* header) {
-    if (path.empty()) return;
-    file_.emplace(path);
-    file_->write(std::string(header) + "\n");
-  }
-  explicit operator bool() const { return file_.has_value(); }
-  void row(const std::ostringstream& row) { file_->write(row.str() + "\n"); }
-  void commit() {
-    if (file_) file_->commit();
-  }
+  /// "-" is standard output. Throws CannotWrite, as do the others, and PipeClosed.
+  CsvFile(const std::filesystem::path& path, const char* header);
+  explicit operator bool() const { return file_.has_value() || pipe_.has_value(); }
+  void row(const std::ostringstream& row) { add(row.str()); }
+  void commit();
 
  private:
+  void add(const std::string& line);
+  void empty();
+
   std::optional<AtomicFile> file_;
+  std::optional<PipeWriter> pipe_;
+  std::string waiting_;  ///< Rows on their way to the pipe.
 };
 
 }  // namespace carom::demos

@@ -86,9 +86,9 @@ void TrajectoryFiles::addRows(double time_s, std::span<const BodyState> states) 
     const Vec3& v = s.linear_velocity;
     const Vec3& w = s.angular_velocity;
     std::ostringstream row = exactRow();
-    row << frames_ << ',' << time_s << ",\"" << names_[i] << "\"," << p.x() << ',' << p.y() << ',' << p.z()
-        << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ',' << v.y() << ','
-        << v.z() << ',' << w.x() << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
+    row << frames_ << ',' << time_s << ',' << quotedField(names_[i]) << ',' << p.x() << ',' << p.y() << ','
+        << p.z() << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << v.x() << ','
+        << v.y() << ',' << v.z() << ',' << w.x() << ',' << w.y() << ',' << w.z() << ',' << modeName(s.mode);
     csv_.row(row);
   }
 }

@@ -17,7 +17,7 @@
 namespace carom::demos {
 
 struct TrajectoryPaths {
-  std::filesystem::path csv;  ///< Empty: none, as the others.
+  std::filesystem::path csv;  ///< "-": standard output. Empty: none, as the others.
   std::filesystem::path npy;  ///< A folder.
 };
 

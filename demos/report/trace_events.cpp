@@ -4,7 +4,6 @@
 
 #include "demos/format/content_hash.h"
 #include "demos/format/json.h"
-#include "demos/system/atomic_file.h"
 
 namespace carom::demos {
 namespace {
@@ -50,23 +49,23 @@ Json sliceEvent(const PhaseSlice& slice, const Replay& replay, double budget_ms)
 
 }  // namespace
 
-void writeTrace(const BudgetResult& result, const std::filesystem::path& path) {
-  AtomicFile file(path);
-  file.write("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
-  file.write(nameEvent("process_name", "carom budget " + result.subject.scene).text() + ",\n");
-  file.write(
+std::string traceText(const BudgetResult& result) {
+  std::string trace;
+  trace.append("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
+  trace.append(nameEvent("process_name", "carom budget " + result.subject.scene).text() + ",\n");
+  trace.append(
       nameEvent("thread_name", "quickest of " + std::to_string(result.replays.size()) + " replays").text());
   for (const Replay& replay : result.replays)
     for (const PhaseSlice& slice : replay.slices) {
-      file.write(",\n" + sliceEvent(slice, replay, result.gate.budget_ms).text());
+      trace.append(",\n" + sliceEvent(slice, replay, result.gate.budget_ms).text());
       if (slice.phase != FramePhase::kOther) continue;
       const FrameCost& frame = replay.frames[static_cast<std::size_t>(slice.frame)];
-      file.write(",\n" + counterEvent("contacts", slice.begin_us, frame.contacts).text());
-      file.write(",\n" + counterEvent("pairs", slice.begin_us, frame.pairs).text());
-      file.write(",\n" + counterEvent("frame ms", slice.begin_us, frame.total_ms).text());
+      trace.append(",\n" + counterEvent("contacts", slice.begin_us, frame.contacts).text());
+      trace.append(",\n" + counterEvent("pairs", slice.begin_us, frame.pairs).text());
+      trace.append(",\n" + counterEvent("frame ms", slice.begin_us, frame.total_ms).text());
     }
-  file.write("\n]}\n");
-  file.commit();
+  trace.append("\n]}\n");
+  return trace;
 }
 
 }  // namespace carom::demos

@@ -3,13 +3,12 @@
 // open: frames with their phases inside, and counters of contacts, pairs and the frame's time. Tested in
 // tests/demos/report/trace_events_test.cpp.
 
-#include <filesystem>
+#include <string>
 
 #include "demos/budget/budget_result.h"
 
 namespace carom::demos {
 
-/// Throws CannotWrite.
-void writeTrace(const BudgetResult& result, const std::filesystem::path& path);
+std::string traceText(const BudgetResult& result);
 
 }  // namespace carom::demos

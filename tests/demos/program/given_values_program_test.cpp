@@ -28,6 +28,9 @@ struct GivenValues : testing::Test {
     SCOPED_TRACE(testing::PrintToString(words));
     expectOneLine(runCarom(words), 2, part);
   }
+  static int linesOf(const std::string& text) {
+    return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  }
 };
 
 TEST_F(GivenValues, AreNotEmpty) {
@@ -100,6 +103,27 @@ TEST_F(GivenValues, NameEachFileToWriteOnce) {
   expectUsage({"export", file, at("x.glb"), "--csv", at("x.glb")}, "given twice");
   expectUsage({"simulate", file, "-q", "--csv", "-", "--audit", "-"}, "given twice");
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(GivenValues, OfADashAreStandardOutputWhereThatIsText) {
+  const std::string file = scene.string();
+  // 3 frames at 30 fps of 0.1 s, two bodies; 24 steps.
+  const Program simulated({"simulate", file, "--progress", "none", "--csv", "-"});
+  const ProgramEnd trajectory = simulated.wait();
+  EXPECT_EQ(trajectory.code, 0) << trajectory.err;
+  EXPECT_EQ(trajectory.out.rfind("frame,time_s,body", 0), 0u) << trajectory.out;
+  EXPECT_EQ(linesOf(trajectory.out), 1 + 3 * 2);
+  EXPECT_NE(trajectory.err.find("steps=24"), std::string::npos) << trajectory.err;
+  EXPECT_TRUE(fs::is_empty(simulated.folder()));
+  const ProgramEnd audit = runCarom({"simulate", file, "-q", "--audit", "-"});
+  EXPECT_EQ(linesOf(audit.out), 1 + 24);
+  EXPECT_EQ(audit.err, "");
+  EXPECT_EQ(runCarom({"export", file, "-q", "--csv", "-"}).out, trajectory.out);
+  for (const Words& words : std::vector<Words>{{"simulate", file, "-o", "-"},
+                                               {"simulate", file, "--npy", "-"},
+                                               {"compare", "a", "b", "--report", "-"},
+                                               {"gallery", file, "-o", "-"}})
+    expectUsage(words, " -: this does not go to standard output");
 }
 
 }  // namespace

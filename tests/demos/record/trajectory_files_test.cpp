@@ -121,6 +121,17 @@ TEST(TrajectoryFiles, ACsvHasARowABodyAndFrame) {
   EXPECT_NE(second.find("\"b\u00e5ll\",1001.1,1002.1"), std::string::npos) << second;
 }
 
+TEST(TrajectoryFiles, ANameIsOneFieldOfTheCsvWhateverItHolds) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names{"a\",\"b", "c,d\"\n"};
+  TrajectoryFiles files({folder.path() / "run.csv", {}}, names, 1);
+  files.add(0.0, statesAt(0));
+  files.commit();
+  const std::string text = readTextFile(folder.path() / "run.csv");
+  EXPECT_NE(text.find("\n0,0,\"a\"\",\"\"b\",1.1"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n0,0,\"c,d\"\"\n\",1001.1"), std::string::npos) << text;
+}
+
 TEST(TrajectoryFiles, NothingIsThereBeforeTheEnd) {
   const TemporaryFolder folder;
   {

@@ -36,10 +36,8 @@ struct Span {
 };
 
 TEST(TraceEvents, PhasesLieWithinTheirFramesAndEveryEventHasWhatTheFormatAsksFor) {
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "trace.json";
-  writeTrace(sampleResult({1000.0, 50.0}, {tracedReplay(), sampleReplay(2)}), file);
-  const Json trace = Json::parse(readTextFile(file), "trace");
+  const Json trace =
+      Json::parse(traceText(sampleResult({1000.0, 50.0}, {tracedReplay(), sampleReplay(2)})), "trace");
   std::map<std::string, std::vector<Span>> spans;
   int counters = 0, names = 0;
   for (const Json& event : trace.at("traceEvents").items()) {
