@@ -3,6 +3,7 @@
 #include "demos/command/command.h"
 
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -99,13 +100,6 @@ void noteUnseen(const std::vector<Comparison>& comparisons, RecordShelf& shelf) 
     if (cause.known())
       std::cerr << "note: " << printable(folder.string() + " passes, but " + cause.headline) << '\n';
   }
-}
-
-/// The report's path, or nothing when none is wanted.
-fs::path reportPath(const CompareOptions& options, bool passes) {
-  if (options.report == "none") return {};
-  if (options.report.empty()) return passes ? "" : "compare-report.html";
-  return options.report;
 }
 
 void writeDifferences(const CompareOptions& options, const std::vector<Comparison>& comparisons,
@@ -209,6 +203,39 @@ std::string undoCommand(const CompareOptions& options) {
          " --undo";
 }
 
+/// The report's path, or nothing when none is wanted.
+fs::path reportPath(const CompareOptions& options, bool passes) {
+  if (options.report == "none") return {};
+  if (options.report.empty()) return passes ? "" : "compare-report.html";
+  return options.report;
+}
+
+/// Where it was written. Nobody asked for the usual one: where it cannot be written, that is only noted.
+fs::path writeReport(const CompareOptions& options, const std::vector<Comparison>& comparisons,
+                     const Gate& gate) {
+  const Tally tally = tallyOf(comparisons);
+  const fs::path path = reportPath(options, tally.passed == tally.total);
+  if (path.empty()) return {};
+  try {
+    writeComparisonReport(path, comparisons,
+                          {options.actual.string(),
+                           options.golden.string(),
+                           gate,
+                           options.report_pairs,
+                           options.amplify,
+                           isUpdate(options),
+                           {options.accepted.begin(), options.accepted.end()},
+                           updateCommand(options, " --accept "),
+                           undoCommand(options)});
+  } catch (const CannotWrite& error) {
+    if (!options.report.empty()) throw;
+    if (!options.telling.quiet)
+      std::cerr << "note: " << printable(error.what()) << "; accepted: --report FILE, or none\n";
+    return {};
+  }
+  return path;
+}
+
 const Comparison* firstUnreadable(const std::vector<Comparison>& comparisons) {
   for (const Comparison& c : comparisons)
     if (c.verdict == Verdict::kUnreadable) return &c;
@@ -272,28 +299,23 @@ ExitCode compare(const CompareOptions& options) {
   std::vector<Comparison> comparisons = compareAll(options, gate);
   requireKnown(options, comparisons);
   explain(comparisons, gate, shelf);
-  const Tally tally = tallyOf(comparisons);
-  const fs::path report = reportPath(options, tally.passed == tally.total);
-  if (!report.empty())
-    writeComparisonReport(report, comparisons,
-                          {options.actual.string(),
-                           options.golden.string(),
-                           gate,
-                           options.report_pairs,
-                           options.amplify,
-                           isUpdate(options),
-                           {options.accepted.begin(), options.accepted.end()},
-                           updateCommand(options, " --accept "),
-                           undoCommand(options)});
-  if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
-  if (!options.junit.empty()) writeJunit(options, comparisons, gate);
-  ComparisonOutcome outcome{comparisons, gate, report.string(), {}};
-  if (isUpdate(options)) outcome.updates = updateAll(options, comparisons);
+  ComparisonOutcome outcome{comparisons, gate, "", {}};
+  // What cannot be written does not keep the verdict from being told.
+  std::exception_ptr unwritten;
+  try {
+    outcome.report = writeReport(options, comparisons, gate).string();
+    if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
+    if (!options.junit.empty()) writeJunit(options, comparisons, gate);
+    if (isUpdate(options)) outcome.updates = updateAll(options, comparisons);
+  } catch (const CannotWrite&) {
+    unwritten = std::current_exception();
+  }
   if (options.json) {
     std::cout << comparisonJson(outcome).text(2) << '\n';
   } else {
     printLines(outcome);
   }
+  if (unwritten) std::rethrow_exception(unwritten);
   if (!options.telling.quiet) {
     noteUnseen(comparisons, shelf);
     for (const std::string& problem : shelf.problems()) std::cerr << "note: " << printable(problem) << '\n';

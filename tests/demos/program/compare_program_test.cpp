@@ -159,6 +159,27 @@ TEST_F(Compare, UnwritableTargetsEndWith4) {
   EXPECT_EQ(runCarom({"compare", at("actual/b.png").string(), below_a_file, "-q", "--update"}).code, 4);
 }
 
+TEST_F(Compare, TheVerdictIsToldWhateverCannotBeWritten) {
+  add("b.png", changed(golden_, 33, 7, 62), golden_);
+  // A folder that is in the place of the usual report cannot be replaced by it, not even by root.
+  const std::vector<std::string> words = {"compare", at("actual").string(), at("golden").string()};
+  const Program usual(words);
+  fs::create_directories(usual.folder() / "compare-report.html");
+  const ProgramEnd end = usual.wait();
+  EXPECT_EQ(end.code, 1);
+  EXPECT_NE(end.out.find("1 of 2 pass, 1 differs"), std::string::npos) << end.out;
+  EXPECT_NE(end.err.find("note: cannot write compare-report.html: "), std::string::npos) << end.err;
+  EXPECT_EQ(end.err.find("; report: "), std::string::npos) << end.err;
+  for (const char* option : {"--report", "--junit"}) {
+    const ProgramEnd asked = run({option, folder_.path().string()});
+    expectOneLine(asked, 4, "cannot write");
+    EXPECT_NE(asked.out.find("1 of 2 pass, 1 differs"), std::string::npos) << asked.out;
+  }
+  // Golden files are replaced last: not where what was to be shown of them was not.
+  EXPECT_EQ(run({"--update", "--report", folder_.path().string()}).code, 4);
+  EXPECT_EQ(run({"--report", "none"}).code, 1);
+}
+
 TEST_F(Compare, JsonTellsEveryPairInTheOrderOfNames) {
   add("z.png", golden_, golden_);
   add("b.png", changed(golden_, 33, 7, 62), golden_);
