@@ -56,7 +56,7 @@ ExitCode gallery(const GalleryOptions& options) {
     Progress progress({"scene", static_cast<int>(plan.scenes.size())}, style, std::cerr, steadySeconds);
     outcome = runGallery(plan, [&progress](int count) { progress.done(count); });
   }
-  const std::filesystem::path index = options.output / "index.html";
+  const std::filesystem::path index = options.output / kGalleryIndex;
   AtomicFile file(index);
   file.write(galleryIndex(outcome.entries));
   file.commit();

@@ -1,5 +1,6 @@
 #include "demos/gallery/gallery_entry.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "demos/asset/asset_path.h"
@@ -72,17 +73,33 @@ std::string galleryIdentity(const Scene& scene, const GalleryShape& shape) {
   return hexText(hash.value());
 }
 
+namespace {
+
+/// Whether it is there as it was written, in the gallery itself.
+bool isAsWritten(const GalleryFile& file, const std::filesystem::path& folder) {
+  const std::filesystem::path name = std::filesystem::path(file.name).lexically_normal();
+  if (name.empty() || name.is_absolute() || *name.begin() == "..") return false;
+  std::error_code failed;
+  const std::filesystem::path path = folder / name;
+  if (static_cast<std::int64_t>(std::filesystem::file_size(path, failed)) != file.bytes || failed)
+    return false;
+  ContentHash hash;
+  hash.add(readTextFile(path));
+  return hash.value() == file.hash;
+}
+
+}  // namespace
+
 bool isWhole(const GalleryEntry& entry, const std::filesystem::path& folder) {
+  return !entry.files.empty() && std::all_of(entry.files.begin(), entry.files.end(),
+                                             [&](const GalleryFile& f) { return isAsWritten(f, folder); });
+}
+
+void removeFiles(const GalleryEntry& entry, const std::filesystem::path& folder) {
   for (const GalleryFile& file : entry.files) {
-    std::error_code failed;
-    const std::filesystem::path path = folder / file.name;
-    if (static_cast<std::int64_t>(std::filesystem::file_size(path, failed)) != file.bytes || failed)
-      return false;
-    ContentHash hash;
-    hash.add(readTextFile(path));
-    if (hash.value() != file.hash) return false;
+    std::error_code ignored;
+    if (isAsWritten(file, folder)) std::filesystem::remove(folder / file.name, ignored);
   }
-  return !entry.files.empty();
 }
 
 }  // namespace carom::demos

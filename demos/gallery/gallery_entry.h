@@ -57,4 +57,7 @@ std::string galleryIdentity(const Scene& scene, const GalleryShape& shape);
 /// Whether all files of the entry are there and as they were written.
 bool isWhole(const GalleryEntry& entry, const std::filesystem::path& folder);
 
+/// Removes those of its files that are as they were written.
+void removeFiles(const GalleryEntry& entry, const std::filesystem::path& folder);
+
 }  // namespace carom::demos

@@ -62,10 +62,23 @@ std::map<std::string, GalleryEntry> formerEntries(const fs::path& folder) {
   return former;
 }
 
-void note(const std::vector<std::optional<GalleryEntry>>& entries, const fs::path& folder) {
+/// An index page that no gallery has written is somebody else's.
+void requireOwnIndex(const fs::path& folder) {
+  const fs::path index = folder / kGalleryIndex;
+  std::error_code ignored;
+  if (fs::exists(index, ignored) && !fs::exists(folder / kGalleryFile, ignored))
+    throw CannotWrite("cannot write " + index.string() + ": it is there already, and no " + kGalleryFile +
+                      " beside it says that it is a gallery's; accepted: another folder");
+}
+
+using Entries = std::vector<std::optional<GalleryEntry>>;
+
+/// What is in the folder: what is made, and of the run before what is not made anew or removed yet.
+void note(const Entries& entries, const std::map<std::string, GalleryEntry>& former, const fs::path& folder) {
   Json scenes = Json::array();
   for (const std::optional<GalleryEntry>& entry : entries)
     if (entry) scenes.push(entry->json());
+  for (const auto& [name, entry] : former) scenes.push(entry.json());
   AtomicFile file(folder / kGalleryFile);
   file.write(Json::object({{"format", 1}, {"scenes", std::move(scenes)}}).text(2) + "\n");
   file.commit();
@@ -76,8 +89,8 @@ std::vector<std::string> wordsOf(const std::string& scene, const GalleryShape& s
   size << shape.width << 'x' << shape.height;
   fps.precision(17);
   fps << shape.fps;
-  return {"gallery", scene,     "--part", "-o",    shape.folder.string(), "--size", size.str(),
-          "--fps",   fps.str(), "--gl",   shape.gl};
+  return {"gallery", "--part", "-o", shape.folder.string(), "--size", size.str(), "--fps", fps.str(), "--gl",
+          shape.gl,  "--",     scene};
 }
 
 std::string lastLine(const fs::path& file) {
@@ -98,7 +111,11 @@ struct Running {
 class Making {
  public:
   Making(const GalleryPlan& plan, const std::function<void(int)>& done)
-      : plan_(plan), done_(done), work_(plan.shape.folder), entries_(plan.scenes.size()) {}
+      : plan_(plan),
+        done_(done),
+        work_(plan.shape.folder),
+        former_(formerEntries(plan.shape.folder)),
+        entries_(plan.scenes.size()) {}
 
   GalleryOutcome run(const std::vector<std::string>& names) {
     keep(names);
@@ -120,7 +137,8 @@ class Making {
       std::erase_if(running, [&](const Running& one) { return one.index == plan_.scenes.size(); });
       if (!running.empty()) std::this_thread::sleep_for(kLook);
     }
-    note(entries_, plan_.shape.folder);
+    for (const auto& [name, entry] : former_) removeFiles(entry, plan_.shape.folder);
+    note(entries_, {}, plan_.shape.folder);
     for (std::optional<GalleryEntry>& entry : entries_)
       if (entry) outcome_.entries.push_back(std::move(*entry));
     return std::move(outcome_);
@@ -128,10 +146,9 @@ class Making {
 
  private:
   void keep(const std::vector<std::string>& names) {
-    std::map<std::string, GalleryEntry> former = formerEntries(plan_.shape.folder);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto known = former.find(names[i]);
-      if (known == former.end() || !isWhole(known->second, plan_.shape.folder)) continue;
+      const auto known = former_.find(names[i]);
+      if (known == former_.end() || !isWhole(known->second, plan_.shape.folder)) continue;
       try {
         SceneChoice choice;
         choice.scene = plan_.scenes[i];
@@ -140,6 +157,7 @@ class Making {
         continue;  // its own process will say what is wrong
       }
       entries_[i] = std::move(known->second);
+      former_.erase(known);
       ++outcome_.kept;
     }
     finished_ = outcome_.kept;
@@ -149,7 +167,8 @@ class Making {
   void finish(std::size_t index, const std::string& name, int code) {
     if (code == 0) {
       entries_[index] = galleryEntry(Json::parse(readTextFile(work_.out(name)), name));
-      note(entries_, plan_.shape.folder);
+      former_.erase(name);
+      note(entries_, former_, plan_.shape.folder);
     } else {
       outcome_.failures.push_back({name, code, lastLine(work_.err(name))});
     }
@@ -159,7 +178,8 @@ class Making {
   const GalleryPlan& plan_;
   const std::function<void(int)>& done_;
   WorkFolder work_;
-  std::vector<std::optional<GalleryEntry>> entries_;
+  std::map<std::string, GalleryEntry> former_;  ///< Of the run before, not kept or made anew.
+  Entries entries_;
   GalleryOutcome outcome_;
   int finished_ = 0;
 };
@@ -174,6 +194,7 @@ GalleryOutcome runGallery(const GalleryPlan& plan, const std::function<void(int)
       throw UsageError("gallery: two scenes are called \"" + names.back() +
                        "\"; accepted: scenes of different names");
   }
+  requireOwnIndex(plan.shape.folder);
   return Making(plan, done).run(names);
 }
 

@@ -30,11 +30,13 @@ struct GalleryOutcome {
   int kept = 0;
 };
 
-/// `done` is told how many scenes are finished. Throws UsageError for two scenes of one name, InputError for
-/// a scene that is not there, Interrupted after ending what runs.
+/// Removes what an earlier run wrote of scenes that are not in the gallery any more. `done` is told how many
+/// scenes are finished. Throws UsageError for two scenes of one name, InputError for a scene that is not
+/// there, CannotWrite where the folder has an index page of its own, Interrupted after ending what runs.
 GalleryOutcome runGallery(const GalleryPlan& plan, const std::function<void(int)>& done);
 
 /// The file in the gallery's folder that says what is in it.
 inline constexpr const char* kGalleryFile = "gallery.json";
+inline constexpr const char* kGalleryIndex = "index.html";
 
 }  // namespace carom::demos

@@ -49,6 +49,18 @@ TEST(GalleryEntry, IsNotWholeOnceAFileIsAnother) {
   EXPECT_FALSE(isWhole(entry, folder.path()));
 }
 
+TEST(GalleryEntry, RemovesOnlyFilesOfTheGalleryThatAreAsWritten) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "in");
+  GalleryEntry entry = sample(folder);
+  entry.files[0].name = "../page.html";  // whole, and not in the gallery's folder "in"
+  removeFiles(entry, folder.path() / "in");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "page.html"));
+  entry.files[0].name = "page.html";
+  removeFiles(entry, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "page.html"));
+}
+
 TEST(GalleryIdentity, FollowsTheSceneAndThePictures) {
   const TemporaryFolder folder;
   const std::string text = R"({ "format": 1, "bodies": [{ "name": "a", "shape": { "box": [1, 1, 1] } }] })";

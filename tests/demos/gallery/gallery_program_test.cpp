@@ -74,6 +74,26 @@ TEST_F(Gallery, MakesAgainOnlyWhatIsAnother) {
   EXPECT_NE(runCarom(words({"--fps", "10"})).out.find("(2 made, 0 kept)"), std::string::npos);
 }
 
+TEST_F(Gallery, RemovesWhatItWroteOfOtherScenesAndNothingElse) {
+  ASSERT_EQ(runCarom(words()).code, 0);
+  std::ofstream(out / "pictures/mine.png") << "mine";
+  std::ofstream(out / galleryPage("two"), std::ios::app) << "edited";
+  ASSERT_EQ(runCarom({"gallery", one.string(), "-o", out.string(), "-q", "--size", "160x90"}).code, 0);
+  EXPECT_TRUE(fs::exists(out / galleryPage("one")));
+  EXPECT_FALSE(fs::exists(out / galleryPicture("two")));
+  EXPECT_FALSE(fs::exists(out / galleryStill("two")));
+  EXPECT_TRUE(fs::exists(out / galleryPage("two"))) << "somebody has written to it";
+  EXPECT_TRUE(fs::exists(out / "pictures/mine.png"));
+  EXPECT_EQ(manifest().at("scenes").items().size(), 1u);
+}
+
+TEST_F(Gallery, TakesNoFolderWithAnIndexPageOfSomebodyElse) {
+  fs::create_directories(out);
+  std::ofstream(out / "index.html") << "mine";
+  expectOneLine(runCarom(words()), 4, "it is there already");
+  EXPECT_EQ(readTextFile(out / "index.html"), "mine");
+}
+
 TEST_F(Gallery, ASceneThatFailsIsNamedAndTheOthersAreThere) {
   folder.file("two.json", "{ \"format\": 1, \"bodies\": [] }");
   const ProgramEnd end = runCarom(words());
