@@ -25,7 +25,7 @@ void addSceneOptions(CLI::App& command, SceneChoice& choice) {
   command.add_option("SCENE", choice.scene, "A shipped scene's name (see list) or a path to a .json file")
       ->required();
   command.add_option("--duration", choice.duration_s, "Seconds instead of the scene's own");
-  command.add_option("--seed", choice.seed, "Seed of the scene's jitter");
+  command.add_option("--seed", choice.seed, "Seed of the scene's jitter")->check(CLI::Range(0, kMostSeed));
   addMeshOptions(command, choice);
   addSettings(command, choice);
 }

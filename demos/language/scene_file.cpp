@@ -282,7 +282,7 @@ Scene readScene(const Json& written, const std::filesystem::path& path, std::siz
   if (const Json* value = json.find("gravity")) scene.gravity = readVec3(*value, {-1000.0, 1000.0});
   if (const Json* value = json.find("rate")) scene.rate_hz = readNumber(*value, {10.0, 100000.0});
   if (const Json* value = json.find("seed"))
-    scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, 1000000000));
+    scene.seed = static_cast<std::uint64_t>(readWhole(*value, 0, kMostSeed));
   if (const Json* value = json.find("duration")) scene.duration_s = readNumber(*value, {0.0, 3600.0, true});
   scene.written_duration_s = scene.duration_s;
   if (const Json* value = json.find("air")) scene.air = readAir(*value);

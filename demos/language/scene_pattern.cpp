@@ -139,7 +139,7 @@ std::vector<Pose> readRandom(const Json& json) {
   const Vec3 size_m = readVec3(json.at("size"), {0.0, kLargestLength_m});
   const double apart_m = readOr(json, "apart", {0.0, kLargestLength_m}, 0.0);
   const Json* seed = json.find("seed");
-  RandomStream random(seed == nullptr ? 1 : static_cast<std::uint64_t>(readWhole(*seed, 0, 1000000000)));
+  RandomStream random(seed == nullptr ? 1 : static_cast<std::uint64_t>(readWhole(*seed, 0, kMostSeed)));
   const bool turns = readFlag(json, "turn", false);
   std::vector<Pose> copies;
   const auto isFree = [&](const Vec3& place) {

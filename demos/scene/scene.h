@@ -30,6 +30,7 @@ inline constexpr double kSmallestDensity_kgpm3 = 1e-6;
 inline constexpr double kLargestDensity_kgpm3 = 1e6;
 inline constexpr int kMostBodies = 20000;
 inline constexpr int kMostParts = 200000;  ///< Convex parts of all bodies.
+inline constexpr int kMostSeed = 1000000000;
 
 /// "file:line: json.path" of a value.
 using Place = std::string;
