@@ -5,6 +5,7 @@
 #include "demos/cli/help_formatter.h"
 #include "demos/cli/shared_options.h"
 #include "demos/system/build_info.h"
+#include "renderer/image/png.h"
 
 namespace carom::demos {
 
@@ -98,7 +99,7 @@ void CommandLine::addSimulate() {
   simulate_command->add_option("--fps", simulate_options.fps, "Frames a second of --csv, --npy and -o")
       ->capture_default_str();
   simulate_command->add_option("--audit", simulate_options.audit,
-                               "One row a step: energy, momentum, gap, counters");
+                               "One row a step: energy, momentum, gap, counters; or -");
   simulate_command->add_option("--expect-hash", simulate_options.expected_hash,
                                "Exit 1 when the final state hash differs");
   addThreadsOption(*simulate_command, simulate_options.choice);
@@ -168,7 +169,7 @@ void CommandLine::addCompare() {
   compare_command
       ->add_option("--allow-pixels", options.allowed_pixels,
                    "This many pixels of an image may differ by more all the same")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(std::int64_t{0}, renderer::kMaxPngPixels))
       ->capture_default_str();
   compare_command->add_option("--report", options.report,
                               "HTML report, or none (compare-report.html, when a pair does not pass)");
@@ -249,7 +250,7 @@ void CommandLine::addBudget() {
                              "All figures as JSON, to a file or - for standard output");
   budget_command->add_option("--csv", options.csv, "One row a frame, to a file or - for standard output");
   budget_command->add_option("--trace", options.trace,
-                             "The quickest replay as trace events, for ui.perfetto.dev");
+                             "The quickest replay as trace events, for ui.perfetto.dev; or -");
   budget_command->add_option(
       "--plot", options.plot,
       "The frame times as a picture (.svg, or .html): phases stacked, deadline, percentiles,\n"

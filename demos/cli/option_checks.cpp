@@ -59,9 +59,29 @@ bool namesANumber(const std::string& output) {
   return std::filesystem::path(output).filename().string().find_first_of("%#") != std::string::npos;
 }
 
+/// One file holds what would have files of their own.
+void refuseNumber(const std::string& what, const std::string& file) {
+  if (namesANumber(file))
+    throw UsageError(what + " is one file: " + file + "; accepted: a name without % and #");
+}
+
+/// What is of many frames says nothing of one picture that is drawn of the start.
+void requireOfOne(const CLI::App& render, const RenderOptions& options) {
+  if (!options.from.empty())
+    throw UsageError("-o " + options.output +
+                     ": --from has frames; accepted: a name with a number, such as frame_%04d.png, and "
+                     "--frames 0 for one of them");
+  for (const char* option : {"--fps", "--speed", "--duration"})
+    if (render.count(option) > 0)
+      throw UsageError(
+          std::string(option) + " is of many frames, -o " + options.output +
+          " is one picture; accepted: --at SECONDS, or a name with a number, such as frame_%04d.png");
+}
+
 /// What `-o` is to become, by its name: a moving picture, or one picture.
-void settleOutput(RenderOptions& options) {
+void settleOutput(const CLI::App& render, RenderOptions& options) {
   const std::filesystem::path path(options.output);
+  if (options.at_s) refuseNumber("--at", options.output);
   if (isMovingPicture(path)) {
     if (!options.sheet.empty())
       throw UsageError("--sheet: -o " + options.output + ": accepted: a name that ends in .png");
@@ -78,11 +98,29 @@ void settleOutput(RenderOptions& options) {
   if (!options.sheet.empty() && !options.output.empty() && !is_one)
     throw UsageError("--sheet: -o " + options.output +
                      ": accepted: a name that ends in .png, without a number");
-  const bool is_part = !options.frames.empty() || !options.shard.empty() || !options.from.empty();
-  if (is_one && options.sheet.empty() && !options.at_s && !is_part) options.at_s = 0.0;
+  const bool is_part = !options.frames.empty() || !options.shard.empty();
+  if (!is_one || !options.sheet.empty() || options.at_s || is_part) return;
+  requireOfOne(render, options);
+  options.at_s = 0.0;
+}
+
+/// A record is of a run's frames and of nothing less; overlays watch the world themselves.
+void requireRecordable(const RenderOptions& options) {
+  const char* without = options.at_s                ? "--at, or with a number in the name of -o"
+                        : !options.shard.empty()    ? "--shard"
+                        : !options.from.empty()     ? "--from"
+                        : !options.stream.empty()   ? "--stream"
+                        : !options.moving.empty()   ? "a moving picture"
+                        : !options.sheet.empty()    ? "--sheet"
+                        : !options.overlays.empty() ? "--overlay"
+                                                    : nullptr;
+  if (without != nullptr)
+    throw UsageError(
+        std::string("--states is a record beside the frames of a whole run; accepted: without ") + without);
 }
 
 void checkRender(const RenderOptions& options) {
+  refuseNumber("a moving picture", options.moving.string());
   if (!options.focus.empty() && options.overlays.empty())
     throw UsageError("--focus is of --overlay, which is missing");
   if (options.choice.scene.empty() && options.from.empty())
@@ -146,8 +184,9 @@ void checkValues(CommandLine& line) {
   requireWithin("--fps", line.render_options.fps, kHighestFps);
   requireWithin("--fps", line.simulate_options.fps, kHighestFps);
   if (line.render_command->parsed()) {
-    settleOutput(line.render_options);
+    settleOutput(*line.render_command, line.render_options);
     checkRender(line.render_options);
+    if (line.render_options.states) requireRecordable(line.render_options);
   }
   if (!line.render_options.sheet.empty()) readSize("320x180", line.render_options);
   if (!line.size.empty()) readSize(line.size, line.render_options);

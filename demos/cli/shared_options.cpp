@@ -68,7 +68,9 @@ void addPresetOption(CLI::App& command, std::string& preset) {
 }
 
 void addTrajectoryOptions(CLI::App& command, TrajectoryPaths& paths) {
-  command.add_option("--csv", paths.csv, "One row a body and frame: poses, velocities, modes");
+  command.add_option(
+      "--csv", paths.csv,
+      "One row a body and frame: poses, velocities, modes; to a file or - for standard output");
   command.add_option("--npy", paths.npy, "A folder of NumPy arrays: times, poses, velocities, modes, names");
 }
 

@@ -104,12 +104,15 @@ ExitCode simulate(const SimulateOptions& options) {
   SceneWorld made = makeSceneWorld(scene, options.choice.mesh, threadsOf(options.choice));
   const FrameClock clock({options.fps, scene.rate_hz});
   const int steps = clock.stepCount(scene.duration_s);
-  if (!options.output.empty() && clock.frameCount(scene.duration_s) < 1)
-    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame to record");
+  const int frames = clock.frameCount(scene.duration_s);
+  const bool has_frames =
+      !options.output.empty() || !options.trajectory.csv.empty() || !options.trajectory.npy.empty();
+  if (has_frames && frames < 1)
+    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame at " +
+                     plainNumber(options.fps) + " fps to write");
   if (steps < 1) refuseStepless(options.choice, scene);
 
   catchInterrupts();
-  const int frames = clock.frameCount(scene.duration_s);
   TrajectoryFiles trajectory(options.trajectory, made.names, frames);
   CsvFile audits(
       options.audit,

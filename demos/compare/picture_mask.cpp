@@ -12,9 +12,9 @@
 namespace carom::demos {
 
 struct PictureMask::Rule {
+  std::string text;
   std::string body;  ///< Empty: one of the others.
   int x = 0, y = 0, width = 0, height = 0;
-  std::string file;
   std::optional<renderer::Raster> image;
 };
 
@@ -48,12 +48,12 @@ PictureMask::PictureMask(const std::vector<std::string>& texts, RecordShelf& she
     : texts_(texts), shelf_(shelf) {
   for (const std::string& text : texts) {
     Rule rule;
+    rule.text = text;
     char rest = 0;
     if (text.rfind("body:", 0) == 0 && text.size() > 5) {
       rule.body = text.substr(5);
     } else if (text.rfind("png:", 0) == 0 && text.size() > 4) {
-      rule.file = text.substr(4);
-      rule.image = renderer::readPngRaster(rule.file).raster;
+      rule.image = renderer::readPngRaster(text.substr(4)).raster;
     } else if (std::sscanf(text.c_str(), "rect:%d,%d,%d,%d%c", &rule.x, &rule.y, &rule.width, &rule.height,
                            &rest) != 4 ||
                rule.width <= 0 || rule.height <= 0 || rule.x < 0 || rule.y < 0) {
@@ -90,18 +90,23 @@ std::vector<bool> PictureMask::maskedPixels(const ImagePair& pair, int width, in
   for (const Rule& rule : rules_) {
     if (rule.image) {
       if (rule.image->width != width || rule.image->height != height)
-        throw InputError("--mask png:" + rule.file + ": " + std::to_string(rule.image->width) + "x" +
+        throw InputError("--mask " + rule.text + ": " + std::to_string(rule.image->width) + "x" +
                          std::to_string(rule.image->height) + "; accepted: the size of " + pair.name + ", " +
                          std::to_string(width) + "x" + std::to_string(height));
       for (std::size_t i = 0; i < masked.size(); ++i) masked[i] = masked[i] || isMarked(*rule.image, i);
     } else if (!rule.body.empty()) {
       maskBody(rule.body, pair, masked, width);
     } else {
+      if (rule.x >= width || rule.y >= height)
+        throw InputError("--mask " + rule.text + ": lies beyond " + pair.name + "; accepted: within " +
+                         std::to_string(width) + "x" + std::to_string(height));
       for (int y = rule.y; y - rule.y < rule.height && y < height; ++y)
         for (int x = rule.x; x - rule.x < rule.width && x < width; ++x)
           masked[static_cast<std::size_t>(y * width + x)] = true;
     }
   }
+  if (std::find(masked.begin(), masked.end(), false) == masked.end())
+    throw InputError("--mask: nothing of " + pair.name + " is left to compare; accepted: masks of less");
   return masked;
 }
 

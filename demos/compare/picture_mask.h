@@ -30,8 +30,8 @@ class PictureMask {
   /// As they were given.
   const std::vector<std::string>& texts() const { return texts_; }
   /// Whether each pixel is masked, row by row. REQUIRES a size that both images of the pair have. From any
-  /// thread. Throws InputError where a body is masked and the frame has no record, or where an image is of
-  /// another size.
+  /// thread. Throws InputError where a body is masked and the frame has no record, where an image is of
+  /// another size, where a rectangle lies beyond the picture, and where nothing is left to compare.
   std::vector<bool> maskedPixels(const ImagePair& pair, int width, int height) const;
   /// Makes the masked pixels of `actual` those of `golden`, where the two are comparable; it then has the
   /// channels in which they are compared. From any thread. Throws InputError as maskedPixels.

@@ -19,12 +19,22 @@ int threadsOf(const SceneChoice& choice) {
 
 namespace {
 
-void takeHull(Shape& shape) {
+/// Whether there is a mesh that --hull speaks of.
+bool takeHull(Shape& shape) {
+  bool any = false;
   if (auto* compound = std::get_if<CompoundShape>(&shape.form))
-    for (CompoundPart& part : compound->parts) takeHull(part.shape);
+    for (CompoundPart& part : compound->parts) any = takeHull(part.shape) || any;
   auto* hull = std::get_if<HullShape>(&shape.form);
-  if (hull == nullptr || !hull->replaceable || hull->as_hull) return;
-  hull->as_hull = hull->told_hull = true;
+  if (hull == nullptr || !hull->replaceable) return any;
+  if (!hull->as_hull) hull->as_hull = hull->told_hull = true;
+  return true;
+}
+
+void takeHulls(Scene& scene) {
+  bool any = false;
+  for (Body& body : scene.bodies) any = takeHull(body.shape) || any;
+  if (!any)
+    throw InputError(scene.file.string() + ": takes no --hull: no mesh in it says \"replaceable\": true");
 }
 
 }  // namespace
@@ -33,8 +43,7 @@ Scene chosenScene(const SceneChoice& choice) {
   Scene scene = readSceneFile(findScene(choice.scene), choice.settings);
   if (choice.seed) scene.seed = *choice.seed;
   if (choice.duration_s) scene.duration_s = *choice.duration_s;
-  for (Body& body : scene.bodies)
-    if (choice.as_hull) takeHull(body.shape);
+  if (choice.as_hull) takeHulls(scene);
   if (!choice.written.empty()) requireNotRead(choice.written, filesOf(scene, choice.mesh));
   return scene;
 }

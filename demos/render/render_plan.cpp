@@ -1,6 +1,7 @@
 #include "demos/render/render_plan.h"
 
 #include "demos/format/content_hash.h"
+#include "demos/format/formatted.h"
 #include "demos/frames/frame_identity.h"
 #include "demos/frames/frame_selection.h"
 #include "demos/frames/frame_stream.h"
@@ -29,6 +30,14 @@ Shutter chosenShutter(const RenderOptions& options) {
   if (!options.overlays.empty()) refuse("--overlay", "one of them");
   if (options.at_s) refuse("--at", "--frames with one number");
   return shutter;
+}
+
+[[noreturn]] void refuseNoFrame(const RenderPlan& plan, double speed) {
+  std::string line =
+      formatted("the duration of %.9g s holds no frame at %.9g fps", plan.scene.duration_s, plan.fps);
+  if (speed != 1.0)
+    line += formatted(", of which each takes %.3g s of it with --speed %.9g", speed / plan.fps, speed);
+  throw UsageError(line);
 }
 
 }  // namespace
@@ -60,9 +69,7 @@ RenderPlan planned(const RenderOptions& options, const std::optional<RecordingRe
     requireSameScene({options.from, recording->header()}, plan.scene, plan.choice);
     plan.frame_count = recording->header().frames;
   }
-  if (plan.frame_count < 1)
-    throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame at " +
-                     plainNumber(plan.fps) + " fps");
+  if (plan.frame_count < 1) refuseNoFrame(plan, options.speed);
   plan.frames = options.sheet.empty()
                     ? shardOf(selectedFrames(options.frames, plan.frame_count), readShard(options.shard))
                     : sheetFrames(readSheet(options.sheet), plan.frame_count);

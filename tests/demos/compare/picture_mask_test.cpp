@@ -74,6 +74,17 @@ TEST_F(Masked, WhatCannotBeMaskedIsSaid) {
   const auto png = writePng(folder_.path() / "mask.png", flatRaster(4, 4, 255));
   EXPECT_NE(thrownMessage<InputError>([&] { left({"png:" + png.string()}); }).find("accepted: the size"),
             std::string::npos);
+  for (const char* text : {"rect:20,0,5,5", "rect:0,10,5,5"})
+    EXPECT_EQ(thrownMessage<InputError>([&] { left({text}); }),
+              std::string("--mask ") + text + ": lies beyond f.png; accepted: within 20x10");
+}
+
+TEST_F(Masked, NothingLeftToCompareIsNoSuccess) {
+  EXPECT_EQ(left({"rect:0,0,20,9", "rect:0,9,19,1"}), 1);
+  EXPECT_NE(thrownMessage<InputError>([&] {
+              left({"rect:0,0,20,9", "rect:0,9,20,1"});
+            }).find("f.png is left"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -94,6 +94,22 @@ TEST(Program, WrongUsageEndsWith2AndNamesTheNearest) {
       {"--set duration=1e400: 1e400 is beyond", {"check", "sliding", "--set", "duration=1e400"}},
       {"--set is for scenes: gem.obj is a mesh", {"check", "gem.obj", "--set", "a=3"}},
       {"--mesh is for scenes: gem.obj is a mesh", {"check", "gem.obj", "--mesh", "none.obj"}},
+      {"the duration of 0.5 s holds no frame at 30 fps, of which each takes 3.33 s of it with --speed 100",
+       {"render", "sliding", "--duration", "0.5", "--speed", "100"}},
+      {"the duration of 0.01 s holds no frame at 30 fps to write",
+       {"simulate", "sliding", "--duration", "0.01", "--csv", "x.csv"}},
+      {"--seed", {"simulate", "sliding", "--seed", "-1"}},
+      {"--seed: Value 1000000001 not in range", {"simulate", "sliding", "--seed", "1000000001"}},
+      {"--allow-pixels: Value -1 not in range", {"compare", "a", "b", "--allow-pixels", "-1"}},
+      {"--at is one file: f_%04d.png; accepted:", {"render", "sliding", "--at", "0.1", "-o", "f_%04d.png"}},
+      {"a moving picture is one file: f_%04d.apng; accepted:", {"render", "sliding", "-o", "f_%04d.apng"}},
+      {"--fps is of many frames, -o x.png is one picture",
+       {"render", "sliding", "--fps", "10", "-o", "x.png"}},
+      {"--duration is of many frames", {"render", "sliding", "--duration", "1", "-o", "x.png"}},
+      {"-o x.png: --from has frames; accepted:", {"render", "--from", "r.carom", "-o", "x.png"}},
+      {"accepted: without --at", {"render", "sliding", "--states", "-o", "x.png"}},
+      {"accepted: without --shard", {"render", "sliding", "--states", "--shard", "1/2"}},
+      {"accepted: without a moving picture", {"render", "sliding", "--states", "-o", "x.apng"}},
       {"--camera man: no such camera", {"render", "sliding", "--camera", "man"}},
       {"-o frame.jpg: accepted:", {"render", "sliding", "-o", "frame.jpg"}},
       {"--expect-hash 12: accepted:", {"simulate", "sliding", "--expect-hash", "12"}},
@@ -165,6 +181,8 @@ TEST(Program, BadScenesAndAssetsEndWith3) {
   }
   EXPECT_EQ(runCarom({"render", (folder.path() / "overlap.json").string()}).code, 3);
   EXPECT_EQ(runCarom({"simulate", "drop-mesh", "--mesh", "none.obj"}).code, 3);
+  expectOneLine(runCarom({"check", "sliding", "--hull"}), 3, "takes no --hull: no mesh");
+  EXPECT_EQ(runCarom({"check", "drop-mesh", "--hull"}).code, 0);
 }
 
 TEST(Program, CheckListsEveryOverlapWithItsDepthAndPlace) {
