@@ -35,7 +35,7 @@ struct Failures : testing::Test {
             {"check", {"check", "sliding"}},
             {"render", {"render", "sliding", "--progress=none", "--size", "32x32", "--duration", "0.1"}},
             {"simulate", {"simulate", "sliding", "-q", "--duration", "0.1"}},
-            {"export", {"export", "sliding", "-q", "--duration", "0.1", "--csv", "motion.csv"}},
+            {"export", {"export", "sliding", "--progress=none", "--duration", "0.1", "--csv", "-"}},
             {"distance", {"distance", mesh, mesh}},
             {"distance --batch", {"distance", "--batch", queries}},
             {"compare", {"compare", golden, golden, "-q", "--json"}},
