@@ -20,8 +20,8 @@ namespace {
 constexpr int kLandingRounds = 2;
 // How often in one step a body's path is led clear of others with what turning brings back led apart as well.
 constexpr int kTurningClearings = 8;
-// How often in one step a body's path is led clear of others at all.
-constexpr int kMostClearings = 20;
+// How often in one step a body's path is led clear of others at all (decision 0014).
+constexpr int kMostClearings = 60;
 // How often in one step the motion of a body that has been led clear that often is halved; then it is frozen.
 constexpr int kMostHalvings = 2;
 // Of a step: times that are no farther apart, one after the other, are one instant; rounding tells mirror
