@@ -115,7 +115,7 @@ FeatureWalk::FeatureWalk(const PolyhedronPair& pair, FeaturePair seed, double si
 
 Move FeatureWalk::next() {
   const FeatureDistance& at = here();
-  if (at.squared_m2 == 0.0) {  // two edges that cross have no distance either
+  if (at.squared_m2 == 0.0) {  // an edge that goes through a face has no distance either
     common_is_on_a_ = false;
     return Move::kInside;
   }

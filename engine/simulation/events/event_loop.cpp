@@ -517,7 +517,8 @@ class EventLoop {
     }
     for (const int i : changed_) paths_.findOpening(i);
     for (std::size_t i = 0; i < cluster_.size(); ++i)
-      if (cluster_.keepsPath(i)) paths_.findOpening(cluster_.member(i).body);
+      if (cluster_.keepsPath(i) && bodies_[at(cluster_.member(i).body)].yields())
+        paths_.findOpening(cluster_.member(i).body);
   }
 
   void searchAgain(double time_s) {
