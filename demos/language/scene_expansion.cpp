@@ -1,8 +1,10 @@
 #include "demos/language/scene_expansion.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <list>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,6 +21,7 @@ namespace carom::demos {
 namespace {
 
 constexpr int kDeepestInclude = 8;
+constexpr std::size_t kDeepestNaming = 100;   // variables that name each other before they are reckoned
 constexpr std::size_t kTextOfAValue = 32;     // characters: so much longer, a text counts as one value more
 constexpr std::size_t kValuesOfAFile = 1000;  // what it takes to open a file, beside the values in it
 
@@ -51,7 +54,8 @@ class Allowance {
   std::size_t spent_ = 0;
 };
 
-/// The variables that can be named at a place, the innermost last.
+/// The variables that can be named at a place, the innermost last. Those of "set" are reckoned when they are
+/// first named: one that a later file sets again counts in the earlier file too, and they stand in any order.
 class Scope {
  public:
   struct Variable {
@@ -62,27 +66,54 @@ class Scope {
   Allowance& allowance() { return *allowance_; }
   void push(Variable variable) { variables_.push_back(std::move(variable)); }
   void pop(std::size_t size) { variables_.resize(size); }
+  bool isEmpty() const { return variables_.empty() && written_.empty(); }
   std::size_t size() const { return variables_.size(); }
+
+  /// A variable as it is written; of one name the last counts, and it may name the one before.
+  void define(const std::string& name, const Json& written) {
+    if (written_[name].empty()) order_.push_back(name);
+    written_[name].push_back(written);
+  }
+  void reckonAll() {
+    for (const std::string& name : order_)
+      if (known(name) == nullptr) reckon(name);
+  }
+
   const Json* find(const std::string& name) {
-    for (auto at = variables_.rbegin(); at != variables_.rend(); ++at)
-      if (at->name == name) {
-        used_.insert(name);
-        return &at->value;
-      }
-    return nullptr;
+    used_.insert(name);
+    const Json* value = known(name);
+    return value != nullptr || written_.count(name) == 0 ? value : reckon(name);
   }
   std::vector<std::string> names() const {
-    std::vector<std::string> all;
+    std::vector<std::string> all = order_;
     for (const Variable& variable : variables_) all.push_back(variable.name);
     return all;
   }
   bool isUsed(const std::string& name) const { return used_.count(name) > 0; }
 
  private:
+  const Json* known(const std::string& name) const {
+    for (auto at = variables_.rbegin(); at != variables_.rend(); ++at)
+      if (at->name == name) return &at->value;
+    return nullptr;
+  }
+  const Json* reckon(const std::string& name);
+
+  struct InWork {
+    std::string name;
+    std::size_t earlier = 0;  ///< How often it was written before.
+  };
   Allowance* allowance_;
   std::vector<Variable> variables_;
+  std::map<std::string, std::vector<Json>> written_;  ///< What is not reckoned yet; the last one counts.
+  std::vector<std::string> order_;  ///< Names in the order in which they were written first.
+  std::vector<InWork> in_work_;     ///< Each is named by the one before.
+  std::list<Json> earlier_;         ///< Values of what a variable of the same name took over.
   std::set<std::string> used_;
 };
+
+/// The value with all arithmetic in it done.
+Json resolved(const Json& json, Scope& scope);
 
 double reckoned(const std::string& text, const Json& place, Scope& scope) {
   const NamedNumber numberOf = [&](const std::string& name) -> std::optional<double> {
@@ -140,12 +171,11 @@ Json resolvedText(const Json& json, Scope& scope) {
       }
     return Json(reckoned(inner, json, scope)).movedTo(json);
   }
-  if (scope.size() > 0 && text.find('{') != std::string::npos)
+  if (!scope.isEmpty() && text.find('{') != std::string::npos)
     return Json(filledIn(text, json, scope)).movedTo(json);
   return json;
 }
 
-/// The value with all arithmetic in it done.
 Json resolved(const Json& json, Scope& scope) {
   scope.allowance().spend(1, json);
   switch (json.kind()) {
@@ -164,6 +194,26 @@ Json resolved(const Json& json, Scope& scope) {
     default:
       return json;
   }
+}
+
+/// While a variable is reckoned, its own name is what was written before it.
+const Json* Scope::reckon(const std::string& name) {
+  const bool is_itself = !in_work_.empty() && in_work_.back().name == name;
+  const bool is_in_work =
+      std::any_of(in_work_.begin(), in_work_.end(), [&](const InWork& outer) { return outer.name == name; });
+  const std::vector<Json>& all = written_.at(name);
+  const std::size_t count = is_itself ? in_work_.back().earlier : all.size();
+  if (count == 0) return nullptr;
+  const Json& written = all[count - 1];
+  if (is_in_work && !is_itself) written.fail("\"" + name + "\" is reckoned from itself");
+  if (in_work_.size() >= kDeepestNaming)
+    written.fail("variables that name each other deeper than " + std::to_string(kDeepestNaming) + " levels");
+  in_work_.push_back({name, count - 1});
+  Json value = resolved(written, *this);
+  in_work_.pop_back();
+  if (is_itself) return &earlier_.emplace_back(std::move(value));
+  variables_.push_back({name, std::move(value)});
+  return &variables_.back().value;
 }
 
 /// Whether the name stands in the text by itself, not as a part of a longer one.
@@ -198,6 +248,7 @@ class Expander {
     out_.scene = Json::object().placedAs(json);
     Common common;
     takeCommon(json, file, scope, common);
+    scope.reckonAll();
     for (const auto& [key, value] : json.members()) {
       if (key == "set" || key == "include" || key == "bodies" || key == "materials" || key == "$schema")
         continue;
@@ -227,8 +278,7 @@ class Expander {
       takeCommon(other, at, scope, common);
       --depth_;
       if (const Json* own = other.find("materials"))
-        for (const auto& [key, value] : own->members())
-          common.materials.emplace_back(key, resolved(value, scope));
+        common.materials.insert(common.materials.end(), own->members().begin(), own->members().end());
     }
     if (const Json* set = json.find("set")) takeVariables(*set, scope, common);
   }
@@ -265,7 +315,7 @@ class Expander {
     for (const auto& [name, value] : set.members()) {
       requireName(value, name);
       common.variables.insert(name);
-      if (common.given.count(name) == 0) scope.push({name, resolved(value, scope)});
+      if (common.given.count(name) == 0) scope.define(name, value);
     }
   }
 
@@ -287,7 +337,7 @@ class Expander {
     const Json* own = json.find("materials");
     Json all = own != nullptr ? resolved(*own, scope) : Json::object();
     for (auto at = common.materials.rbegin(); at != common.materials.rend(); ++at)
-      if (all.find(at->first) == nullptr) all.set(at->first, at->second);
+      if (all.find(at->first) == nullptr) all.set(at->first, resolved(at->second, scope));
     return all;
   }
 
@@ -365,6 +415,7 @@ class Expander {
     for (const auto& [name, value] : changed.members())
       if (common.variables.count(name) == 0)
         value.fail("\"" + name + "\" is no variable of " + item.at("include").shown());
+    own.reckonAll();
     const Json materials = takeMaterials(other, own, common);
     inner.materials = &materials;
     list(other.at("bodies"), own, inner);

@@ -231,6 +231,42 @@ TEST(SceneSetting, ChangesVariablesThatThereAreOfTheSceneOrOfWhatItIncludes) {
   EXPECT_EQ(none, "--set set.wide=3: \"wide\" is no variable of the scene; accepted: none");
 }
 
+TEST(SceneSetting, OfAVariableActsOnWhatAnIncludedFileReckonsFromIt) {
+  const TemporaryFolder folder;
+  folder.file("common.json",
+              R"({"set": {"wide": 2, "high": "=10*wide"}, "materials": {"ice": {"density": "=high"}}})");
+  const auto sceneWith = [&](const std::string& set, const std::vector<std::string>& settings) {
+    return parseScene(
+        R"({"format": 1, "include": ["common.json"], "set": {)" + set +
+            R"(}, "bodies": [{"name": "a", "material": "ice", "shape": {"box": ["=wide", "=high", 1]}}]})",
+        folder.path() / "s.json", settings);
+  };
+  const auto sizeOf = [](const Scene& scene) {
+    return std::get<BoxShape>(scene.bodies[0].shape.form).size_m;
+  };
+  EXPECT_EQ(sizeOf(sceneWith("", {})), Vec3(2, 20, 1));
+  EXPECT_EQ(sizeOf(sceneWith("", {"set.wide=3"})), Vec3(3, 30, 1));
+  EXPECT_EQ(sizeOf(sceneWith(R"("wide": "=wide+b", "b": 5)", {})), Vec3(7, 70, 1))
+      << "its own name: the file's before";
+  EXPECT_EQ(sceneWith(R"("wide": 4)", {}).bodies[0].material.density_kgpm3, 40.0);
+}
+
+TEST(SceneExpansion, VariablesStandInAnyOrderAndMayNotBeReckonedFromThemselves) {
+  const Scene scene = sceneOf(R"({"name": "a", "shape": {"box": ["=p", "=q", "=r"]}})",
+                              R"("set": {"p": "=q+r", "q": "=2*r", "r": 1},)");
+  EXPECT_EQ(std::get<BoxShape>(scene.bodies[0].shape.form).size_m, Vec3(3, 2, 1));
+  const auto refusal = [](const std::string& set) {
+    return thrownMessage<InputError>(
+        [&] { sceneOf(R"({"name": "a", )" + kBox + "}", R"("set": {)" + set + "},"); });
+  };
+  EXPECT_NE(refusal(R"("p": "=q", "q": "=p")").find("\"p\" is reckoned from itself"), std::string::npos);
+  EXPECT_NE(refusal(R"("p": "=p")").find("unknown name \"p\""), std::string::npos);
+  std::string chain = R"("v0": "=v1")";
+  for (int i = 1; i < 300; ++i)
+    chain += ", \"v" + std::to_string(i) + "\": \"=v" + std::to_string(i + 1) + "\"";
+  EXPECT_NE(refusal(chain + ", \"v300\": 1").find("deeper than 100 levels"), std::string::npos);
+}
+
 // Patterns.
 
 std::vector<Pose> posesOf(const std::string& repeat) {
