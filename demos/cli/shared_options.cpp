@@ -44,7 +44,8 @@ void addTellingOptions(CLI::App& command, Telling& telling) {
       .add_option("--progress", telling.progress,
                   "json, none, or auto: redrawn on a terminal, else a line a second")
       ->check(CLI::IsMember({"json", "none", "auto"}));
-  command.add_flag("-q,--quiet", telling.quiet, "Nothing on stderr but errors");
+  command.add_flag("-q,--quiet", telling.quiet,
+                   "No progress and no summary, only errors and what was asked for");
 }
 
 void addGlOption(CLI::App& command, std::string& gl) {

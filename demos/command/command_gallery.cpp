@@ -26,9 +26,12 @@ std::int64_t bytesOf(const std::vector<GalleryEntry>& entries) {
   return bytes;
 }
 
-void printReport(const GalleryOutcome& outcome, const std::filesystem::path& index) {
-  for (const GalleryFailure& failure : outcome.failures)
+void printFailures(const std::vector<GalleryFailure>& failures) {
+  for (const GalleryFailure& failure : failures)
     std::cerr << printable(failure.name + ": " + failure.line) << '\n';
+}
+
+void printReport(const GalleryOutcome& outcome, const std::filesystem::path& index) {
   const std::string size = formatted("%.1f MB", static_cast<double>(bytesOf(outcome.entries)) / 1e6);
   std::cout << printable(index.string()) << "  " << outcome.entries.size()
             << (outcome.entries.size() == 1 ? " scene  " : " scenes  ") << size << "  ("
@@ -60,7 +63,8 @@ ExitCode gallery(const GalleryOptions& options) {
   AtomicFile file(index);
   file.write(galleryIndex(outcome.entries));
   file.commit();
-  printReport(outcome, index);
+  printFailures(outcome.failures);
+  if (!options.telling.quiet) printReport(outcome, index);
   int code = 0;
   for (const GalleryFailure& failure : outcome.failures) code = std::max(code, failure.code);
   return static_cast<ExitCode>(code);

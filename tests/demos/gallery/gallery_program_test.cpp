@@ -32,8 +32,8 @@ struct Gallery : testing::Test {
   fs::path out = folder.path() / "out";
 
   std::vector<std::string> words(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> all = {"gallery",    one.string(), two.string(), "-o",
-                                    out.string(), "-q",         "--size",     "160x90"};
+    std::vector<std::string> all = {"gallery",    one.string(), two.string(), "-o",    out.string(),
+                                    "--progress", "none",       "--size",     "160x90"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
