@@ -214,6 +214,31 @@ TEST(BlockOnATurntable, RidesAndDoesNotComeToRest) {
   EXPECT_NEAR(w.state(block).X_WB.rotation.angularDistance(X.rotation), 0.2, 1e-3);
 }
 
+// Rolling, a ball's centre has 5/7 of the acceleration that friction alone would give it, and its lowest
+// point the table's velocity: dv/dt = 2/7 W x v, W the table's spin. Its path is a circle, whatever the
+// radius and the start.
+TEST(BallOnATurntable, RollsInACircleAtTwoSeventhsOfItsSpin) {
+  const double spin = 1.5, radius = 0.1, speed = 0.5;
+  for (const double rate_hz : {60.0, 240.0})
+    for (const double heading : {0.0, 2.0}) {
+      KinematicWorld w({1.0 / rate_hz, kDown});
+      w.addDriven(Solid::box(Vec3(20, 20, 0.2)), {Quat::Identity(), Vec3(0, 0, -0.1)}, Vec3::Zero(),
+                  Vec3(0, 0, spin), rubbing(1.0));
+      const Quat turn = oracle::turned(Vec3::UnitZ(), heading);
+      const Vec3 p = turn * Vec3(2, 0, radius + restGap(2.0 * radius)), v = turn * Vec3(0, speed, 0);
+      const Vec3 roll = Vec3::UnitZ().cross(v - Vec3(0, 0, spin).cross(p)) / radius;
+      const int ball =
+          w.add(Solid::ball(radius), {Quat::Identity(), p}, v, roll + Vec3(0, 0, spin), rubbing(1.0));
+      w.start();
+      for (int second = 1; second <= 10; ++second) {
+        w.run(1.0);
+        const Vec3 expected = oracle::turned(Vec3::UnitZ(), 2.0 / 7.0 * spin * second) * v;
+        EXPECT_LE((w.state(ball).linear_velocity - expected).norm(), 1e-5 * speed)
+            << rate_hz << " Hz, heading " << heading << ", " << second << " s";
+      }
+    }
+}
+
 TEST(BoxInAnElevator, WeighsWhatItsAccelerationSays_AndIsLiftedByItsWork) {
   KinematicWorld w({1.0 / 240.0, kDown});
   const double height = 3.0, seconds = 2.0;

@@ -1,6 +1,8 @@
 // physics: sliding, sticking, rolling.
 
 #include "tests/bench/physics/physics.h"
+#include "tests/physics/experiments/groove_ball.h"
+#include "tests/physics/experiments/leaving_ball.h"
 #include "tests/physics/experiments/resisted_ball.h"
 #include "tests/physics/experiments/rest_or_slip.h"
 #include "tests/physics/experiments/rolling_ball.h"
@@ -99,6 +101,17 @@ Figure spinningResistance(const Simulator& s) {
   return allOf({errorWithin(spinLossError(s, ball), 1e-6), errorWithin(spinTimeError(s, ball), 5e-3)});
 }
 
+Figure groove(const Simulator& s) {
+  const double worst = worstOver({30.0, 60.0}, [&](double opening_deg) {
+    return grooveError(s, {.angle = radians(20.0), .friction = 1.5, .heading = 0.7}, radians(opening_deg));
+  });
+  return errorWithin(worst, 1e-4);
+}
+
+Figure leaving(const Simulator& s) {
+  return errorWithin(leavingError(s, 60.0, 0.8), 1e-3);
+}
+
 Figure ballsOnBox(const Simulator& s) {
   return within("%.1e", rollingVelocityError(s, 1e-3, radians(45.0)), 0.0, 1e-12);
 }
@@ -120,6 +133,11 @@ std::vector<Row> frictionRows() {
        rolling},
       {"rolling-threshold", "ball on 30 deg: error of the least mu with which it rolls", "2/7 tan", "+-0.5 %",
        rollingThreshold},
+      {"groove",
+       "ball in a groove between planes turned by 30 and 60 deg, on 20 deg: error of its acceleration",
+       "g sin / (1 + 2/5 / cos^2)", "+-0.01 %", groove},
+      {"leaving", "smooth ball slides off a fixed one, 60 Hz: error of the cosine where it leaves",
+       "cos = 2/3", "+-0.1 %", leaving},
       {"rolling-resistance",
        "ball, c / r 0.05 (0.2 on the slope), 3 sizes: errors of deceleration / way / steepest slope",
        "5/7 g c / r, v^2 / 2a, tan = c / r", "1e-6 / +-0.1 % / +-0.1 %", rollingResistance},

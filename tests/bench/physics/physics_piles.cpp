@@ -2,7 +2,9 @@
 
 #include "tests/bench/physics/physics.h"
 #include "tests/physics/experiments/standing/arch.h"
+#include "tests/physics/experiments/standing/four_balls.h"
 #include "tests/physics/experiments/standing/heavy_on_light.h"
+#include "tests/physics/experiments/standing/ladder.h"
 #include "tests/physics/experiments/standing/overhang.h"
 #include "tests/physics/experiments/standing/standing_boxes.h"
 
@@ -33,6 +35,17 @@ Figure heavyOnLight(const Simulator& s) {
   return {
       std::string(load.stands ? "stands" : "falls") + within(", %.1f mm deep", 1e3 * load.sunk_m, 0, 0).text,
       load.stands && load.sunk_m <= 0.0};
+}
+
+Figure ladder(const Simulator& s) {
+  return allOf({errorWithin(ladderError(s, {.angle = radians(60.0)}), 1e-3),
+                errorWithin(ladderError(s, {.rate_hz = 240.0, .angle = radians(60.0)}), 1e-3)});
+}
+
+Figure fourBalls(const Simulator& s) {
+  const double least = leastFrictionOfBalls();
+  return allOf({errorWithin(fourBallsError(s, {}, &FourBalls::between, least), 1e-3),
+                errorWithin(fourBallsError(s, {}, &FourBalls::below, least / 4.0), 1e-3)});
 }
 
 Figure restingStack(const Simulator& s) {
@@ -80,6 +93,10 @@ std::vector<Row> pileRows() {
       archRow("arch", 60.0, "60 Hz"),
       archRow("arch-240", 240.0, "240 Hz"),
       {"heavy-on-light", "1000 kg on 1 kg, 10 s", "stands, 0 deep", "stands, 0 mm", heavyOnLight},
+      {"ladder", "ladder at 60 deg on a smooth wall, 60 / 240 Hz: error of the least mu of its foot",
+       "cot / 2", "+-0.1 %", ladder},
+      {"four-balls", "one ball on three, 60 Hz: errors of the least mu between them / below them",
+       "sqrt 3 - sqrt 2, a quarter of it", "+-0.1 %", fourBalls},
       {"stack-resting", "stack of 10 cubes of 0.5 m, 60 s: drift / rest", "0", "< 0.1 mm, 1 s", restingStack},
       {"stack", "the same, resting off: drift / sag", "0", "< 1 mm / <= 10 mm", stack},
       {"stack-turned", "the same, each cube turned by 0.05 on the one below: drift / sag", "0",

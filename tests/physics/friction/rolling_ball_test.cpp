@@ -1,6 +1,6 @@
 // A ball rolls by 5/7 g sin exactly when mu >= 2/7 tan, and with less it slides by g (sin - mu cos)
-// (experiments/rolling_ball.h); balls on a box that slides gain 2/7 of its acceleration
-// (experiments/balls_on_a_box.h).
+// (experiments/rolling_ball.h), in a groove by less (experiments/groove_ball.h); balls on a box that slides
+// gain 2/7 of its acceleration (experiments/balls_on_a_box.h).
 //
 // All are met to rounding: 4e-13 for the smallest ball, a mean square of 4e-17 (m/s)^2 on the box.
 
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/physics/experiments/carom_simulation.h"
+#include "tests/physics/experiments/groove_ball.h"
 #include "tests/physics/experiments/standing/balls_on_a_box.h"
 #include "tests/physics/small_world.h"
 
@@ -87,6 +88,15 @@ TEST_P(RollingBall, WithTooLittleFriction_SlidesByTheBlocksClosedForm) {
 TEST_P(RollingBall, OnABoxThatSlides_GainsTwoSeventhsOfItsAcceleration) {
   for (double heading_deg : {0.0, 45.0, 160.0})
     EXPECT_LE(rollingVelocityError(kCarom, 1.0 / GetParam(), radians(heading_deg)), 1e-12) << heading_deg;
+}
+
+TEST_P(RollingBall, InAGroove_TurnsAboutTheLineThroughItsContacts) {
+  for (double opening_deg : {5.0, 30.0, 60.0, 75.0})
+    for (double radius : {0.02, 0.4}) {
+      const Slope slope{.rate_hz = GetParam(), .angle = radians(20.0), .friction = 1.5, .heading = 0.7};
+      EXPECT_LE(std::abs(grooveError(kCarom, slope, radians(opening_deg), radius)), 1e-11)
+          << opening_deg << " degrees, radius " << radius;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, RollingBall, testing::Values(30.0, 60.0, 240.0, 1000.0));
