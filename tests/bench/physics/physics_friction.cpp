@@ -8,6 +8,7 @@
 #include "tests/physics/experiments/rolling_ball.h"
 #include "tests/physics/experiments/sliding_block.h"
 #include "tests/physics/experiments/standing/balls_on_a_box.h"
+#include "tests/physics/experiments/step_ball.h"
 
 namespace carom::bench {
 namespace {
@@ -112,6 +113,11 @@ Figure leaving(const Simulator& s) {
   return errorWithin(leavingError(s, 60.0, 0.8), 1e-3);
 }
 
+Figure step(const Simulator& s) {
+  return allOf({errorWithin(stepError(s, {.heading = 0.6}), 1e-3),
+                errorWithin(stepError(s, {.rate_hz = 240.0, .heading = 0.6}), 1e-3)});
+}
+
 Figure ballsOnBox(const Simulator& s) {
   return within("%.1e", rollingVelocityError(s, 1e-3, radians(45.0)), 0.0, 1e-12);
 }
@@ -136,6 +142,8 @@ std::vector<Row> frictionRows() {
       {"groove",
        "ball in a groove between planes turned by 30 and 60 deg, on 20 deg: error of its acceleration",
        "g sin / (1 + 2/5 / cos^2)", "+-0.01 %", groove},
+      {"step", "ball rolls against a step of r / 5, 60 / 240 Hz: error of the least speed that takes it up",
+       "sqrt(10/7 g h) / (1 - 5/7 h / r)", "+-0.1 %", step},
       {"leaving", "smooth ball slides off a fixed one, 60 Hz: error of the cosine where it leaves",
        "cos = 2/3", "+-0.1 %", leaving},
       {"rolling-resistance",

@@ -1,6 +1,7 @@
 // A ball rolls by 5/7 g sin exactly when mu >= 2/7 tan, and with less it slides by g (sin - mu cos)
-// (experiments/rolling_ball.h), in a groove by less (experiments/groove_ball.h); balls on a box that slides
-// gain 2/7 of its acceleration (experiments/balls_on_a_box.h).
+// (experiments/rolling_ball.h), in a groove by less (experiments/groove_ball.h); it comes up a step
+// (experiments/step_ball.h); balls on a box that slides gain 2/7 of its acceleration
+// (experiments/balls_on_a_box.h).
 //
 // All are met to rounding: 4e-13 for the smallest ball, a mean square of 4e-17 (m/s)^2 on the box.
 
@@ -11,6 +12,7 @@
 #include "tests/physics/experiments/carom_simulation.h"
 #include "tests/physics/experiments/groove_ball.h"
 #include "tests/physics/experiments/standing/balls_on_a_box.h"
+#include "tests/physics/experiments/step_ball.h"
 #include "tests/physics/small_world.h"
 
 namespace carom::physics {
@@ -96,6 +98,21 @@ TEST_P(RollingBall, InAGroove_TurnsAboutTheLineThroughItsContacts) {
       const Slope slope{.rate_hz = GetParam(), .angle = radians(20.0), .friction = 1.5, .heading = 0.7};
       EXPECT_LE(std::abs(grooveError(kCarom, slope, radians(opening_deg), radius)), 1e-11)
           << opening_deg << " degrees, radius " << radius;
+    }
+}
+
+// A gap g at the floor and at the edge turns the normal: each puts cos = 1 - h / r off by g / r, and what is
+// left of the speed by 5/7 of it.
+TEST_P(RollingBall, ComesUpAStepWithTheSpeedThatItsAngularMomentumLeaves) {
+  for (double height : {0.1, 0.2, 0.3})
+    for (double radius : {0.05, 0.5}) {
+      const StepBall ball{.rate_hz = GetParam(), .radius_m = radius, .height = height, .heading = 0.6};
+      SCOPED_TRACE(testing::Message() << height << " radii of " << radius << " m");
+      const double off = 5.0 / 7.0 * restGap(2.0 * radius) / radius, share = 1.2;
+      EXPECT_LT(speedAfterStep(kCarom, ball, 1.0 - 2.0 * off), 0.0);
+      EXPECT_GT(speedAfterStep(kCarom, ball, 1.0 + 2.0 * off), 0.0);
+      const double gain = share * share / (share * share - 1.0);  // of its share: the step takes the rest
+      EXPECT_NEAR(speedAfterStep(kCarom, ball, share) / ball.speedAbove(share), 1.0, 2.0 * gain * off);
     }
 }
 
