@@ -21,10 +21,17 @@ double surface(const Bounds& bounds) {
 
 }  // namespace
 
-void BoundsTree::build(std::span<const Bounds> bounds) {
+void BoundsTree::setLeaves(std::span<const Bounds> bounds, std::span<const int> groups) {
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    nodes_[i].bounds = bounds[i];
+    nodes_[i].group = groups.empty() ? kNoGroup : groups[i];
+  }
+}
+
+void BoundsTree::build(std::span<const Bounds> bounds, std::span<const int> groups) {
   leaves_ = static_cast<int>(bounds.size());
   nodes_.assign(bounds.empty() ? 0 : 2 * bounds.size() - 1, {});
-  for (int i = 0; i < leaves_; ++i) node(i).bounds = bounds[static_cast<std::size_t>(i)];
+  setLeaves(bounds, groups);
   root_ = -1;
   if (bounds.empty()) return;
   std::vector<int> things(bounds.size());
@@ -34,13 +41,13 @@ void BoundsTree::build(std::span<const Bounds> bounds) {
   built_surface_ = fitAll();
 }
 
-void BoundsTree::moveAll(std::span<const Bounds> bounds) {
+void BoundsTree::moveAll(std::span<const Bounds> bounds, std::span<const int> groups) {
   if (static_cast<int>(bounds.size()) != leaves_) {
-    build(bounds);
+    build(bounds, groups);
     return;
   }
-  for (int i = 0; i < leaves_; ++i) node(i).bounds = bounds[static_cast<std::size_t>(i)];
-  if (!(fitAll() <= kWorn * built_surface_)) build(bounds);
+  setLeaves(bounds, groups);
+  if (!(fitAll() <= kWorn * built_surface_)) build(bounds, groups);
 }
 
 // Children first. Returns the surface of all nodes above leaves.
@@ -86,7 +93,10 @@ int BoundsTree::buildNode(std::span<int> things, int& next) {
 }
 
 void BoundsTree::fit(int i) {
-  node(i).bounds = together(node(node(i).children[0]).bounds, node(node(i).children[1]).bounds);
+  const Node& first = node(node(i).children[0]);
+  const Node& second = node(node(i).children[1]);
+  node(i).bounds = together(first.bounds, second.bounds);
+  node(i).group = first.group == second.group ? first.group : kNoGroup;
 }
 
 // No parent: the child is the root.
@@ -156,7 +166,8 @@ void BoundsTree::refitFrom(int i) {
   }
 }
 
-void BoundsTree::move(int thing, const Bounds& bounds) {
+void BoundsTree::move(int thing, const Bounds& bounds, int group) {
+  node(thing).group = group;
   if (leaves_ == 1) {
     node(thing).bounds = bounds;
     return;
@@ -177,10 +188,11 @@ void BoundsTree::grow(int thing, const Bounds& bounds) {
     node(i).bounds = together(node(i).bounds, bounds);
 }
 
-void BoundsTree::find(const Bounds& bounds, std::vector<int>& found) const {
+void BoundsTree::find(const Bounds& bounds, std::vector<int>& found, int without) const {
   found.clear();
   for (int i = root_; i >= 0;) {
-    const bool meets = node(i).bounds.overlaps(bounds);
+    const bool counts = without == kNoGroup || node(i).group != without;
+    const bool meets = counts && node(i).bounds.overlaps(bounds);
     if (meets && !isLeaf(i)) {
       i = node(i).children[0];
       continue;

@@ -27,13 +27,18 @@ bool PairFinder::hasLeft(const Proxy& proxy, int i) const {
 void PairFinder::fatten(std::span<const Proxy> proxies) {
   for (const int i : left_) fat_[at(i)] = fattened(proxies[at(i)]);
   if (2 * left_.size() <= proxies.size()) {
-    for (const int i : left_) tree_.move(i, fat_[at(i)].bounds);
+    for (const int i : left_) tree_.move(i, fat_[at(i)].bounds, fat_[at(i)].group);
     return;
   }
   std::vector<Bounds> bounds;
+  std::vector<int> groups;
   bounds.reserve(fat_.size());
-  for (const Proxy& fat : fat_) bounds.push_back(fat.bounds);
-  tree_.moveAll(bounds);
+  groups.reserve(fat_.size());
+  for (const Proxy& fat : fat_) {
+    bounds.push_back(fat.bounds);
+    groups.push_back(fat.group);
+  }
+  tree_.moveAll(bounds, groups);
 }
 
 void PairFinder::pairAnew() {
@@ -42,7 +47,7 @@ void PairFinder::pairAnew() {
   });
   const auto known = static_cast<std::ptrdiff_t>(near_.size());
   for (const int i : left_) {
-    tree_.find(fat_[at(i)].bounds, found_);
+    tree_.find(fat_[at(i)].bounds, found_, fat_[at(i)].group);
     for (const int j : found_) {
       if (isLeft(j) && j <= i) continue;  // once
       if (!canPair(fat_[at(i)], fat_[at(j)])) continue;
@@ -91,7 +96,7 @@ void PairFinder::grow(int proxy, const Bounds& bounds) {
 
 void PairFinder::findPartners(std::span<const Proxy> proxies, int proxy, std::vector<int>& found) const {
   const Proxy& mine = proxies[at(proxy)];
-  tree_.find(mine.bounds, found);
+  tree_.find(mine.bounds, found, mine.group);
   std::erase_if(found, [&](int other) { return !canPair(mine, proxies[at(other)]); });
   std::sort(found.begin(), found.end());
 }
