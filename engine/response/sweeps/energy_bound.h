@@ -16,4 +16,10 @@ namespace carom {
 /// impulses. What has converged is left as it is, to the bit.
 void takeBackGain(std::span<ContactRow> rows, std::span<ImpulseBody> bodies);
 
+/// The same of the contacts of a step, in which other forces act, too: `before` are the bodies' velocities
+/// ahead of all of these. What the contacts give is their impulses' power on the mean of the velocities
+/// before and after. Where it is more than bounds above zero allow, they are scaled to where it is none.
+void takeBackWork(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
+                  std::span<const Velocity> before);
+
 }  // namespace carom

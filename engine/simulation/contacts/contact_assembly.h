@@ -88,6 +88,7 @@ struct LastingContacts {
   std::vector<HalfTurn> half_turns;    ///< One per body of the world.
   std::vector<ImpulseBody> bodies;     ///< In mid-step, one likewise, velocities after the solve.
   std::vector<char> touched;           ///< Moving bodies that some row pressed.
+  std::vector<Velocity> before;        ///< Of the bodies, in mid-step, ahead of environment and contacts.
   std::vector<Velocity> gained;        ///< What the environment gives the bodies in the step, likewise.
   std::vector<Island> islands;         ///< In the order of the rows.
   std::vector<ImpulseBody> paths;      ///< The bodies with the mean velocities of their paths.

@@ -161,7 +161,7 @@ std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::sp
     const std::vector<int> driven = leavingNoRoom(rows, contacts.bodies, true);
     for (const int body : driven) {
       stopKinematic(world.bodies[at(body)]);
-      contacts.bodies[at(body)].velocity = contacts.gained[at(body)] = {};
+      contacts.bodies[at(body)].velocity = contacts.before[at(body)] = contacts.gained[at(body)] = {};
       ++counters.stopped_kinematic;
     }
     stopped.insert(stopped.end(), driven.begin(), driven.end());
@@ -206,16 +206,18 @@ void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islan
     counters.row_visits +=
         solveWithinBudget(contacts, unsolved, tolerance::kSolverResidual * gravity_speed, solve);
   for (const std::size_t island : islands)
-    takeBackGain(contacts.rowsOf(contacts.islands[island]), contacts.bodies);
+    takeBackWork(contacts.rowsOf(contacts.islands[island]), contacts.bodies, contacts.before);
 }
 
 // The impulse of gravity and of what else surrounds the body over the step.
 void giveEnvironment(LastingContacts& contacts, const LastingWorld& world, const FlightPlanner& planner) {
   const std::vector<Body>& bodies = world.bodies;
   contacts.gained.resize(bodies.size());
+  contacts.before.resize(bodies.size());
   for (const int active : world.active.list()) {
     const std::size_t i = at(active);
     contacts.gained[i] = {};
+    contacts.before[i] = contacts.bodies[i].velocity;
     if (!bodies[i].travels()) continue;
     contacts.gained[i] = planner.gained(bodies[i]);
     contacts.bodies[i].velocity.linear += contacts.gained[i].linear;
@@ -365,7 +367,7 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
                        .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
                        .resumes = true,
                        .crew = &world.crew});
-    takeBackGain(rows, contacts.bodies);
+    takeBackWork(rows, contacts.bodies, contacts.before);
     counters.row_visits += report.visits;
   }
   findTouched(contacts, world);

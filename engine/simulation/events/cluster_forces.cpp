@@ -157,7 +157,9 @@ void ContactCluster::support() {
     }
   }
   solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
-  takeBackGain(rows_, ends_);
+  std::vector<Velocity> before;
+  for (const ImpulseBody& body : momentum_) before.push_back(body.velocity);
+  takeBackWork(rows_, ends_, before);
   stops_short_ = isCrowd();
   keepForces();
   findBends();
