@@ -312,6 +312,12 @@ MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& reques
   return made;
 }
 
+const MeshSolid& SceneMeshes::solid(const std::filesystem::path& path, const MeshRequest& request) {
+  const auto known = solids_.find({path, request});
+  if (known != solids_.end()) return known->second;
+  return solids_.emplace(std::pair(path, request), meshSolid(path, request, files_)).first->second;
+}
+
 BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files,
                          MeshReport& report) {
   ImportedMesh mesh;

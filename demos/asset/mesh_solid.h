@@ -3,9 +3,12 @@
 // pieces, or when asked for the hull of each of its meshes; and what was made of it, to be told. Tested in
 // tests/demos/asset/mesh_solid_test.cpp.
 
+#include <compare>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "demos/asset/mesh_import.h"
@@ -20,6 +23,7 @@ struct MeshRequest {
       std::nullopt;  ///< Instead: the longest side, about the middle of the bounding box.
   std::optional<bool> y_up = std::nullopt;  ///< Whether y is up in the file; not given: what its format says.
   bool as_hull = false;
+  friend auto operator<=>(const MeshRequest&, const MeshRequest&) = default;
 };
 
 struct MeshReport {
@@ -58,6 +62,19 @@ struct MeshSolid {
 MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request = {});
 /// The same of one of several files.
 MeshSolid meshSolid(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files);
+
+/// The meshes of one scene: a file is imported once, and made a solid of once in each way that is asked for,
+/// however many bodies have it.
+class SceneMeshes {
+ public:
+  MeshFiles& files() { return files_; }
+  /// As `meshSolid`.
+  const MeshSolid& solid(const std::filesystem::path& path, const MeshRequest& request);
+
+ private:
+  MeshFiles files_;
+  std::map<std::pair<std::filesystem::path, MeshRequest>, MeshSolid> solids_;
+};
 
 /// The file as it is drawn in place of a body, whether or not it bounds one. Throws InputError.
 BoundingSurface meshLook(const std::filesystem::path& path, const MeshRequest& request, MeshFiles& files,

@@ -119,11 +119,11 @@ renderer::Surface surfaceOf(const SurfaceLook& look, const Solid& solid, const s
 }
 
 /// The number of the solid that is drawn for the body.
-int addLook(const Body& body, int solid, MeshFiles& files, SceneWorld& made) {
+int addLook(const Body& body, int solid, SceneMeshes& meshes, SceneWorld& made) {
   if (!body.visual) return solid;
   MeshReport report;
   const Solid& shape = made.world.solids()[static_cast<std::size_t>(solid)];
-  made.looking_otherwise.push_back(shape.shownAs(visualSurface(*body.visual, files, report)));
+  made.looking_otherwise.push_back(shape.shownAs(visualSurface(*body.visual, meshes, report)));
   made.meshes.emplace_back(body.name, std::move(report));
   return -static_cast<int>(made.looking_otherwise.size());  // Not yet behind the world's.
 }
@@ -141,12 +141,13 @@ void numberLooks(SceneWorld& made) {
   made.looking_otherwise = std::move(all);
 }
 
-void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh, MeshFiles& files) {
+void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Mesh& mesh,
+               SceneMeshes& meshes) {
   const Body& body = scene.bodies[index];
   std::vector<MeshReport> reports;
-  const int solid = made.world.addSolid(makeSolid(body.shape, mesh, files, reports));
+  const int solid = made.world.addSolid(makeSolid(body.shape, mesh, meshes, reports));
   for (MeshReport& report : reports) made.meshes.emplace_back(body.name, std::move(report));
-  const int drawn = addLook(body, solid, files, made);
+  const int drawn = addLook(body, solid, meshes, made);
   const BoundingSurface& look = drawn < 0 ? made.looking_otherwise.back().surface()
                                           : made.world.solids()[static_cast<std::size_t>(solid)].surface();
   const bool has_look = !look.colors.empty() || !look.pictures.empty();
@@ -248,8 +249,8 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   settings.threads = threads;
   for (const NamedFluid& named : scene.fluids) settings.fluids.push_back(named.fluid);
   SceneWorld made{World(settings), {}, {}, {}, {}};
-  MeshFiles files;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh, files);
+  SceneMeshes meshes;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh, meshes);
   for (std::size_t i = 0; i < made.names.size(); ++i) {
     const int solid = made.world.bodies()[i].solid;
     made.surfaces.push_back(

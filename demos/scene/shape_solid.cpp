@@ -70,8 +70,8 @@ ConvexPart placed(const ConvexPart& part, const Pose& X_SP) {
 /// Where the shapes of a compound are put together.
 class PartMaker {
  public:
-  PartMaker(const Mesh& mesh, MeshFiles& files, std::vector<MeshReport>& reports)
-      : mesh_(mesh), files_(files), reports_(reports) {}
+  PartMaker(const Mesh& mesh, SceneMeshes& meshes, std::vector<MeshReport>& reports)
+      : mesh_(mesh), meshes_(meshes), reports_(reports) {}
 
   ShapeParts partsOf(const Shape& shape) const {
     return std::visit([this](const auto& form) { return (*this)(form); }, shape.form);
@@ -94,10 +94,10 @@ class PartMaker {
   ShapeParts operator()(const HullShape& hull) const {
     ShapeParts made;
     if (!hull.file.empty()) {
-      MeshSolid solid = meshSolid(hull.replaceable && mesh_ ? *mesh_ : hull.file,
-                                  {hull.scale, hull.fit_m, hull.y_up, hull.as_hull}, files_);
+      const MeshSolid& solid = meshes_.solid(hull.replaceable && mesh_ ? *mesh_ : hull.file,
+                                             {hull.scale, hull.fit_m, hull.y_up, hull.as_hull});
       reports_.push_back(solid.report);
-      made = {std::move(solid.parts), std::move(solid.surface)};
+      made = {solid.parts, solid.surface};
     } else {
       std::vector<Vec3> points = hull.points;
       for (Vec3& p : points) p *= hull.scale;
@@ -166,7 +166,7 @@ class PartMaker {
   }
 
   const Mesh& mesh_;
-  MeshFiles& files_;
+  SceneMeshes& meshes_;
   std::vector<MeshReport>& reports_;
 };
 
@@ -184,10 +184,10 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path) {
   }
 }
 
-BoundingSurface visualSurface(const Visual& visual, MeshFiles& files, MeshReport& report) {
+BoundingSurface visualSurface(const Visual& visual, SceneMeshes& meshes, MeshReport& report) {
   try {
     BoundingSurface look =
-        meshLook(visual.file, {visual.scale, visual.fit_m, visual.y_up, false}, files, report);
+        meshLook(visual.file, {visual.scale, visual.fit_m, visual.y_up, false}, meshes.files(), report);
     for (Vec3& p : look.mesh.vertices) p = visual.X_SV * p;
     for (Vec3& n : look.normals) n = visual.X_SV.rotation * n;
     requireLengths(look.mesh.vertices, "mesh");
@@ -198,14 +198,14 @@ BoundingSurface visualSurface(const Visual& visual, MeshFiles& files, MeshReport
 }
 
 Solid makeSolid(const Shape& shape, const Mesh& mesh) {
-  MeshFiles files;
+  SceneMeshes meshes;
   std::vector<MeshReport> reports;
-  return makeSolid(shape, mesh, files, reports);
+  return makeSolid(shape, mesh, meshes, reports);
 }
 
-Solid makeSolid(const Shape& shape, const Mesh& mesh, MeshFiles& files, std::vector<MeshReport>& reports) {
+Solid makeSolid(const Shape& shape, const Mesh& mesh, SceneMeshes& meshes, std::vector<MeshReport>& reports) {
   try {
-    ShapeParts made = PartMaker(mesh, files, reports).partsOf(shape);
+    ShapeParts made = PartMaker(mesh, meshes, reports).partsOf(shape);
     return Solid(std::move(made.parts), std::move(made.surface));
   } catch (const InputError& error) {
     throw InputError(shape.place + ": " + error.what());

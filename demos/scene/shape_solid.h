@@ -26,10 +26,10 @@ ConvexPolyhedron meshHull(const std::filesystem::path& path);
 /// of the shape, for what encloses no volume.
 Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh);
 /// The same, of the shapes of one scene. What was made of its mesh files is added to `reports`.
-Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh, MeshFiles& files,
+Solid makeSolid(const Shape& shape, const std::optional<std::filesystem::path>& mesh, SceneMeshes& meshes,
                 std::vector<MeshReport>& reports);
 
 /// What is drawn for it, in the frame of the shape. Throws InputError.
-BoundingSurface visualSurface(const Visual& visual, MeshFiles& files, MeshReport& report);
+BoundingSurface visualSurface(const Visual& visual, SceneMeshes& meshes, MeshReport& report);
 
 }  // namespace carom::demos

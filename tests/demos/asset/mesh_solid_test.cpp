@@ -54,6 +54,19 @@ TEST(MeshSolid, ATorusIsItselfAndNotItsHull) {
   EXPECT_EQ(solid.surface().mesh.triangles.size(), 400u);
 }
 
+TEST(SceneMeshes, MakeASolidOnceForEachRequest) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("torus.obj", objText(torus(20, 10)));
+  SceneMeshes meshes;
+  const MeshSolid* const first = &meshes.solid(path, {});
+  const MeshSolid* const twice = &meshes.solid(path, {.scale = 2.0});
+  std::filesystem::remove(path);
+  EXPECT_EQ(&meshes.solid(path, {}), first);
+  EXPECT_EQ(&meshes.solid(path, {.scale = 2.0}), twice);
+  EXPECT_NEAR(twice->report.volume_m3 / first->report.volume_m3, 8.0, 1e-9);
+  EXPECT_EQ(meshes.solid(path, {.as_hull = true}).parts.size(), 1u);
+}
+
 // In the bore of a nut cuts leave pieces that hang together by an edge alone: they come apart without a cap.
 TEST(MeshSolid, ThreadsOfANutAndItsBoltAreTakenExactly) {
   for (const char* const name : {"nut.obj", "bolt.obj"}) {
