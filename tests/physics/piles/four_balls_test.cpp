@@ -13,7 +13,7 @@ namespace {
 class FourBallsTest : public testing::TestWithParam<std::tuple<double, double>> {};  // Hz, radius
 
 TEST_P(FourBallsTest, StandAThousandthAboveTheirFrictions_AndRollApartAThousandthBelow) {
-  const auto [rate_hz, radius] = GetParam();
+  const double rate_hz = std::get<0>(GetParam()), radius = std::get<1>(GetParam());
   const double least = leastFrictionOfBalls();
   for (const double heading : {0.0, 0.5}) {
     const FourBalls balls{.rate_hz = rate_hz, .radius_m = radius, .heading = heading};
