@@ -71,8 +71,8 @@ const Function* functionOf(std::string_view name) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const NamedNumber& numberOf, const std::vector<std::string>& names)
-      : text_(text), numberOf_(numberOf), names_(names) {}
+  Reader(std::string_view text, const NamedNumber& numberOf, const KnownNames& namesOf)
+      : text_(text), numberOf_(numberOf), namesOf_(namesOf) {}
 
   double whole() {
     if (text_.size() > kLongest) fail("longer than " + std::to_string(kLongest) + " letters");
@@ -184,7 +184,7 @@ class Reader {
     if (name == "pi") return pi;
     if (const std::optional<double> value = numberOf_(name)) return *value;
     at_ = begin;
-    throw InputError("unknown name \"" + name + "\"" + acceptedNames(name, names_));
+    throw InputError("unknown name \"" + name + "\"" + acceptedNames(name, namesOf_()));
   }
 
   double call(const Function& function) {
@@ -203,15 +203,15 @@ class Reader {
 
   std::string_view text_;
   const NamedNumber& numberOf_;
-  const std::vector<std::string>& names_;
+  const KnownNames& namesOf_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
 }  // namespace
 
-double evaluate(std::string_view text, const NamedNumber& numberOf, const std::vector<std::string>& names) {
-  return Reader(text, numberOf, names).whole();
+double evaluate(std::string_view text, const NamedNumber& numberOf, const KnownNames& namesOf) {
+  return Reader(text, numberOf, namesOf).whole();
 }
 
 bool isArithmeticName(std::string_view text) {

@@ -15,8 +15,12 @@ namespace carom::demos {
 /// The value of a name; none where it is unknown.
 using NamedNumber = std::function<std::optional<double>(const std::string& name)>;
 
-/// Throws InputError that says what is wrong, where in the text, and what is accepted; `names` are for it.
-double evaluate(std::string_view text, const NamedNumber& numberOf, const std::vector<std::string>& names);
+/// All names that are known.
+using KnownNames = std::function<std::vector<std::string>()>;
+
+/// Throws InputError that says what is wrong, where in the text, and what is accepted; `namesOf` is asked for
+/// it only.
+double evaluate(std::string_view text, const NamedNumber& numberOf, const KnownNames& namesOf);
 
 /// Whether it is a name as `set` and `for` give them: a letter, then letters, digits and _.
 bool isArithmeticName(std::string_view text);

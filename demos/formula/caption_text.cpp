@@ -85,8 +85,11 @@ CaptionPart readFigure(std::string inner) {
 }
 
 double valueOf(const CaptionPart& part, const CaptionText& caption, const CaptionFacts& facts) {
-  std::vector<std::string> names(std::begin(kCaptionNames), std::end(kCaptionNames));
-  for (const auto& [name, unused] : caption.variables) names.push_back(name);
+  const KnownNames namesOf = [&] {
+    std::vector<std::string> names(std::begin(kCaptionNames), std::end(kCaptionNames));
+    for (const auto& [name, unused] : caption.variables) names.push_back(name);
+    return names;
+  };
   const NamedNumber numberOf = [&](const std::string& name) -> std::optional<double> {
     for (std::size_t i = 0; i < part.bodies.size(); ++i)
       if (name == bodyName(i)) return facts.body(part.bodies[i]);
@@ -102,7 +105,7 @@ double valueOf(const CaptionPart& part, const CaptionText& caption, const Captio
     }
     return is_set ? std::optional(variable->second) : std::nullopt;
   };
-  return evaluate(part.text, numberOf, names);
+  return evaluate(part.text, numberOf, namesOf);
 }
 
 /// "-0.00" is "0.00".

@@ -71,12 +71,13 @@ class Scope {
 
   /// A variable as it is written; of one name the last counts, and it may name the one before.
   void define(const std::string& name, const Json& written) {
-    if (written_[name].empty()) order_.push_back(name);
-    written_[name].push_back(written);
+    Written& variable = written_[name];
+    if (variable.ways.empty()) order_.push_back(name);
+    variable.ways.push_back(written);
   }
   void reckonAll() {
     for (const std::string& name : order_)
-      if (known(name) == nullptr) reckon(name);
+      if (!written_.at(name).is_reckoned) reckon(name);
   }
 
   const Json* find(const std::string& name) {
@@ -85,7 +86,9 @@ class Scope {
     return value != nullptr || written_.count(name) == 0 ? value : reckon(name);
   }
   std::vector<std::string> names() const {
-    std::vector<std::string> all = order_;
+    std::vector<std::string> all;
+    for (const std::string& name : order_)
+      if (!written_.at(name).is_reckoned) all.push_back(name);
     for (const Variable& variable : variables_) all.push_back(variable.name);
     return all;
   }
@@ -99,13 +102,17 @@ class Scope {
   }
   const Json* reckon(const std::string& name);
 
+  struct Written {
+    std::vector<Json> ways;  ///< In which it is written; the last one counts.
+    bool is_reckoned = false;
+  };
   struct InWork {
     std::string name;
     std::size_t earlier = 0;  ///< How often it was written before.
   };
   Allowance* allowance_;
   std::vector<Variable> variables_;
-  std::map<std::string, std::vector<Json>> written_;  ///< What is not reckoned yet; the last one counts.
+  std::map<std::string, Written> written_;
   std::vector<std::string> order_;  ///< Names in the order in which they were written first.
   std::vector<InWork> in_work_;     ///< Each is named by the one before.
   std::list<Json> earlier_;         ///< Values of what a variable of the same name took over.
@@ -125,7 +132,7 @@ double reckoned(const std::string& text, const Json& place, Scope& scope) {
     return value->asNumber();
   };
   try {
-    return evaluate(text, numberOf, scope.names());
+    return evaluate(text, numberOf, [&] { return scope.names(); });
   } catch (const JsonError&) {
     throw;
   } catch (const InputError& error) {
@@ -201,7 +208,8 @@ const Json* Scope::reckon(const std::string& name) {
   const bool is_itself = !in_work_.empty() && in_work_.back().name == name;
   const bool is_in_work =
       std::any_of(in_work_.begin(), in_work_.end(), [&](const InWork& outer) { return outer.name == name; });
-  const std::vector<Json>& all = written_.at(name);
+  Written& variable = written_.at(name);
+  const std::vector<Json>& all = variable.ways;
   const std::size_t count = is_itself ? in_work_.back().earlier : all.size();
   if (count == 0) return nullptr;
   const Json& written = all[count - 1];
@@ -212,6 +220,7 @@ const Json* Scope::reckon(const std::string& name) {
   Json value = resolved(written, *this);
   in_work_.pop_back();
   if (is_itself) return &earlier_.emplace_back(std::move(value));
+  variable.is_reckoned = true;
   variables_.push_back({name, std::move(value)});
   return &variables_.back().value;
 }
