@@ -22,7 +22,8 @@ template <typename VelocityOf>
 double workOf(std::span<const ContactRow> rows, const VelocityOf& velocityOf) {
   double work = 0.0;
   for (const ContactRow& row : rows) {
-    const Velocity a = velocityOf(row.a), b = velocityOf(row.b);
+    const Velocity& a = velocityOf(row.a);
+    const Velocity& b = velocityOf(row.b);
     if (!row.impulse.isZero(0.0)) {
       work += dot(row.impulse, inRowFrame(row, b.at(row.r_b) - a.at(row.r_a)));
       work -= row.impulse.x() * std::max(0.0, row.lowest_speed);
@@ -40,6 +41,15 @@ void applyTimes(double factor, std::span<const ContactRow> rows, std::span<Impul
   }
 }
 
+// Gives the bodies such a share of the impulses, which had been taken back, and the rows no more.
+void scaleTo(double share, std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
+  applyTimes(share, rows, bodies);
+  for (ContactRow& row : rows) {
+    row.impulse *= share;
+    row.torque *= share;
+  }
+}
+
 }  // namespace
 
 void takeBackGain(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
@@ -50,28 +60,20 @@ void takeBackGain(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   const double twice_energy = after - before;
   const bool gains = before + after > 0.0;
   const double share = gains ? std::clamp(-before / twice_energy, 0.0, 1.0) : 1.0;
-  applyTimes(share, rows, bodies);
-  if (!gains) return;
-  for (ContactRow& row : rows) {
-    row.impulse *= share;
-    row.torque *= share;
-  }
+  scaleTo(share, rows, bodies);
 }
 
 void takeBackWork(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                   std::span<const Velocity> before) {
-  const auto now = [&](int i) { return bodies[static_cast<std::size_t>(i)].velocity; };
-  const double at_begin = workOf(rows, [&](int i) { return before[static_cast<std::size_t>(i)]; });
+  const auto now = [&](int i) -> const Velocity& { return bodies[static_cast<std::size_t>(i)].velocity; };
+  const auto then = [&](int i) -> const Velocity& { return before[static_cast<std::size_t>(i)]; };
+  const double at_begin = workOf(rows, then);
   const double at_end = workOf(rows, now);
   if (!(at_begin + at_end > 0.0)) return;
   applyTimes(-1.0, rows, bodies);
   const double without = workOf(rows, now);
   const double share = std::clamp(-(at_begin + without) / (at_end - without), 0.0, 1.0);
-  applyTimes(share, rows, bodies);
-  for (ContactRow& row : rows) {
-    row.impulse *= share;
-    row.torque *= share;
-  }
+  scaleTo(share, rows, bodies);
 }
 
 }  // namespace carom

@@ -24,19 +24,24 @@ Meeting meetingAt(Random& random) {
   return randomMeeting(random, random.integer(1, 4), random.uniform(0.0, 1.0), random.logUniform(1e-3, 1e3));
 }
 
+// Within their cones.
+void giveAnyImpulses(Random& random, Meeting& m) {
+  const double size = random.logUniform(1e-3, 1e3);
+  for (ContactRow& row : m.rows) {
+    row.lowest_speed = -random.uniform(0.0, 1.0);
+    row.impulse = size * Vec3(1.0, 0.0, 0.0);
+    row.impulse.tail<2>() = row.coefficient * size * random.direction().head<2>();
+    applyLoad(row, m.bodies);
+  }
+}
+
 TEST(TakeBackGain, LeavesNoEnergyFromNothing) {
   Random random(311);
   int gained = 0;
   for (int i = 0; i < 2000; ++i) {
     Meeting m = meetingAt(random);
     const double before = energyOf(m.bodies);
-    const double size = random.logUniform(1e-3, 1e3);
-    for (ContactRow& row : m.rows) {
-      row.lowest_speed = -random.uniform(0.0, 1.0);
-      row.impulse = size * Vec3(1.0, 0.0, 0.0);
-      row.impulse.tail<2>() = row.coefficient * size * random.direction().head<2>();
-      applyLoad(row, m.bodies);
-    }
+    giveAnyImpulses(random, m);
     gained += energyOf(m.bodies) > before;
     takeBackGain(m.rows, m.bodies);
     EXPECT_LE(energyOf(m.bodies), before * (1.0 + 1e-12)) << i;
@@ -98,13 +103,7 @@ TEST(TakeBackWork, LeavesContactsNoWorkOverAStepInWhichOtherForcesAct) {
         row.impulse *= 1.0 + more;
       }
     } else {
-      const double size = random.logUniform(1e-3, 1e3);
-      for (ContactRow& row : m.rows) {
-        row.lowest_speed = -random.uniform(0.0, 1.0);
-        row.impulse = size * Vec3(1.0, 0.0, 0.0);
-        row.impulse.tail<2>() = row.coefficient * size * random.direction().head<2>();
-        applyLoad(row, m.bodies);
-      }
+      giveAnyImpulses(random, m);
     }
     scale += energyOf(m.bodies);
     const bool gives = energyOf(m.bodies) - energy - workOfOthers() > 0.0;
