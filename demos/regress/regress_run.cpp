@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "demos/asset/asset_path.h"
+#include "demos/cause/motion_record.h"
 #include "demos/system/exit_code.h"
 #include "demos/system/interrupt.h"
 #include "demos/system/own_process.h"
@@ -25,6 +26,26 @@ Files filesOf(const fs::path& output, const std::string& name) {
   const fs::path folder = output / name;
   return {folder / "frames", folder / "compare.json", folder / "errors.txt", folder / "report.html",
           folder / "junit.xml"};
+}
+
+/// Whether a file among the frames is of an earlier run: what `render` writes there.
+bool isDrawn(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return (name.starts_with("frame_") && name.ends_with(".png")) || name == kRecordName ||
+         (name.starts_with("manifest") && name.ends_with(".json"));
+}
+
+/// Makes the folder of a scene, without what an earlier run wrote there; what others put there stays.
+void clearFiles(const Files& files) {
+  std::error_code failed;
+  fs::create_directories(files.frames, failed);
+  std::vector<fs::path> former{files.out, files.err, files.report, files.junit};
+  if (!failed)
+    for (const fs::directory_entry& entry : fs::directory_iterator(files.frames, failed))
+      if (isDrawn(entry.path())) former.push_back(entry.path());
+  for (const fs::path& file : former)
+    if (!failed) fs::remove(file, failed);
+  if (failed) throw CannotWrite("cannot write '" + files.frames.string() + "': " + failed.message());
 }
 
 std::vector<std::string> renderWords(const SuiteScene& scene, const Files& files) {
@@ -74,10 +95,7 @@ std::vector<SceneOutcome> runSuite(const RegressSuite& suite, const RegressPlan&
   const auto begin = [&](std::size_t i) {
     const SuiteScene& scene = suite.scenes[i];
     const Files files = filesOf(plan.output, scene.name);
-    std::error_code failed;
-    fs::remove_all(files.frames.parent_path(), failed);
-    fs::create_directories(files.frames.parent_path(), failed);
-    if (failed) throw CannotWrite("cannot write '" + files.frames.string() + "': " + failed.message());
+    clearFiles(files);
     outcomes[i].name = scene.name;
     running.push_back({i, true, OwnProcess(renderWords(scene, files), files.out, files.err)});
   };

@@ -56,6 +56,15 @@ TEST_F(Suite, IsAcceptedPassesAndNamesTheSceneAndTheCauseThatFails) {
   EXPECT_TRUE(fs::exists(at("out/ball/report.html")));
 }
 
+TEST_F(Suite, ReplacesWhatItDrewBefore_AndLeavesWhatOthersPutThere) {
+  EXPECT_EQ(run({"--update"}).code, 0);
+  file("out/ball/notes.txt", "mine");
+  file("out/ball/frames/frame_0099.png", "of a longer run");
+  EXPECT_EQ(run().code, 0);
+  EXPECT_EQ(readTextFile(at("out/ball/notes.txt")), "mine");
+  EXPECT_FALSE(fs::exists(at("out/ball/frames/frame_0099.png")));
+}
+
 TEST_F(Suite, ThatIsWrongIsRefusedWithItsPlace) {
   for (const auto& [text, part] :
        std::map<std::string, std::string>{{"{ \"scenes\": [] }", "is empty"},
