@@ -148,8 +148,16 @@ class Copy:
         return failed
 
 
+def allowed_s(copy, binary, tests):
+    """How long tests may take with a change: four times what they take without, and what a busy machine adds."""
+    began = time.monotonic()
+    if killer := copy.run(binary, tests, 3600):
+        sys.exit(f"the tree as it is fails {killer}")
+    return 4 * (time.monotonic() - began) + 10
+
+
 def survives(copy, change, limits_s):
-    """None: not counted; else what killed it, or "" for nothing."""
+    """None: not counted; else what killed it, or "" for nothing. limits_s: by binary, and by the filter of a folder's tests."""
     source = copy.tree / change.path
     text = source.read_text()
     lines = text.splitlines(keepends=True)
@@ -159,7 +167,7 @@ def survives(copy, change, limits_s):
         if not copy.make("engine_tests"):
             return None
         beside = suites_beside(copy.tree, change.path)
-        if beside and (killer := copy.run("engine_tests", beside, limits_s["engine_tests"])):
+        if beside and (killer := copy.run("engine_tests", beside, limits_s[beside])):
             return killer
         for binary in BINARIES:
             if not copy.make(binary):
@@ -188,14 +196,12 @@ def main():
     copy = Copy(options.out.resolve(), options.options)
     if not copy.make(*BINARIES):
         sys.exit("the tree as it is does not build")
-    limits_s = {}
-    for binary in BINARIES:
-        began = time.monotonic()
-        if killer := copy.run(binary, "*", 3600):
-            sys.exit(f"the tree as it is fails {killer}")
-        limits_s[binary] = 4 * (time.monotonic() - began) + 10
+    changes = chosen(copy.tree, options.only, options.count, options.seed)[options.first:]
+    limits_s = {binary: allowed_s(copy, binary, "*") for binary in BINARIES}
+    for beside in {suites_beside(copy.tree, change.path) for change in changes} - {""}:
+        limits_s[beside] = allowed_s(copy, "engine_tests", beside)
     killed, survivors = 0, []
-    for change in chosen(copy.tree, options.only, options.count, options.seed)[options.first:]:
+    for change in changes:
         outcome = survives(copy, change, limits_s)
         if outcome is None:
             print(f"not built    {change}", flush=True)
