@@ -41,9 +41,10 @@ TEST(RandomWorld, ComesInAllFamiliesAndKeepsItsLimits) {
   EXPECT_EQ(families.size(), 13u);
 }
 
-TEST(MovedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+// 60 worlds of the seeds from `first` on, which are so many families.
+void expectWorldsOf(std::uint64_t first, std::size_t families_there) {
   std::set<std::string> families;
-  for (std::uint64_t seed = kMovedWorlds; seed < kMovedWorlds + 60; ++seed) {
+  for (std::uint64_t seed = first; seed < first + 60; ++seed) {
     const ExploredWorld world = randomWorld(seed);
     families.insert(world.family);
     const std::string text = sceneText(world.scene);
@@ -52,7 +53,15 @@ TEST(MovedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
     const std::optional<Meeting> meeting = overlapOfStart(world.scene);
     EXPECT_FALSE(meeting) << seed << ' ' << meeting->depth_m;
   }
-  EXPECT_EQ(families.size(), 3u);
+  EXPECT_EQ(families.size(), families_there);
+}
+
+TEST(MovedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kMovedWorlds, 3);
+}
+
+TEST(DrivenCrowd, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kDrivenCrowds, 3);
 }
 
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {

@@ -28,27 +28,40 @@ int upperBody(const ContactRow& row, std::span<const ImpulseBody> bodies, const 
   return dot(up, b.center - a.center) >= 0.0 ? row.b : row.a;
 }
 
-// Brings one body to the bounds of its rows, round by round.
-void settle(std::span<const UpperEnd> ends, std::span<const ContactRow> rows, std::span<ImpulseBody> bodies,
-            std::span<double> impulses) {
-  ImpulseBody& body = bodies[at(ends.front().body)];
+// What one body, which alone moves, has of a row.
+struct Bound {
+  const ContactRow* row = nullptr;
+  bool is_b = false;
+  Vec3 other = Vec3::Zero();  // the other body's velocity at the point, m/s
+  double response = 0.0;      // of the separating speed to an impulse, 1/kg; 0: not asked for yet
+  double impulse = 0.0;       // N s
+
+  const Vec3& arm() const { return is_b ? row->r_b : row->r_a; }
+};
+
+double responseOf(const ImpulseBody& body, const Bound& bound) {
+  const Vec3 lever = bound.arm().cross(bound.row->n);
+  return body.inverseMassAlong(bound.row->n) + dot(lever, body.inverse_tensor * lever);
+}
+
+// Brings one body to its bounds, round by round.
+void settle(std::span<Bound> bounds, ImpulseBody& body) {
   double first = 0.0;
   for (int round = 0; round < kRoundsOfABody; ++round) {
     double largest = 0.0;
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      const ContactRow& row = rows[ends[k].row];
-      const bool is_b = row.b == ends[k].body;
-      const double miss = dot(row.n, rowVelocityInWorld(row, bodies)) - row.lowest_speed;
-      if (miss >= 0.0 && impulses[k] == 0.0) continue;
-      const Vec3& r = is_b ? row.r_b : row.r_a;
-      const Vec3 lever = r.cross(row.n);
-      const double response = body.inverseMassAlong(row.n) + dot(lever, body.inverse_tensor * lever);
-      const double impulse = std::max(0.0, impulses[k] - miss / response);
-      const double change = impulse - impulses[k];
+    for (Bound& bound : bounds) {
+      const Vec3& n = bound.row->n;
+      const Vec3 own = body.velocity.at(bound.arm());
+      const double miss = dot(n, bound.is_b ? own - bound.other : bound.other - own) - bound.row->lowest_speed;
+      if (miss >= 0.0 && bound.impulse == 0.0) continue;
+      if (bound.response == 0.0) bound.response = responseOf(body, bound);
+      if (isUnanswered(body, {}, bound.response)) continue;
+      const double impulse = std::max(0.0, bound.impulse - miss / bound.response);
+      const double change = impulse - bound.impulse;
       if (change == 0.0) continue;
-      impulses[k] = impulse;
-      body.apply((is_b ? change : -change) * row.n, r);
-      largest = std::max(largest, std::abs(change) * response);
+      bound.impulse = impulse;
+      body.apply((bound.is_b ? change : -change) * n, bound.arm());
+      largest = std::max(largest, std::abs(change) * bound.response);
     }
     if (round == 0) first = largest;
     if (largest <= kSettled * first) return;
@@ -66,11 +79,17 @@ void passUpwards(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies
     if (bodies[at(body)].inverse_mass > 0.0) ends.push_back({dot(up, bodies[at(body)].center), body, i});
   }
   std::sort(ends.begin(), ends.end());
-  std::vector<double> impulses(ends.size(), 0.0);
+  std::vector<Bound> bounds;
   for (std::size_t first = 0, end = 0; first < ends.size(); first = end) {
-    while (end < ends.size() && ends[end].body == ends[first].body) ++end;
-    settle(std::span(ends).subspan(first, end - first), rows, bodies,
-           std::span(impulses).subspan(first, end - first));
+    const int body = ends[first].body;
+    bounds.clear();
+    for (; end < ends.size() && ends[end].body == body; ++end) {
+      const ContactRow& row = rows[ends[end].row];
+      const bool is_b = row.b == body;
+      const Vec3 other = is_b ? bodies[at(row.a)].velocity.at(row.r_a) : bodies[at(row.b)].velocity.at(row.r_b);
+      bounds.push_back({&row, is_b, other});
+    }
+    settle(bounds, bodies[at(body)]);
   }
 }
 

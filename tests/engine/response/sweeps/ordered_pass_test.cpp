@@ -65,6 +65,21 @@ TEST(PassUpwards, OpensATowerInOnePass) {
   }
 }
 
+// The top is on a rail: nothing that presses it upwards moves it.
+TEST(PassUpwards, LeavesWhatLockedAxesHold) {
+  Random random(79);
+  Tower tower = randomTower(random);
+  ImpulseBody& top = tower.bodies.back();
+  top.free_axes = Vec3(1.0, 1.0, 0.0);
+  top.inverse_tensor.setZero();
+  top.has_locks = true;
+  const Velocity before = top.velocity;
+  for (ContactRow& row : tower.rows) row.lowest_speed = 1.0;
+  passUpwards(tower.rows, tower.bodies, Vec3::UnitZ());
+  EXPECT_EQ(tower.bodies.back().velocity.linear, before.linear);
+  EXPECT_EQ(tower.bodies.back().velocity.angular, before.angular);
+}
+
 TEST(PassUpwards, LeavesWhatIsBelowAsItIs) {
   Random random(78);
   Tower tower = randomTower(random);
