@@ -317,6 +317,24 @@ TEST(CanonicalFeatures, OfDifferentBodiesWhoseIndicesMirrorEachOther_AreSwappedW
   EXPECT_TRUE(print(ab) == "V0-E0" || print(ab) == "E0-V0") << print(ab);
 }
 
+// Two triangles that make a star: no corner lies over the other, and often edge i of A crosses edge j of B as
+// edge j of A crosses edge i of B, while edges of one index lie apart.
+TEST(CanonicalFeatures, OfEdgesThatCrossInAStar_AreSwappedWithTheBodies) {
+  const Quat upside_down = oracle::turned(Vec3::UnitX(), std::numbers::pi);
+  int crossings = 0;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    PosedPair p;
+    p.a.core = oracle::prism(3, 1.0, 0.8);
+    p.b.core = oracle::prism(3, 0.95, 0.7);
+    p.X_WB.rotation = oracle::turned(Vec3::UnitZ(), degrees * std::numbers::pi / 180.0) * upside_down;
+    p.X_WB.position = Vec3(0.02, 0.03, 1.0);
+    const FeaturePair ab = p.query().features, ba = swapped(p).query().features;
+    EXPECT_EQ(ab, swapped(ba)) << degrees << ": " << print(ab) << " and " << print(ba);
+    crossings += ab.a.kind == FeatureKind::kEdge && ab.b.kind == FeatureKind::kEdge;
+  }
+  EXPECT_GT(crossings, 90);
+}
+
 TEST(CanonicalFeatures, OfCornerOverCorner_AreTheTwoVertices) {
   const FeaturePair f = cubes(Quat::Identity(), Vec3(1, 1, 1.5)).query().features;
   EXPECT_EQ(f.a.kind, FeatureKind::kVertex);
