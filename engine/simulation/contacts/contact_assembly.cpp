@@ -61,14 +61,16 @@ class Assembly {
   }
 
   std::vector<std::size_t> addLandings(std::span<const int> pairs) {
-    std::vector<RowStretch> stretches(2);
     std::vector<int> ascending(pairs.begin(), pairs.end());
     std::sort(ascending.begin(), ascending.end());
-    keepRows(ascending, stretches[0]);
-    for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, stretches[1]);
-    for (const ContactRow& row : stretches[1].rows) applyLoad(row, contacts_.bodies);
-    addQueries(stretches[1].counters);
-    contacts_.stretches.swap(stretches);
+    contacts_.stretches.resize(std::max<std::size_t>(2, contacts_.stretches.size()));
+    for (RowStretch& stretch : contacts_.stretches) stretch.clear();
+    RowStretch& kept = contacts_.stretches[0];
+    RowStretch& made = contacts_.stretches[1];
+    keepRows(ascending, kept);
+    for (const int pair : pairs) makeRowsOf({-1, -kWhole, 0, pair}, made);
+    for (const ContactRow& row : made.rows) applyLoad(row, contacts_.bodies);
+    addQueries(made.counters);
     joinRows();
     return islandsOf(ascending);
   }
@@ -321,10 +323,7 @@ class Assembly {
     contacts_.stretches.resize(stretches);
     world_.crew.run(static_cast<int>(stretches), [&](int k) {
       RowStretch& stretch = contacts_.stretches[at(k)];
-      stretch.rows.clear();
-      stretch.sources.clear();
-      stretch.pairs.clear();
-      stretch.counters = {};
+      stretch.clear();
       for (std::size_t i = lasting_.size() * at(k) / stretches; i < lasting_.size() * (at(k) + 1) / stretches;
            ++i)
         makeRowsOf(lasting_[i], stretch);
@@ -419,6 +418,8 @@ class Assembly {
     }
     std::sort(meeting.begin(), meeting.end());
     const auto meets = [&](int body) { return std::binary_search(meeting.begin(), meeting.end(), body); };
+    kept.rows.reserve(contacts_.rows.size());
+    kept.sources.reserve(contacts_.rows.size());
     for (const LastingContacts::PairRows& of_pair : contacts_.pair_rows) {
       const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
       const bool is_met = meets(pair.body_a) || meets(pair.body_b);

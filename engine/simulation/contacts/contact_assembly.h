@@ -36,6 +36,13 @@ struct RowStretch {
   std::vector<Pair> pairs;
   std::vector<SourcedRow> of_pair;  ///< Scratch.
   StepCounters counters;
+
+  void clear() {
+    rows.clear();
+    sources.clear();
+    pairs.clear();
+    counters = {};
+  }
 };
 
 /// How a body moved before the step's impulses, once for all its rows.
