@@ -240,7 +240,7 @@ class Explorer {
         if (finding.kind == kind) return finding;
       return std::nullopt;
     };
-    const int trials = kind == "hang" ? options_.trials / 3 : options_.trials;
+    const int trials = kind == "hang" || kind == "slow" ? options_.trials / 3 : options_.trials;
     Shrunk shrunk = shrunkScene(scene, failure.finding, trial, trials);
     std::ostringstream what;
     what << shrunk.scene.description << ", seed " << failure.seed << ": " << kind << ' '

@@ -41,6 +41,7 @@ void armClock(double cpu_s) {
 struct Progress {
   std::atomic<std::uint64_t> job;
   std::atomic<int> step;
+  std::atomic<bool> is_last;  ///< What the run has left is less than a step may take.
 };
 
 std::string oneLine(std::string text) {
@@ -137,11 +138,15 @@ class Worker {
     SeedReport report;
     report.seed = next_;
     const int step = progress_->step;
-    const bool hangs = WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF;
+    const bool over = WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF;
     const std::string how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                                                 : "exit code " + std::to_string(WEXITSTATUS(status));
-    report.outcome.findings.push_back(
-        {hangs ? "hang" : "crash", 1.0, step, hangs ? "the step takes more CPU time than it may" : how});
+    if (!over)
+      report.outcome.findings.push_back({"crash", 1.0, step, how});
+    else if (progress_->is_last)
+      report.outcome.findings.push_back({"slow", 1.0, step, "the run takes more CPU time than it may"});
+    else
+      report.outcome.findings.push_back({"hang", 1.0, step, "the step takes more CPU time than it may"});
     ++next_;
     take(report);
   }
@@ -152,18 +157,21 @@ class Worker {
       const double begin_s = cpuTime();
       progress_->job = i;
       progress_->step = 0;
-      double start_s = begin_s, starting_s = 0.0;  // of the world that was made last, and of all of them
+      progress_->is_last = false;
+      double run_s = begin_s;  // when the first step of the present run began
       bool starts = false;
       TrialSettings settings;
       settings.before_start = [&] {
         starts = true;
-        start_s = cpuTime();
+        progress_->step = 0;
+        progress_->is_last = false;
         armClock(limits.start_cpu_s);
       };
       settings.before_step = [&] {
-        if (std::exchange(starts, false)) starting_s += cpuTime() - start_s;
+        if (std::exchange(starts, false)) run_s = cpuTime();
         ++progress_->step;
-        const double left_s = limits.seed_cpu_s - (cpuTime() - begin_s - starting_s);
+        const double left_s = limits.run_cpu_s - (cpuTime() - run_s);
+        progress_->is_last = left_s < limits.step_cpu_s;
         if (!(left_s > 0.0)) raise(SIGPROF);
         armClock(std::min(limits.step_cpu_s, left_s) + 1e-3);
       };

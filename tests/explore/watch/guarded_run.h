@@ -13,7 +13,7 @@ namespace carom::explore {
 
 struct Limits {
   double step_cpu_s = 1.0;    ///< Of one step.
-  double seed_cpu_s = 5.0;    ///< Of all steps of a seed.
+  double run_cpu_s = 5.0;     ///< Of all steps of a world, which some seeds run several times.
   double start_cpu_s = 20.0;  ///< Of the making of its world, in which meshes are decomposed.
 };
 
@@ -21,7 +21,8 @@ struct Limits {
 using Job = std::function<SeedReport(std::uint64_t job, const TrialSettings& settings)>;
 
 /// Runs the jobs from `first` on, `count` of them, in `processes` at a time, and hands each report to `take`
-/// as it arrives. A job whose process died reports one finding: "hang", or "crash" with the signal.
+/// as it arrives. A job whose process died reports one finding: "hang" for a step over its limit, "slow" for
+/// steps that are together, or "crash" with the signal.
 void runGuarded(std::uint64_t first, std::uint64_t count, int processes, const Limits& limits, const Job& job,
                 const std::function<void(const SeedReport&)>& take);
 

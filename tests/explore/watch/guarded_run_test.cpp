@@ -28,7 +28,7 @@ TEST(GuardedRun, AHangACrashAndAnExceptionCostOneJobEach) {
     return report;
   };
   std::map<std::uint64_t, SeedReport> reports;
-  runGuarded(10, 100, 2, {.step_cpu_s = 0.05, .seed_cpu_s = 1.0}, job, [&reports](const SeedReport& report) {
+  runGuarded(10, 100, 2, {.step_cpu_s = 0.05, .run_cpu_s = 1.0}, job, [&reports](const SeedReport& report) {
     EXPECT_TRUE(reports.emplace(report.seed, report).second);
   });
   ASSERT_EQ(reports.size(), 100u);
@@ -46,7 +46,7 @@ TEST(GuardedRun, AHangACrashAndAnExceptionCostOneJobEach) {
 
 TEST(GuardedRun, TheMakingOfAWorldHasALimitOfItsOwn) {
   const auto found = [](double start_cpu_s) {
-    return runGuarded({.step_cpu_s = 0.05, .seed_cpu_s = 0.05, .start_cpu_s = start_cpu_s},
+    return runGuarded({.step_cpu_s = 0.05, .run_cpu_s = 0.05, .start_cpu_s = start_cpu_s},
                       [](const TrialSettings& settings) {
                         settings.before_start();
                         for (const std::clock_t begin = std::clock();
@@ -62,14 +62,29 @@ TEST(GuardedRun, TheMakingOfAWorldHasALimitOfItsOwn) {
   EXPECT_EQ(found(0.1)[0].step, 0);
 }
 
-TEST(GuardedRun, ASeedWhoseStepsAreShortButManyEndsAtItsOwnLimit) {
+TEST(GuardedRun, ARunWhoseStepsAreShortButManyEndsAtItsOwnLimit) {
   const SeedReport report =
-      runGuarded({.step_cpu_s = 0.5, .seed_cpu_s = 0.1}, [](const TrialSettings& settings) {
+      runGuarded({.step_cpu_s = 0.5, .run_cpu_s = 0.1}, [](const TrialSettings& settings) {
         for (;;) settings.before_step();
         return SeedReport{};
       });
   ASSERT_EQ(report.outcome.findings.size(), 1u);
-  EXPECT_EQ(report.outcome.findings[0].kind, "hang");
+  EXPECT_EQ(report.outcome.findings[0].kind, "slow");
+}
+
+// Seeds whose worlds are run again, for their bits, were taken for slow ones.
+TEST(GuardedRun, EveryRunOfASeedHasTheWholeLimit) {
+  const SeedReport report =
+      runGuarded({.step_cpu_s = 0.5, .run_cpu_s = 0.3}, [](const TrialSettings& settings) {
+        for (int run = 0; run < 4; ++run) {
+          settings.before_start();
+          settings.before_step();
+          for (const std::clock_t begin = std::clock(); std::clock() - begin < CLOCKS_PER_SEC / 10;) {
+          }
+        }
+        return SeedReport{};
+      });
+  EXPECT_TRUE(report.outcome.findings.empty());
 }
 
 }  // namespace
