@@ -52,7 +52,8 @@ void settle(std::span<Bound> bounds, ImpulseBody& body) {
     for (Bound& bound : bounds) {
       const Vec3& n = bound.row->n;
       const Vec3 own = body.velocity.at(bound.arm());
-      const double miss = dot(n, bound.is_b ? own - bound.other : bound.other - own) - bound.row->lowest_speed;
+      const double miss =
+          dot(n, bound.is_b ? own - bound.other : bound.other - own) - bound.row->lowest_speed;
       if (miss >= 0.0 && bound.impulse == 0.0) continue;
       if (bound.response == 0.0) bound.response = responseOf(body, bound);
       if (isUnanswered(body, {}, bound.response)) continue;
@@ -86,7 +87,8 @@ void passUpwards(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies
     for (; end < ends.size() && ends[end].body == body; ++end) {
       const ContactRow& row = rows[ends[end].row];
       const bool is_b = row.b == body;
-      const Vec3 other = is_b ? bodies[at(row.a)].velocity.at(row.r_a) : bodies[at(row.b)].velocity.at(row.r_b);
+      const Vec3 other =
+          is_b ? bodies[at(row.a)].velocity.at(row.r_a) : bodies[at(row.b)].velocity.at(row.r_b);
       bounds.push_back({&row, is_b, other});
     }
     settle(bounds, bodies[at(body)]);
