@@ -52,8 +52,8 @@ void cutRestitution(std::span<ContactRow> rows, const std::vector<Vec3>& before,
   setShare(low);
 }
 
-void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double approach_mps) {
-  solveContactsByNewton(rows, bodies, {kCollisionSweeps, kConverged * approach_mps, true});
+void solveRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double enough_mps) {
+  solveContactsByNewton(rows, bodies, {kCollisionSweeps, enough_mps, true});
 }
 
 // What the solves have left approaching, where they have not converged (rough ground that rows contradict
@@ -79,7 +79,8 @@ void stopApproaches(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, d
 
 }  // namespace
 
-void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution) {
+void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution,
+             double enough_mps) {
   double lowest_mps = 0.0;
   std::vector<Vec3> before(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -96,7 +97,8 @@ void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::spa
     applyToRow(row, row.impulse, bodies);
     return;
   }
-  solveRows(rows, bodies, approach_mps);
+  const double residual_mps = std::max(enough_mps, kConverged * approach_mps);
+  solveRows(rows, bodies, residual_mps);
   takeBackGain(rows, bodies);
 
   if (std::any_of(restitution.begin(), restitution.end(), [](double e) { return e > 0.0; })) {
@@ -108,10 +110,10 @@ void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::spa
       rows[i].impulse.x() += rebound;
       rows[i].lowest_speed = compressed[i].x() > 0.0 ? -restitution[i] * std::min(before[i].x(), 0.0) : 0.0;
     }
-    solveRows(rows, bodies, approach_mps);
+    solveRows(rows, bodies, residual_mps);
     if (twiceEnergyGain(rows, before, bodies) > 0.0) cutRestitution(rows, before, compressed, bodies);
   }
-  stopApproaches(rows, bodies, kLeastApproach * approach_mps);
+  stopApproaches(rows, bodies, std::max(enough_mps, kLeastApproach * approach_mps));
 }
 
 }  // namespace carom

@@ -14,7 +14,9 @@
 namespace carom {
 
 /// Changes the velocities of the bodies that `rows` (prepared, zero impulses) refer to. `restitution`: one a
-/// row.
-void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution);
+/// row. `enough_mps`: what the solves may leave over of their conditions, at several points; what rounding
+/// allows is less by far.
+void collide(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, std::span<const double> restitution,
+             double enough_mps = 0.0);
 
 }  // namespace carom

@@ -326,8 +326,9 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
   bool solved_at_once = false;
   bool unseen = false;   // whom the solution at once reaches has not been looked at
   bool reached = false;  // all whom the impulses reach have joined
-  for (int sweeps = 0; visits < kCarefulVisits || sweeps < mostSweeps() || unseen;) {
-    const double enough = visits < kCarefulVisits ? std::min(careful_mps, safe) : safe;
+  const auto isCareful = [&] { return visits < kCarefulVisits && canBeCareful(); };
+  for (int sweeps = 0; isCareful() || sweeps < mostSweeps() || unseen;) {
+    const double enough = isCareful() ? std::min(careful_mps, safe) : safe;
     const int fine_sweeps =
         std::max(kFineSweeps, static_cast<int>(kCarefulVisits) / std::max(1, static_cast<int>(rows_.size())));
     const bool fine = reached && !isCrowd();
@@ -343,7 +344,7 @@ bool ContactCluster::sweepSpreading(double careful_mps) {
     visits_ += report.visits;
     const bool grew = !isExhausted() && expandMoved(noticeableSpeed());
     reached = !grew;
-    const bool leaves_much = report.residual_mps > kFewRowsShare * safe;
+    const bool leaves_much = report.residual_mps > (canBeCareful() ? kFewRowsShare : 1.0) * safe;
     if (fine && !grew && leaves_much && !solved_at_once && rows_.size() <= kMostPivotedRows) {
       solved_at_once = unseen = true;
       solveAtOnce(kFewRowsShare * safe);
@@ -387,7 +388,7 @@ void ContactCluster::collide(bool spreads) {
     startAgain();
     restitution = findRestitution();
   }
-  carom::collide(rows_, momentum_, restitution);
+  carom::collide(rows_, momentum_, restitution, canBeCareful() ? 0.0 : safeResidual());
 }
 
 // The compression has found whom the collision reaches. With restitution it starts from the velocities
