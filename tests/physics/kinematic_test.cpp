@@ -318,6 +318,36 @@ TEST(KinematicPress, StopsRatherThanOverlap_AndSaysSo) {
   }
 }
 
+// Boxes in a row between it and a wall: they lie still once it has stopped for them, as soon as they touch.
+TEST(KinematicPress, LeavesARowThatItCannotPressAtRest) {
+  KinematicWorld w({1.0 / 240.0, kDown});
+  w.world.addBody({w.world.addSolid(Solid::box(Vec3(8, 8, 1))),
+                   {Quat::Identity(), Vec3(0, 0, -0.5)},
+                   Vec3::Zero(),
+                   Vec3::Zero(),
+                   rubbing(0.3),
+                   true});
+  w.world.addBody({w.world.addSolid(Solid::box(Vec3(1, 2, 2))),
+                   {Quat::Identity(), Vec3(2.0, 0, 1.0)},
+                   Vec3::Zero(),
+                   Vec3::Zero(),
+                   rubbing(0.3),
+                   true});
+  const double side = 0.3, u = 0.2;
+  std::vector<int> boxes;
+  for (int i = 0; i < 4; ++i)
+    boxes.push_back(
+        w.add(Solid::box(Vec3::Constant(side)),
+              {Quat::Identity(), Vec3(1.5 - 1.02 * side * (i + 0.5), 0, 0.5 * side + restGap(side))},
+              Vec3::Zero(), Vec3::Zero(), rubbing(0.3)));
+  w.addDriven(Solid::box(Vec3(0.2, 1.0, 0.2)), {Quat::Identity(), Vec3(0.0, 0, 0.2)}, Vec3(u, 0, 0),
+              Vec3::Zero(), rubbing(0.3));
+  w.start();
+  w.run(2.0);
+  EXPECT_GT(w.world.audit().kinematic_late_s, 0.5);
+  for (const int box : boxes) EXPECT_LT(w.state(box).linear_velocity.norm(), 0.01 * u) << box;
+}
+
 TEST(KinematicBodies, StopAtStaticOnes) {
   KinematicWorld w({1.0 / 240.0, kDown});
   const int moved =

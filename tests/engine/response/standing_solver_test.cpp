@@ -45,6 +45,28 @@ TEST(SolveStandingContacts, InAColumn_EveryBedCarriesWhatIsAbove) {
     }
 }
 
+// Boxes on rails: they go up and down, and turn not at all or about the rail.
+TEST(SolveStandingContacts, InAColumnOnRails_EveryBedCarriesWhatIsAbove) {
+  for (const bool turns : {false, true}) {
+    Masonry m = columns(1, 100, 1.0);
+    for (ImpulseBody& body : m.bodies) {
+      if (body.inverse_mass == 0.0) continue;
+      const double about_z = turns ? body.inverse_tensor(2, 2) : 0.0;
+      body.free_axes = Vec3::UnitZ();
+      body.inverse_tensor = Vec3(0.0, 0.0, about_z).asDiagonal();
+      body.has_locks = true;
+    }
+    for (ContactRow& row : m.rows) prepareRow(row, m.bodies);
+    solveAsInSteps(m);
+    EXPECT_LT(m.fastest(), 1e-4 * kGained) << turns;
+    for (int bed = 0; bed < 100; ++bed) {
+      double carried = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) carried += m.rows[4 * at(bed) + i].impulse.x();
+      EXPECT_NEAR(carried, (100 - bed) * kGained, 1e-4 * (100 - bed) * kGained) << turns << " bed " << bed;
+    }
+  }
+}
+
 TEST(SolveStandingContacts, AWallStandsWhereSweepsAloneLetItSink) {
   Masonry swept = wall(20, 12), solved = swept;
   solveContactsFinely(swept.rows, swept.bodies, {.sweeps = 300, .residual_mps = settings().residual_mps});

@@ -202,6 +202,12 @@ TEST(ConvexPolyhedron, RefusesWhatIsNotAClosedConvexSurface) {
   expectRefused(bad, good, "not finite");
 }
 
+// In the middle of an edge, as files have it where a face was divided.
+TEST(ConvexPolyhedron, RefusesAVertexOfTwoEdges) {
+  const std::vector<Vec3> v{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}};
+  expectRefused(v, {{0, 2, 1, 4}, {0, 4, 1, 3}, {0, 3, 2}, {1, 2, 3}}, "fewer than three edges");
+}
+
 TEST(ConvexPolyhedron, RefusesADentAndABentFace) {
   const ConvexPolyhedron box = oracle::triangulatedBox(Vec3::Ones());
   Loops loops;

@@ -30,11 +30,11 @@ struct Row {
 };
 
 // Balls of two masses in a row along z, and what pushes the first with a speed of 1.7 m/s.
-Row pushedRow(int balls, bool against_a_wall) {
+Row pushedRow(int balls, bool against_a_wall, double mass_kg = 1.0) {
   Row row;
   row.bodies.push_back(driven(Vec3(0.3, 0.0, 1.7)));
   for (int i = 0; i < balls; ++i)
-    row.bodies.push_back(impulseBody(boxInertia(i % 2 == 0 ? 1.0 : 3.0, Vec3(0.5, 0.5, 0.5)),
+    row.bodies.push_back(impulseBody(boxInertia(i % 2 == 0 ? mass_kg : 3.0 * mass_kg, Vec3(0.5, 0.5, 0.5)),
                                      Quat::Identity(), Vec3(0.0, 0.0, i + 0.5), {}));
   if (against_a_wall) row.bodies.push_back(immovable());
   for (int i = 0; i + 1 < static_cast<int>(row.bodies.size()); ++i)
@@ -43,12 +43,16 @@ Row pushedRow(int balls, bool against_a_wall) {
 }
 
 TEST(LeavingNoRoom, WhatIsPushedAgainstAWall_InARowOfAnyLength) {
-  for (const int balls : {1, 2, 5, 10}) EXPECT_TRUE(pushedRow(balls, true).hasNoRoom()) << balls;
+  for (const int balls : {1, 2, 5, 10})
+    for (const double mass_kg : {1e-6, 1.0, 1e6})
+      EXPECT_TRUE(pushedRow(balls, true, mass_kg).hasNoRoom()) << balls << " of " << mass_kg;
 }
 
 TEST(LeavingNoRoom, NotWhatIsPushedOn_ConvergedOrNot) {
   for (const int balls : {1, 2, 5, 10})
-    for (const int sweeps : {1, 4, 80}) EXPECT_FALSE(pushedRow(balls, false).hasNoRoom(sweeps)) << balls;
+    for (const double mass_kg : {1e-6, 1.0, 1e6})
+      for (const int sweeps : {1, 4, 80})
+        EXPECT_FALSE(pushedRow(balls, false, mass_kg).hasNoRoom(sweeps)) << balls << " of " << mass_kg;
 }
 
 TEST(LeavingNoRoom, NotWhatLiesBetweenThingsThatStandStill) {

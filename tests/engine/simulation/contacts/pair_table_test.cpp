@@ -111,6 +111,35 @@ class ManyBodies {
   Crew crew_;
 };
 
+/// Of a ball of 5 mm on the ground, in steps of gravity.
+double collisionSpeedOfABall(double restitution, bool supported) {
+  const Solid ball = Solid::ball(5e-3), ground = Solid::box(Vec3::Ones());
+  const WorldSettings settings{.step_s = 1.0 / 240.0};
+  std::vector<Body> bodies(2);
+  bodies[0].is_static = true;
+  bodies[0].material.restitution = 0.0;
+  bodies[1].material.restitution = restitution;
+  bodies[1].supported = supported;
+  bodies[0].X_WB.position = bodies[0].path.X_WB.position = Vec3(0, 0, -0.5);
+  bodies[1].X_WB.position = bodies[1].path.X_WB.position = Vec3(0, 0, 5.01e-3);
+  const std::vector<Shape> shapes{{0, &ground.parts()[0], ground.radius(), 1e300},
+                                  {1, &ball.parts()[0], ball.radius(), 1e-2}};
+  PairTable table;
+  Crew crew;
+  StepCounters counters;
+  table.updateBounds(bodies, shapes, std::vector<int>{0, 1}, settings.step_s, crew);
+  table.collect({bodies, shapes, settings}, counters, nullptr);
+  return table.pairs().at(0).collision_speed_mps / (settings.gravity.norm() * settings.step_s);
+}
+
+// A bounce that is thrown up at so many steps of gravity lasts twice as many steps.
+TEST(CollisionSpeed, OfWhatLiesOnOthers_LeavesElasticBouncesOfASixteenthOfAStep) {
+  EXPECT_LT(collisionSpeedOfABall(1.0, true), 0.5 / 14.0);
+  EXPECT_GT(collisionSpeedOfABall(1.0, true), 0.5 / 18.0);
+  EXPECT_GT(collisionSpeedOfABall(0.0, true), 1.0) << "what does not bounce lands";
+  EXPECT_LT(collisionSpeedOfABall(1.0, false), collisionSpeedOfABall(1.0, true)) << "nothing brings it back";
+}
+
 TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
   Random random(44);
   ManyBodies bodies(random, 100);
