@@ -1,10 +1,12 @@
-"""mutation.py [--count 200] [--seed 1] [--from 0] [--only engine/contact] [--out build/mutation]: whether the tests notice
-when the engine is wrong. Makes small changes to the engine's sources, one at a time, in a copy of the tree: a sign, a
-comparison, a constant, a line that is dropped. Each is built and tried by the tests of its own folder, then by all of the
-engine's and the physics' tests. What is noticed, by a test that fails or runs four times as long, is killed; what is not
-survives, and wants a test or a reason. Prints a line a change, the survivors again and the share that was killed.
+"""mutation.py [--count 200] [--seed 1] [--from 0] [--only engine/contact] [--out build/mutation] [--again LOG]: whether the
+tests notice when the engine is wrong. Makes small changes to the engine's sources, one at a time, in a copy of the tree: a
+sign, a comparison, a constant, a line that is dropped. Each is built and tried by the tests of its own folder, then by all
+of the engine's and the physics' tests and the explorer's first worlds. What is noticed, by a test that fails or runs four
+times as long, is killed; what is not survives, and wants a test or a reason. Prints a line a change, the survivors again and
+the share that was killed. --again tries what survived a run, by the tests that may be new: those of its folder, and the
+explorer's worlds.
 
-Needs what the build needs; the copy is built without the program. A change that does not compile is not counted."""
+Needs what the build needs; the copy is built without GL. A change that does not compile is not counted."""
 import argparse
 import dataclasses
 import os
@@ -21,6 +23,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MEMORY_BYTES = 4 << 30  # a loop that never ends may fill it before its time is over
 BINARIES = ("engine_tests", "no_allocation_tests", "physics_tests")
 JOBS = len(os.sched_getaffinity(0))
+EXPLORED = ["--seeds", "300", "--shrink", "0", "--jobs", str(JOBS), "--open", "tests/explore/open.txt",
+            "--cases", "tests/explore/cases"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +94,19 @@ def chosen(root, only, count, seed):
     return changes
 
 
+def survived(root, log):
+    """The changes that the printed log of a run says survived, where the sources still have their lines."""
+    printed = set(re.findall(r"^SURVIVED +(.*)$", log.read_text(), re.M))
+    now = {str(change).split(":", 1)[0] + re.sub(r"^[^ ]*", "", str(change)): change
+           for source in sorted((root / "engine").rglob("*.cpp"))
+           for change in changes_of(source.relative_to(root).as_posix(), source.read_text())}
+    unnumbered = sorted(line.split(":", 1)[0] + re.sub(r"^[^ ]*", "", line) for line in printed)
+    for line in unnumbered:
+        if line not in now:
+            print(f"gone         {line}", flush=True)
+    return [now[line] for line in unnumbered if line in now]
+
+
 def suites_beside(root, path):
     """A filter of the tests in the folder that mirrors a source's."""
     names = set()
@@ -119,7 +136,7 @@ class Copy:
             if not place.exists() or place.read_bytes() != text:  # what is as it was is not built again
                 place.write_bytes(text)
         subprocess.run(["cmake", "-S", str(self.tree), "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCAROM_PROGRAM=OFF", "-DCAROM_RENDERER=OFF", *options], check=True, stdout=subprocess.DEVNULL)
+                        "-DCAROM_RENDERER=OFF", *options], check=True, stdout=subprocess.DEVNULL)
 
     def make(self, *binaries):
         """Whether it compiles."""
@@ -148,15 +165,28 @@ class Copy:
         return failed
 
 
-def allowed_s(copy, binary, tests):
-    """How long tests may take with a change: four times what they take without, and what a busy machine adds."""
+    def explore(self, limit_s):
+        """What of the explorer's worlds fails, or "time"; None: nothing."""
+        command = [str(self.build / "tests" / "explore"), *EXPLORED, "--out", str(self.build / "explored")]
+        try:
+            explorer = subprocess.run(command, cwd=self.tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                      errors="replace", timeout=limit_s)
+        except subprocess.TimeoutExpired:
+            return "time"
+        failed = re.search(r"^to be mended, or listed with its cause: (.+?) #", explorer.stdout, re.M)
+        return None if explorer.returncode == 0 else f"the explorer: {failed[1] if failed else explorer.returncode}"
+
+
+def allowed_s(run):
+    """How long tests may take with a change: four times what they take without, and what a busy machine adds. Runs them by
+    `run(limit_s)`."""
     began = time.monotonic()
-    if killer := copy.run(binary, tests, 3600):
+    if killer := run(3600):
         sys.exit(f"the tree as it is fails {killer}")
     return 4 * (time.monotonic() - began) + 10
 
 
-def survives(copy, change, limits_s):
+def survives(copy, change, binaries, limits_s):
     """None: not counted; else what killed it, or "" for nothing. limits_s: by binary, and by the filter of a folder's tests."""
     source = copy.tree / change.path
     text = source.read_text()
@@ -169,12 +199,12 @@ def survives(copy, change, limits_s):
         beside = suites_beside(copy.tree, change.path)
         if beside and (killer := copy.run("engine_tests", beside, limits_s[beside])):
             return killer
-        for binary in BINARIES:
+        for binary in binaries:
             if not copy.make(binary):
                 return None
             if killer := copy.run(binary, "*", limits_s[binary]):
                 return killer
-        return ""
+        return copy.explore(limits_s["explore"]) or "" if copy.make("explore") else None
     finally:
         source.write_text(text)
 
@@ -186,6 +216,7 @@ def main():
     parser.add_argument("--from", dest="first", type=int, default=0, help="so many of them are passed over (0)")
     parser.add_argument("--only", default="", help="a regular expression that the sources' paths hold")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build" / "mutation", help="where the copy is made")
+    parser.add_argument("--again", type=pathlib.Path, help="what survived the run that printed this file")
     parser.add_argument("--list", action="store_true", help="prints the changes and tries none")
     parser.add_argument("options", nargs="*", help="options for CMake, after --")
     options = parser.parse_args()
@@ -193,16 +224,19 @@ def main():
         for change in chosen(ROOT, options.only, options.count, options.seed)[options.first:]:
             print(change)
         return 0
+    binaries = BINARIES if options.again is None else ()
     copy = Copy(options.out.resolve(), options.options)
-    if not copy.make(*BINARIES):
+    if not copy.make("engine_tests", *binaries, "explore"):
         sys.exit("the tree as it is does not build")
-    changes = chosen(copy.tree, options.only, options.count, options.seed)[options.first:]
-    limits_s = {binary: allowed_s(copy, binary, "*") for binary in BINARIES}
+    changes = survived(copy.tree, options.again)[options.first:options.count] if options.again else \
+        chosen(copy.tree, options.only, options.count, options.seed)[options.first:]
+    limits_s = {binary: allowed_s(lambda limit_s: copy.run(binary, "*", limit_s)) for binary in binaries}
     for beside in {suites_beside(copy.tree, change.path) for change in changes} - {""}:
-        limits_s[beside] = allowed_s(copy, "engine_tests", beside)
+        limits_s[beside] = allowed_s(lambda limit_s: copy.run("engine_tests", beside, limit_s))
+    limits_s["explore"] = allowed_s(copy.explore)
     killed, survivors = 0, []
     for change in changes:
-        outcome = survives(copy, change, limits_s)
+        outcome = survives(copy, change, binaries, limits_s)
         if outcome is None:
             print(f"not built    {change}", flush=True)
         elif outcome:
