@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/oracle/test_shapes.h"
 
 namespace carom {
@@ -48,6 +50,35 @@ TEST(PlanarFaces, NoiseOnAnySolidIsTakenOut) {
       EXPECT_LT(largestBend(vertices, loopsOf(solid)), 1e-14);
       EXPECT_GT(farthest, 0.5 * bend) << "a bend cannot vanish with less";
       EXPECT_LT(farthest, 20 * noise);
+    }
+}
+
+// Where three faces meet in every corner, each of them may be pushed along its normal and all stay planar:
+// the shortest displacements have nothing of that, but for terms in the square of the noise.
+TEST(PlanarFaces, NoFaceIsPushedWithoutNeed) {
+  oracle::Random random(73);
+  const double noise = 1e-6;
+  for (const ConvexPolyhedron& solid :
+       {boxPolyhedron({1, 2, 3}), oracle::dodecahedron(), oracle::prism(7, 1, 2)})
+    for (int i = 0; i < 20; ++i) {
+      std::vector<Vec3> vertices;
+      for (const Vec3& v : solid.vertices()) vertices.push_back(v + noise * random.direction());
+      const std::vector<Vec3> before = vertices;
+      flattenFaces(vertices, loopsOf(solid));
+      for (int f = 0; f < solid.faceCount(); ++f) {
+        double along = 0.0;
+        for (const int v : solid.faceVertices(f)) {
+          std::vector<Vec3> others;  // normals of the other two faces there
+          for (int g = 0; g < solid.faceCount(); ++g)
+            if (g != f && std::ranges::count(solid.faceVertices(g), v) > 0)
+              others.push_back(solid.plane(g).normal);
+          ASSERT_EQ(others.size(), 2u);
+          const Vec3 edge = others[0].cross(others[1]);
+          const auto at = static_cast<std::size_t>(v);
+          along += (vertices[at] - before[at]).dot(edge) / edge.dot(solid.plane(f).normal);
+        }
+        EXPECT_LT(std::abs(along), 1e-3 * noise) << f;
+      }
     }
 }
 
