@@ -8,6 +8,9 @@ namespace carom {
 namespace {
 
 constexpr double kMostUndone = 0.5;  // of a normal impulse's response, by its own torque
+// Of the answer about all axes: what is added about axes that locks leave without one, of themselves or where
+// the point is held. Rounding, 2^-52 of all, is so much less that what they seem to turn by takes no torque.
+constexpr double kTrace = 0x1p-30;
 
 const ImpulseBody& bodyOf(std::span<const ImpulseBody> bodies, int i) {
   return bodies[static_cast<std::size_t>(i)];
@@ -26,6 +29,14 @@ Mat3 crossResponse(const ContactRow& row, std::span<const ImpulseBody> bodies) {
   const Mat3 response = crossMatrix(row.r_a) * bodyOf(bodies, row.a).inverse_tensor +
                         crossMatrix(row.r_b) * bodyOf(bodies, row.b).inverse_tensor;
   return -(frame.transpose() * response * frame);
+}
+
+// The answer of turning, all of it or what is left of it where the point is held, with a trace about every
+// axis if locks have taken some.
+Mat3 withTrace(Mat3 answer, const Mat3& turning, const ContactRow& row, std::span<const ImpulseBody> bodies) {
+  if (bodyOf(bodies, row.a).has_locks || bodyOf(bodies, row.b).has_locks)
+    answer.diagonal().array() += kTrace * turning.trace();
+  return answer;
 }
 
 // Leaves only what the axes do that resist: the others take no torque.
@@ -79,6 +90,7 @@ void applyTorqueToRow(const ContactRow& row, const Vec3& torque, std::span<Impul
 void prepareResistance(ContactRow& row, std::span<const ImpulseBody> bodies) {
   const Mat3 response = turnResponse(row, bodies);
   row.largest_turn_response = std::max(response(0, 0), largestTangentialResponse(response));
+  if (row.largest_turn_response == 0.0) return endResistance(row);  // neither turns
   const Eigen::RowVector3d lift = crossResponse(row, bodies).row(0);
   const double undone =
       row.resistance.spinning_m * std::abs(lift.x()) + row.resistance.rolling_m * lift.tail<2>().norm();
@@ -94,7 +106,8 @@ bool holdsTurning(const ContactRow& row, std::span<const ImpulseBody> bodies, co
                   RowLoad& load) {
   const Mat3 cross = crossResponse(row, bodies);
   const Mat3 held = row.inverse_response * cross;
-  Mat3 response = turnResponse(row, bodies) - cross.transpose() * held;
+  const Mat3 turning_response = turnResponse(row, bodies);
+  Mat3 response = withTrace(turning_response - cross.transpose() * held, turning_response, row, bodies);
   Vec3 spin = rowSpin(row, bodies) - held.transpose() * miss;
   keepResisting(row.resistance, response, spin);
   const Vec3 turning = -(response.inverse() * spin);
@@ -108,11 +121,12 @@ RowLoad resistTurning(const ContactRow& row, std::span<const ImpulseBody> bodies
   if (is_held) {
     const Mat3 cross = crossResponse(row, bodies);
     const Mat3 held = row.inverse_response * cross;
-    const Vec3 torque = resistingTorque(row, bodies, response - cross.transpose() * held);
+    const Vec3 torque =
+        resistingTorque(row, bodies, withTrace(response - cross.transpose() * held, response, row, bodies));
     const Vec3 impulse = row.impulse - held * (torque - row.torque);
     if (isInCone(row, impulse)) return {impulse, torque};
   }
-  return {row.impulse, resistingTorque(row, bodies, response)};
+  return {row.impulse, resistingTorque(row, bodies, withTrace(response, response, row, bodies))};
 }
 
 double turningAsSpeed(const ContactRow& row, const Vec3& torque) {

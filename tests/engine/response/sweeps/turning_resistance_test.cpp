@@ -34,6 +34,57 @@ double totalEnergy(const Meeting& m) {
   return kineticEnergy(m.bodies[0]) + kineticEnergy(m.bodies[1]);
 }
 
+// Leaves the body some of its axes: of moving each or not, of turning all, one or none.
+void lockAtRandom(Random& random, ImpulseBody& body) {
+  const Mat3 inertia = body.inverse_tensor.inverse();
+  const int turning = random.integer(0, 2);
+  const Vec3 axis = Vec3::Unit(random.integer(0, 2));
+  for (Eigen::Index i = 0; i < 3; ++i) body.free_axes[i] = random.integer(0, 1);
+  if (turning == 1) body.inverse_tensor = axis * axis.transpose() / axis.dot(inertia * axis);
+  if (turning == 2) body.inverse_tensor.setZero();
+  body.has_locks = true;
+  body.velocity.linear = body.free_axes.cwiseProduct(body.velocity.linear);
+  if (turning == 1) body.velocity.angular = axis * axis.transpose() * body.velocity.angular;
+  if (turning == 2) body.velocity.angular.setZero();
+}
+
+// Twice the work of all loads: on the mean of the velocities before and after.
+double twiceWork(const Meeting& after, const std::vector<ImpulseBody>& before) {
+  double work = 0.0;
+  for (const ContactRow& row : after.rows) {
+    work += row.impulse.dot(rowVelocity(row, before) + rowVelocity(row, after.bodies));
+    work += row.torque.dot(rowSpin(row, before) + rowSpin(row, after.bodies));
+  }
+  return work;
+}
+
+TEST(TurningResistance, OfBodiesWithLockedAxes_TakesNoTorqueThatTheyDoNotAnswer) {
+  Random random(609);
+  for (int i = 0; i < 3000; ++i) {
+    Meeting m =
+        resistedMeeting(random, random.integer(1, 4), random.uniform(0, 1), random.logUniform(1e-3, 0.1),
+                        random.integer(0, 2) == 0 ? 0.0 : random.logUniform(1e-3, 0.1));
+    lockAtRandom(random, m.bodies[0]);
+    if (i % 2 == 0) lockAtRandom(random, m.bodies[1]);
+    for (ContactRow& row : m.rows) prepareRow(row, m.bodies);
+    if (isUnanswered(m.bodies[0], m.bodies[1], m.rows[0].normal_response.x())) continue;
+    const std::vector<ImpulseBody> before = m.bodies;
+    solveContacts(m.rows, m.bodies, {300, 1e-12, true});
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_TRUE(m.bodies[k].velocity.linear.allFinite() && m.bodies[k].velocity.angular.allFinite()) << i;
+      const Vec3 locked = Vec3::Ones() - m.bodies[k].free_axes;
+      EXPECT_EQ(locked.cwiseProduct(m.bodies[k].velocity.linear), Vec3::Zero());
+    }
+    double j = 0.0;
+    for (const ContactRow& row : m.rows) {
+      ASSERT_TRUE(row.impulse.allFinite() && row.torque.allFinite()) << i;
+      EXPECT_LE(row.torque.tail<2>().norm(), 1.01 * row.resistance.rolling_m * row.impulse.x() + 1e-15) << i;
+      j = std::max(j, row.impulse.norm());
+    }
+    EXPECT_LE(twiceWork(m, before), 1e-6 * j) << i;
+  }
+}
+
 TEST(TurningResistance, RowSpinIsAboutTheRowsAxes) {
   Random random(601);
   for (int i = 0; i < 50; ++i) {
