@@ -4,6 +4,8 @@
 // and in the body, with a constant moment of inertia. (Two free axes would make the motion nonholonomic: the
 // third turns away with the body.) Tested in tests/engine/motion/axis_locks_test.cpp.
 
+#include <cmath>
+
 #include "engine/motion/rigid_body.h"
 
 namespace carom {
@@ -23,6 +25,18 @@ struct AxisLocks {
     if (turning == Turning::kFree) return v_W;
     if (turning == Turning::kLocked) return Vec3::Zero();
     return dot(axis_W, v_W) * axis_W;
+  }
+  /// Of the turning from one rotation to another, what may be made of it: the rotation that it leads to. The
+  /// axis in the body would leave that of the world, step by step, by the rounding of each.
+  Quat turnedFrom(const Quat& before, const Quat& after) const {
+    if (turning == Turning::kFree) return after;
+    if (turning == Turning::kLocked) return before;
+    const Quat turned = after * before.conjugate();
+    const double along = dot(axis_W, Vec3(turned.vec()));
+    const double length = std::sqrt(turned.w() * turned.w() + along * along);
+    if (!(length > 0.0)) return before;
+    const Vec3 part = along / length * axis_W;
+    return Quat(turned.w() / length, part.x(), part.y(), part.z()) * before;
   }
 };
 

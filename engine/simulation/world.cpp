@@ -168,13 +168,19 @@ void World::Impl::endPath(std::size_t index) {
   body.lift += liftOfPath(body, body.velocity, body.X_end.position, substep.step_s);
   body.opening_W = 0.0;
   body.X_WB = body.X_end;
+  if (body.locks.any()) {
+    body.X_WB.rotation = body.locks.turnedFrom(rotation_before, body.X_end.rotation);
+    body.velocity = {body.locks.movingPart(body.velocity.linear),
+                     body.locks.turningPart(body.velocity.angular)};
+  }
   if (!flew_freely || spin_before.isZero(0.0)) {
     body.kept_angular_momentum.reset();
     return;
   }
   if (!body.kept_angular_momentum)
     body.kept_angular_momentum = angularMomentum(body.inertia, rotation_before, spin_before);
-  body.velocity.angular = angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum);
+  body.velocity.angular =
+      body.locks.turningPart(angularVelocity(body.inertia, body.X_WB.rotation, *body.kept_angular_momentum));
 }
 
 // How the bodies moved from their last events to the substep's end.

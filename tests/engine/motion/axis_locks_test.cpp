@@ -27,6 +27,27 @@ TEST(LockedInertia, OfOneAxisHasItsMoment) {
   EXPECT_NEAR(turned.dot(locks.axis_W), torque.dot(locks.axis_W) / moment, 1e-14);
 }
 
+// However far it turns in a step, and whatever rounding makes of that, the axis stays where it was.
+TEST(AxisLocks, TurnedFrom_LeavesTheTurningAboutTheAxis) {
+  const Vec3 axis = Vec3(1, -2, 0.5).normalized();
+  const AxisLocks one{Vec3::Ones(), AxisLocks::Turning::kOneAxis, axis};
+  const Quat start = Quat(0.5, 0.1, -0.4, 0.7).normalized();
+  Quat now = start;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 astray = 1e-9 * Vec3(std::sin(i), std::cos(2.0 * i), 1.0);
+    const Quat after =
+        Quat(Eigen::AngleAxisd(0.013 * i * i, axis)) * Quat(1.0, astray.x(), astray.y(), astray.z()) * now;
+    const Quat turned = one.turnedFrom(now, after);
+    EXPECT_LT(turned.angularDistance(after.normalized()), 1e-8);
+    now = turned;
+  }
+  EXPECT_LT((now * (start.conjugate() * axis) - axis).norm(), 1000 * 0x1p-50);
+  EXPECT_NEAR(now.norm(), 1.0, 1000 * 0x1p-50);
+  const AxisLocks none{Vec3::Ones(), AxisLocks::Turning::kLocked, axis};
+  EXPECT_EQ(none.turnedFrom(start, now).coeffs(), start.coeffs());
+  EXPECT_EQ(AxisLocks{}.turnedFrom(start, now).coeffs(), now.coeffs());
+}
+
 // K of a body with locked axes is the limit of one that is ever heavier along them.
 TEST(CollisionMatrix, OfLockedBodiesIsTheLimitOfHeavyOnes) {
   const Inertia inertia = inertiaOf(3.0, 2.0, kUnit);
