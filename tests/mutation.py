@@ -95,16 +95,20 @@ def chosen(root, only, count, seed):
 
 
 def survived(root, log):
-    """The changes that the printed log of a run says survived, where the sources still have their lines."""
-    printed = set(re.findall(r"^SURVIVED +(.*)$", log.read_text(), re.M))
-    now = {str(change).split(":", 1)[0] + re.sub(r"^[^ ]*", "", str(change)): change
-           for source in sorted((root / "engine").rglob("*.cpp"))
-           for change in changes_of(source.relative_to(root).as_posix(), source.read_text())}
-    unnumbered = sorted(line.split(":", 1)[0] + re.sub(r"^[^ ]*", "", line) for line in printed)
-    for line in unnumbered:
-        if line not in now:
-            print(f"gone         {line}", flush=True)
-    return [now[line] for line in unnumbered if line in now]
+    """The changes that the printed log of a run says survived, where the sources still have their lines: of equal ones the
+    nearest."""
+    there = {}
+    for source in sorted((root / "engine").rglob("*.cpp")):
+        for change in changes_of(source.relative_to(root).as_posix(), source.read_text()):
+            path, line, rest = re.match(r"(.*?):(\d+) (.*)", str(change)).groups()
+            there.setdefault((path, rest), []).append((int(line), change))
+    found = []
+    for path, line, rest in sorted(set(re.findall(r"^SURVIVED +(.*?):(\d+) (.*)$", log.read_text(), re.M))):
+        if equal := there.get((path, rest)):
+            found.append(min(equal, key=lambda known: abs(known[0] - int(line)))[1])
+        else:
+            print(f"gone         {path}:{line} {rest}", flush=True)
+    return found
 
 
 def suites_beside(root, path):

@@ -26,6 +26,10 @@ class CrowdMaker {
     layers_ = side_ == 1 ? random_.integer(2, 8) : random_.integer(1, 4);
     steps_ = random_.integer(60, 150);
     material_ = anyMaterial(random_);
+    if (oneIn(random_, 3)) {  // of rolling, spinning or both
+      material_.rolling_resistance_m = oneIn(random_, 3) ? 0.0 : pitch_ * random_.logUniform(1e-4, 0.1);
+      material_.spinning_resistance_m = oneIn(random_, 3) ? 0.0 : pitch_ * random_.logUniform(1e-4, 0.1);
+    }
     const int family = random_.integer(0, 2);
     world_.family = family == 0 ? "pressed" : family == 1 ? "stirred" : "guided";
     if (family == 0) press();
