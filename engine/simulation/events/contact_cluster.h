@@ -142,7 +142,7 @@ class ContactCluster {
   void expand(int body);
   void joinSimultaneous(double approach_mps);
   bool isNear(const ShapePair& pair) const;
-  double safeResidual() const;     ///< m/s: what this leaves over cannot use up a gap within the step.
+  double safeResidual() const;  ///< m/s: what this leaves over cannot use up a gap within the step.
   /// Accuracy beyond the safe residual is bought while the budget of row visits lasts.
   bool canBeCareful() const { return visits_ < tolerance::kSolverRowVisits; }
   double noticeableSpeed() const;  ///< m/s: a change of speed that goes on to who stands behind.
