@@ -44,26 +44,28 @@ double responseOf(const ImpulseBody& body, const Bound& bound) {
   return body.inverseMassAlong(bound.row->n) + dot(lever, body.inverse_tensor * lever);
 }
 
+// Brings the body to one of its bounds. Returns the change of speed, m/s.
+double meet(Bound& bound, ImpulseBody& body) {
+  const Vec3& n = bound.row->n;
+  const Vec3 own = body.velocity.at(bound.arm());
+  const double miss = dot(n, bound.is_b ? own - bound.other : bound.other - own) - bound.row->lowest_speed;
+  if (miss >= 0.0 && bound.impulse == 0.0) return 0.0;
+  if (bound.response == 0.0) bound.response = responseOf(body, bound);
+  if (isUnanswered(body, {}, bound.response)) return 0.0;
+  const double impulse = std::max(0.0, bound.impulse - miss / bound.response);
+  const double change = impulse - bound.impulse;
+  if (change == 0.0) return 0.0;
+  bound.impulse = impulse;
+  body.apply((bound.is_b ? change : -change) * n, bound.arm());
+  return std::abs(change) * bound.response;
+}
+
 // Brings one body to its bounds, round by round.
 void settle(std::span<Bound> bounds, ImpulseBody& body) {
   double first = 0.0;
   for (int round = 0; round < kRoundsOfABody; ++round) {
     double largest = 0.0;
-    for (Bound& bound : bounds) {
-      const Vec3& n = bound.row->n;
-      const Vec3 own = body.velocity.at(bound.arm());
-      const double miss =
-          dot(n, bound.is_b ? own - bound.other : bound.other - own) - bound.row->lowest_speed;
-      if (miss >= 0.0 && bound.impulse == 0.0) continue;
-      if (bound.response == 0.0) bound.response = responseOf(body, bound);
-      if (isUnanswered(body, {}, bound.response)) continue;
-      const double impulse = std::max(0.0, bound.impulse - miss / bound.response);
-      const double change = impulse - bound.impulse;
-      if (change == 0.0) continue;
-      bound.impulse = impulse;
-      body.apply((bound.is_b ? change : -change) * n, bound.arm());
-      largest = std::max(largest, std::abs(change) * bound.response);
-    }
+    for (Bound& bound : bounds) largest = std::max(largest, meet(bound, body));
     if (round == 0) first = largest;
     if (largest <= kSettled * first) return;
   }
