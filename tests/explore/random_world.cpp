@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/explore/driven_crowds.h"
+#include "tests/explore/driven_heaps.h"
 #include "tests/explore/moved_worlds.h"
 #include "tests/explore/random_shapes.h"
 
@@ -377,7 +377,7 @@ class WorldMaker {
 }  // namespace
 
 ExploredWorld randomWorld(std::uint64_t seed) {
-  if (seed >= kDrivenCrowds) return drivenCrowd(seed);
+  if (seed >= kDrivenHeaps) return drivenHeap(seed);
   return seed >= kMovedWorlds ? movedWorld(seed) : WorldMaker(seed).make();
 }
 

@@ -17,8 +17,8 @@ struct ExploredWorld {
 
 /// Seeds from here on make worlds of moved, locked and concave bodies (moved_worlds.h).
 inline constexpr std::uint64_t kMovedWorlds = 1'000'000'000;
-/// And from here on of crowds that are driven (driven_crowds.h).
-inline constexpr std::uint64_t kDrivenCrowds = 2'000'000'000;
+/// And from here on of heaps that are driven (driven_heaps.h).
+inline constexpr std::uint64_t kDrivenHeaps = 2'000'000'000;
 
 ExploredWorld randomWorld(std::uint64_t seed);
 

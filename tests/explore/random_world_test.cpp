@@ -60,8 +60,8 @@ TEST(MovedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
   expectWorldsOf(kMovedWorlds, 3);
 }
 
-TEST(DrivenCrowd, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
-  expectWorldsOf(kDrivenCrowds, 3);
+TEST(DrivenHeap, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kDrivenHeaps, 3);
 }
 
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {

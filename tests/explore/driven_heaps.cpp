@@ -1,4 +1,4 @@
-#include "tests/explore/driven_crowds.h"
+#include "tests/explore/driven_heaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@ using oracle::Random;
 
 // A shaft of square section about z; what lies in it has its place in a lattice, whose cells hold it however
 // it is turned.
-class CrowdMaker {
+class HeapMaker {
  public:
-  explicit CrowdMaker(std::uint64_t seed) : random_(seed * 0x9e3779b97f4a7c15ull + 11) {}
+  explicit HeapMaker(std::uint64_t seed) : random_(seed * 0x9e3779b97f4a7c15ull + 11) {}
 
   ExploredWorld make() {
     constexpr double kRates[] = {60, 60, 100, 240};
@@ -31,9 +31,9 @@ class CrowdMaker {
       material_.spinning_resistance_m = oneIn(random_, 3) ? 0.0 : pitch_ * random_.logUniform(1e-4, 0.1);
     }
     const int family = random_.integer(0, 2);
-    world_.family = family == 0 ? "pressed" : family == 1 ? "stirred" : "guided";
+    world_.family = family == 0 ? "pressed" : family == 1 ? "mixed" : "guided";
     if (family == 0) press();
-    if (family == 1) stir();
+    if (family == 1) mix();
     if (family == 2) guide();
     world_.scene.duration_s = steps_ / world_.scene.rate_hz;
     world_.scene.description = "explorer: " + world_.family;
@@ -68,7 +68,7 @@ class CrowdMaker {
   void addFloor() {
     addBox({width() + 2.0 * pitch_, width() + 2.0 * pitch_, pitch_}, {0, 0, -0.5 * pitch_}).is_static = true;
   }
-  void addCrowd() {
+  void addHeap() {
     const bool boxes = oneIn(random_, 2);
     for (int i = 0; i < side_ * side_ * layers_; ++i) {
       const double size = pitch_ * random_.uniform(0.3, 0.9);
@@ -99,7 +99,7 @@ class CrowdMaker {
     Body& piston = addBox({free, free, pitch_}, {0, 0, -0.5 * pitch_});
     piston.is_kinematic = true;
     piston.linear_velocity = Vec3(0, 0, random_.uniform(0.2, 2.0) * (height() + pitch_) / length_s());
-    addCrowd();
+    addHeap();
     Body& lid = addBox({free, free, 0.5 * pitch_}, {0, 0, height() + 0.5 * pitch_});
     const int kind = random_.integer(0, 3);
     if (kind == 0) lid.is_static = true;
@@ -112,10 +112,10 @@ class CrowdMaker {
   }
 
   // An arm that turns, or sweeps to and fro, among what falls on it.
-  void stir() {
+  void mix() {
     addShaft();
     addFloor();
-    addCrowd();
+    addHeap();
     for (Body& body : world_.scene.bodies)
       if (!body.is_static) body.X_WS.position.z() += pitch_;
     const double reach = 0.95 * width();
@@ -128,7 +128,7 @@ class CrowdMaker {
   void guide() {
     addShaft();
     addFloor();
-    addCrowd();
+    addHeap();
     for (Body& body : world_.scene.bodies)
       if (!body.is_static && oneIn(random_, 3)) lockAtRandom(body);
   }
@@ -144,8 +144,8 @@ class CrowdMaker {
 
 }  // namespace
 
-ExploredWorld drivenCrowd(std::uint64_t seed) {
-  return CrowdMaker(seed).make();
+ExploredWorld drivenHeap(std::uint64_t seed) {
+  return HeapMaker(seed).make();
 }
 
 }  // namespace carom::explore
