@@ -1,6 +1,5 @@
 #include "tests/explore/driven_heaps.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "tests/explore/random_shapes.h"
@@ -46,13 +45,7 @@ class HeapMaker {
   double height() const { return layers_ * pitch_; }
 
   Body& add(Shape shape, const Pose& X) {
-    Body body;
-    body.name.assign(1, 'b').append(std::to_string(world_.scene.bodies.size()));
-    body.shape = std::move(shape);
-    body.X_WS = X;
-    body.material = oneIn(random_, 4) ? anyMaterial(random_) : material_;
-    world_.scene.bodies.push_back(std::move(body));
-    return world_.scene.bodies.back();
+    return addBody(world_.scene, std::move(shape), X, oneIn(random_, 4) ? anyMaterial(random_) : material_);
   }
   Body& addBox(const Vec3& size, const Vec3& position) {
     return add(boxOf(size), {Quat::Identity(), position});
@@ -81,17 +74,6 @@ class HeapMaker {
       add(std::move(shape), {random_.rotation(), pitch_ * cell});
     }
   }
-  void lockAtRandom(Body& body) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (oneIn(random_, 3)) body.locks.free_axes[axis] = 0.0;
-    const int turning = random_.integer(0, 3);
-    if (turning == 1) body.locks.turning = AxisLocks::Turning::kLocked;
-    if (turning == 2) {
-      body.locks.turning = AxisLocks::Turning::kOneAxis;
-      body.locks.axis_W = Vec3::Unit(random_.integer(0, 2));
-    }
-  }
-
   // A piston that goes up by more than there is room for, below a lid that cannot, or will hardly, give way.
   void press() {
     addShaft();
@@ -104,7 +86,7 @@ class HeapMaker {
     const int kind = random_.integer(0, 3);
     if (kind == 0) lid.is_static = true;
     if (kind == 1) lid.material.density_kgpm3 *= 100.0;
-    if (kind == 2) lockAtRandom(lid);
+    if (kind == 2) lockAtRandom(random_, lid);
     if (kind == 3) {
       lid.locks.free_axes.z() = 0.0;
       lid.locks.turning = AxisLocks::Turning::kLocked;
@@ -130,7 +112,7 @@ class HeapMaker {
     addFloor();
     addHeap();
     for (Body& body : world_.scene.bodies)
-      if (!body.is_static && oneIn(random_, 3)) lockAtRandom(body);
+      if (!body.is_static && oneIn(random_, 3)) lockAtRandom(random_, body);
   }
 
   Random random_;

@@ -37,13 +37,7 @@ class MovedMaker {
   double length_s() const { return steps_ / world_.scene.rate_hz; }
 
   Body& add(Shape shape, const Pose& X) {
-    Body body;
-    body.name.assign(1, 'b').append(std::to_string(world_.scene.bodies.size()));
-    body.shape = std::move(shape);
-    body.X_WS = X;
-    body.material = anyMaterial(random_);
-    world_.scene.bodies.push_back(std::move(body));
-    return world_.scene.bodies.back();
+    return addBody(world_.scene, std::move(shape), X, anyMaterial(random_));
   }
   void addFloor() {
     Body& floor = add(boxOf(size_ * Vec3(20.0, 20.0, 1.0)), {Quat::Identity(), Vec3(0, 0, -0.5 * size_)});
@@ -100,14 +94,7 @@ class MovedMaker {
     addTower(random_.integer(1, 5), 0.1 * size_, oneIn(random_, 5));
     for (Body& body : world_.scene.bodies) {
       if (body.is_static) continue;
-      for (int axis = 0; axis < 3; ++axis)
-        if (oneIn(random_, 3)) body.locks.free_axes[axis] = 0.0;
-      const int turning = random_.integer(0, 3);
-      if (turning == 1) body.locks.turning = AxisLocks::Turning::kLocked;
-      if (turning == 2) {
-        body.locks.turning = AxisLocks::Turning::kOneAxis;
-        body.locks.axis_W = Vec3::Unit(random_.integer(0, 2));
-      }
+      lockAtRandom(random_, body);
       body.linear_velocity = body.locks.movingPart(body.linear_velocity);
       body.angular_velocity = body.locks.turningPart(body.angular_velocity);
       // What is light for its size would reach any speed at once.

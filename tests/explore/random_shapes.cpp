@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "demos/asset/asset_path.h"
 
@@ -128,6 +129,27 @@ Shape concaveOf(Random& random, double size) {
   mesh.as_hull = false;
   mesh.fit_m = std::max(10.0 * kSmallestShape_m, size);
   return {mesh, {}};
+}
+
+demos::Body& addBody(demos::Scene& scene, demos::Shape shape, const Pose& X_WS, const Material& material) {
+  demos::Body body;
+  body.name.assign(1, 'b').append(std::to_string(scene.bodies.size()));
+  body.shape = std::move(shape);
+  body.X_WS = X_WS;
+  body.material = material;
+  scene.bodies.push_back(std::move(body));
+  return scene.bodies.back();
+}
+
+void lockAtRandom(oracle::Random& random, demos::Body& body) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (oneIn(random, 3)) body.locks.free_axes[axis] = 0.0;
+  const int turning = random.integer(0, 3);
+  if (turning == 1) body.locks.turning = AxisLocks::Turning::kLocked;
+  if (turning == 2) {
+    body.locks.turning = AxisLocks::Turning::kOneAxis;
+    body.locks.axis_W = Vec3::Unit(random.integer(0, 2));
+  }
 }
 
 }  // namespace carom::explore

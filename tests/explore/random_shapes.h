@@ -1,5 +1,5 @@
 #pragma once
-// Shapes and materials of the explorer's worlds. Tested through tests/explore/random_world_test.cpp.
+// Shapes, materials and bodies of the explorer's worlds. Tested through tests/explore/random_world_test.cpp.
 
 #include "demos/scene/scene.h"
 #include "tests/oracle/test_shapes.h"
@@ -16,6 +16,10 @@ demos::Shape boxOf(const Vec3& size);
 /// Boxes, needles, plates, balls, capsules, hulls, compounds; `size`: the longest extent, about.
 demos::Shape anyShape(oracle::Random& random, double size);
 Material anyMaterial(oracle::Random& random);
+/// Appends a body that is named after its place.
+demos::Body& addBody(demos::Scene& scene, demos::Shape shape, const Pose& X_WS, const Material& material);
+/// Locks some of its axes, or none.
+void lockAtRandom(oracle::Random& random, demos::Body& body);
 /// One of the shipped meshes as it is: rings, links, cups, gears, a nut, a bolt, ...; its longest side.
 demos::Shape concaveOf(oracle::Random& random, double size);
 
