@@ -21,6 +21,9 @@ class KinematicWorld {
   int add(const Solid& solid, const Pose& X, const Vec3& v, const Vec3& spin, const Material& material) {
     return world.addBody({world.addSolid(solid), X, v, spin, material});
   }
+  int addStatic(const Solid& solid, const Pose& X, const Material& material) {
+    return world.addBody({world.addSolid(solid), X, Vec3::Zero(), Vec3::Zero(), material, true});
+  }
   int addDriven(const Solid& solid, const Pose& X, const Vec3& v, const Vec3& spin,
                 const Material& material) {
     return world.addBody(kinematic(world.addSolid(solid), X, v, spin, material));
@@ -299,12 +302,7 @@ TEST(KinematicPress, StopsRatherThanOverlap_AndSaysSo) {
     KinematicWorld w({1.0 / 240.0, kDown});
     w.addDriven(Solid::box(Vec3(0.4, 0.4, 0.2)), {Quat::Identity(), Vec3(0, 0, 0.6)}, Vec3(0, 0, -u),
                 Vec3::Zero(), rubbing(0.5));
-    w.world.addBody({w.world.addSolid(Solid::box(Vec3(4, 4, 1))),
-                     {Quat::Identity(), Vec3(0, 0, -0.5)},
-                     Vec3::Zero(),
-                     Vec3::Zero(),
-                     rubbing(0.5),
-                     true});
+    w.addStatic(Solid::box(Vec3(4, 4, 1)), {Quat::Identity(), Vec3(0, 0, -0.5)}, rubbing(0.5));
     const Vec3 size(0.3, 0.3, 0.3);
     const int box = w.add(Solid::box(size), lyingBox(size, Quat::Identity(), 0.3), Vec3::Zero(), Vec3::Zero(),
                           rubbing(0.5));
@@ -321,18 +319,8 @@ TEST(KinematicPress, StopsRatherThanOverlap_AndSaysSo) {
 // Boxes in a row between it and a wall: they lie still once it has stopped for them, as soon as they touch.
 TEST(KinematicPress, LeavesARowThatItCannotPressAtRest) {
   KinematicWorld w({1.0 / 240.0, kDown});
-  w.world.addBody({w.world.addSolid(Solid::box(Vec3(8, 8, 1))),
-                   {Quat::Identity(), Vec3(0, 0, -0.5)},
-                   Vec3::Zero(),
-                   Vec3::Zero(),
-                   rubbing(0.3),
-                   true});
-  w.world.addBody({w.world.addSolid(Solid::box(Vec3(1, 2, 2))),
-                   {Quat::Identity(), Vec3(2.0, 0, 1.0)},
-                   Vec3::Zero(),
-                   Vec3::Zero(),
-                   rubbing(0.3),
-                   true});
+  w.addStatic(Solid::box(Vec3(8, 8, 1)), {Quat::Identity(), Vec3(0, 0, -0.5)}, rubbing(0.3));
+  w.addStatic(Solid::box(Vec3(1, 2, 2)), {Quat::Identity(), Vec3(2.0, 0, 1.0)}, rubbing(0.3));
   const double side = 0.3, u = 0.2;
   std::vector<int> boxes;
   for (int i = 0; i < 4; ++i)
@@ -353,12 +341,7 @@ TEST(KinematicBodies, StopAtStaticOnes) {
   const int moved =
       w.addDriven(Solid::box(Vec3(0.4, 0.4, 0.4)), {oracle::turned(Vec3::UnitX(), 0.3), Vec3(0, 0, 1.0)},
                   Vec3(0, 0, -1), Vec3::Zero(), rubbing(0.5));
-  w.world.addBody({w.world.addSolid(Solid::box(Vec3(4, 4, 1))),
-                   {Quat::Identity(), Vec3(0, 0, -0.5)},
-                   Vec3::Zero(),
-                   Vec3::Zero(),
-                   rubbing(0.5),
-                   true});
+  w.addStatic(Solid::box(Vec3(4, 4, 1)), {Quat::Identity(), Vec3(0, 0, -0.5)}, rubbing(0.5));
   w.start();
   w.run(2.0);
   EXPECT_NEAR(w.state(moved).X_WB.position.z(), 0.2 * (std::cos(0.3) + std::sin(0.3)), 1e-3);
