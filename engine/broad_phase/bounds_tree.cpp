@@ -188,9 +188,11 @@ void BoundsTree::grow(int thing, const Bounds& bounds) {
     node(i).bounds = together(node(i).bounds, bounds);
 }
 
-void BoundsTree::find(const Bounds& bounds, std::vector<int>& found, int without) const {
+int BoundsTree::find(const Bounds& bounds, std::vector<int>& found, int without) const {
   found.clear();
+  int visited = 0;
   for (int i = root_; i >= 0;) {
+    ++visited;
     const bool counts = without == kNoGroup || node(i).group != without;
     const bool meets = counts && node(i).bounds.overlaps(bounds);
     if (meets && !isLeaf(i)) {
@@ -202,6 +204,7 @@ void BoundsTree::find(const Bounds& bounds, std::vector<int>& found, int without
     while (node(i).parent >= 0 && side(i) == 1) i = node(i).parent;
     i = node(i).parent >= 0 ? node(node(i).parent).children[1] : -1;
   }
+  return visited;
 }
 
 }  // namespace carom

@@ -32,9 +32,9 @@ class BoundsTree {
   void move(int thing, const Bounds& bounds, int group = kNoGroup);
   /// Makes the bounds of a thing hold these too. Cost about O(log n).
   void grow(int thing, const Bounds& bounds);
-  /// All things whose bounds overlap these, without those of one group, in no order. Cost about O(log n +
-  /// found).
-  void find(const Bounds& bounds, std::vector<int>& found, int without = kNoGroup) const;
+  /// All things whose bounds overlap these, without those of one group, in no order. Returns how many nodes
+  /// it has looked at, which is what it costs: about O(log n + found).
+  int find(const Bounds& bounds, std::vector<int>& found, int without = kNoGroup) const;
 
  private:
   struct Node {

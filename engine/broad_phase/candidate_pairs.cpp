@@ -5,9 +5,7 @@
 #include <string>
 
 namespace carom {
-namespace {
 
-// The axis along which the proxies' centres are spread most: it separates best.
 Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
   Vec3 sum = Vec3::Zero();
   Vec3 squares = Vec3::Zero();
@@ -22,6 +20,8 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies) {
   spread.maxCoeff(&axis);
   return axis;
 }
+
+namespace {
 
 void add(std::vector<IndexPair>& pairs, const IndexPair& pair, std::size_t most) {
   if (pairs.size() >= most) throw TooManyPairs();

@@ -54,6 +54,9 @@ class TooManyPairs : public InputError {
   TooManyPairs();
 };
 
+/// The axis along which the proxies' centres are spread most: it separates best.
+Eigen::Index sweepAxis(std::span<const Proxy> proxies);
+
 /// All overlapping pairs in ascending order; throws TooManyPairs, at the latest when `most` have been found.
 /// Cost O(n log n + overlaps along the sweep axis).
 std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_t most = kMostPairs);

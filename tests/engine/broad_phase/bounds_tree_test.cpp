@@ -139,6 +139,62 @@ TEST(BoundsTree, LeavesOutTheGroupThatItIsToldTo) {
   EXPECT_GT(left_out, 3000u);
 }
 
+// A thousand boxes about the corners of a grid, numbered in any order, and what finding the neighbours of
+// each costs.
+class BoundsTreeOfAGrid : public testing::Test {
+ protected:
+  BoundsTreeOfAGrid() {
+    for (int x = 0; x < 10; ++x)
+      for (int y = 0; y < 10; ++y)
+        for (int z = 0; z < 10; ++z) {
+          const Vec3 low = Vec3(x, y, z) + 0.1 * random_.direction();
+          all_.push_back({low, low + Vec3::Constant(0.7)});
+        }
+    BoundsTree tree;
+    tree.build(all_);
+    new_cost_ = cost(tree);
+  }
+  std::vector<Bounds> inAnyOrder() {
+    std::vector<Bounds> shuffled = all_;
+    for (int i = static_cast<int>(all_.size()) - 1; i > 0; --i)
+      std::swap(shuffled[static_cast<std::size_t>(i)],
+                shuffled[static_cast<std::size_t>(random_.integer(0, i))]);
+    return shuffled;
+  }
+  long cost(const BoundsTree& tree) const {
+    long visited = 0;
+    std::vector<int> found;
+    for (const Bounds& where : all_) visited += tree.find(where, found);
+    return visited;
+  }
+
+  Random random_{47};
+  std::vector<Bounds> all_;
+  long new_cost_ = 0;
+};
+
+TEST_F(BoundsTreeOfAGrid, VisitsFewNodes) {
+  EXPECT_LT(new_cost_, 50 * static_cast<long>(all_.size()));
+}
+
+TEST_F(BoundsTreeOfAGrid, CostsLittleMoreThanANewOneWhenAllHaveMovedFar) {
+  BoundsTree tree;
+  tree.build(inAnyOrder());
+  for (int i = 0; i < 5; ++i) tree.moveAll(inAnyOrder());
+  EXPECT_LT(static_cast<double>(cost(tree)), 1.5 * static_cast<double>(new_cost_));
+}
+
+TEST_F(BoundsTreeOfAGrid, CostsLittleMoreThanANewOneWhenEachHasMovedFar) {
+  for (const bool apart : {true, false}) {
+    BoundsTree tree;
+    tree.build(apart ? inAnyOrder() : std::vector<Bounds>(all_.size(), all_[0]));
+    const std::vector<Bounds> after = inAnyOrder();
+    for (std::size_t i = 0; i < after.size(); ++i) tree.move(static_cast<int>(i), after[i]);
+    EXPECT_LT(static_cast<double>(cost(tree)), 2.0 * static_cast<double>(new_cost_))
+        << (apart ? "from elsewhere on the grid" : "from one place");
+  }
+}
+
 // Equal coordinates everywhere.
 TEST(BoundsTree, OfARowOfTouchingCubes_FindsBothNeighbours) {
   BoundsTree tree;

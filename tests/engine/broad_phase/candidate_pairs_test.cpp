@@ -89,6 +89,18 @@ TEST(CandidatePairs, DoNotDependOnTheOrderOfTheProxies) {
   EXPECT_EQ(back, candidatePairs(proxies));
 }
 
+TEST(CandidatePairs, AreSoughtAlongTheAxisOfARow_WhereverItLies) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Vec3& begin : {Vec3(0, 0, 0), Vec3(100, -30, 70), Vec3(-40, 200, 5), Vec3(3, 8, -500)}) {
+      std::vector<Proxy> row;
+      for (int i = 0; i < 20; ++i) {
+        const Vec3 low = begin + 2.0 * i * Vec3::Unit(axis) + 0.3 * (i % 2) * Vec3::Ones();
+        row.push_back({{low, low + Vec3::Ones()}, i, true});
+      }
+      EXPECT_EQ(sweepAxis(row), axis) << "from " << begin.transpose();
+    }
+}
+
 // Two hundred million pairs would take gigabytes before anything is known about them.
 TEST(CandidatePairs, MoreThanCanBeKeptAreRefusedBeforeTheyAreCollected) {
   std::vector<Proxy> proxies(20000);
