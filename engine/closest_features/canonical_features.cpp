@@ -60,10 +60,7 @@ bool firstIsA(const PolyhedronPair& pair) {
 class SupportSet {
  public:
   SupportSet(const ConvexPolyhedron& polyhedron, Arena* memory)
-      : polyhedron_(&polyhedron), vertices_(memory), edges_(memory), faces_(memory), seen_(memory) {
-    vertices_.reserve(kExpected);
-    edges_.reserve(kExpected);
-  }
+      : polyhedron_(&polyhedron), vertices_(memory), edges_(memory), faces_(memory), seen_(memory) {}
 
   void gather(const Vec3& n, int start, double level_m, double shift_m) {
     const ConvexPolyhedron& polyhedron = *polyhedron_;
@@ -159,8 +156,6 @@ class SupportSet {
       }
     return least;
   }
-
-  static constexpr std::size_t kExpected = 16;  // of a list, before it has to grow
 
   const ConvexPolyhedron* polyhedron_;
   Vec3 n_ = Vec3::Zero();

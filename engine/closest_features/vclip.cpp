@@ -76,8 +76,8 @@ MinimumTranslation minimumTranslation(const PolyhedronPair& pair, double noise_m
   return solid ? proof.get().minimumTranslation(pair, noise_m) : largestGap(pair);
 }
 
-// The canonical features of a depth; of facets that are equally near, the lowest. Where rounding leaves no
-// features that hold the witnesses, they lie between vertices.
+// The canonical features of a depth; of facets that are equally near, the tracked one, else the lowest. Where
+// rounding leaves no features that hold the witnesses, they lie between vertices.
 void makeDepthCanonical(const PolyhedronPair& pair, const Scale& scale, InnerPolytope& polytope, bool tracked,
                         CoreAnswer& answer) {
   StackArena<kFacetsBytes> arena;

@@ -42,7 +42,8 @@ struct PosedParts {
 };
 
 /// The closest features of two parts. The work is done from `memory` on, and left there for the next query
-/// of the same pair; what is found does not depend on it. Allocates nothing once the pair's memory has grown.
+/// of the same pair; what is found does not depend on it, but that of ways out that are equally short to the
+/// rounding the one taken last stays. Allocates nothing once the pair's memory has grown.
 ClosestFeatures closestFeatures(const ConvexPart& a, const Pose& X_WA, const ConvexPart& b, const Pose& X_WB,
                                 PairMemory& memory);
 

@@ -148,7 +148,7 @@ bool InnerPolytope::build(const PolyhedronPair& pair) {
   const Corner any = cornerOf(pair, 0, 0);
   const auto farthest = [&](std::initializer_list<Vec3> directions, auto&& distance) {
     Corner best = any;
-    double most = -1.0;
+    double most = -kInfinity;
     for (const Vec3& d : directions)
       for (const double sign : {1.0, -1.0}) {
         const Corner c = supportAlong(pair, sign * d, any);

@@ -229,23 +229,22 @@ class Descent {
   std::optional<MinimumTranslation> facetAlong(const Vec3& start, const Arc& arc, bool to_left,
                                                Feature level) const {
     const Vec3 end = arcEnd(arc, to_left);
-    const int crossing = firstAcross(start, end, arc, level);
-    if (crossing >= 0)
-      return arc.edge_of_a ? facetOfEdges(arc.edge, crossing, start + end)
-                           : facetOfEdges(crossing, arc.edge, start + end);
+    if (const std::optional<int> crossing = firstAcross(start, end, arc, level))
+      return arc.edge_of_a ? facetOfEdges(arc.edge, *crossing, start + end)
+                           : facetOfEdges(*crossing, arc.edge, start + end);
     const Edge& edge = (arc.edge_of_a ? pair_.a : pair_.b).edge(arc.edge);
     const int face = to_left ? edge.left : edge.right;
     return arc.edge_of_a ? gapOverFaceOfA(pair_, face, arc.vertex) : gapOverFaceOfB(pair_, face, arc.vertex);
   }
 
-  // Of the edges at the arc's vertex, the one that first rises above it from `start` to `end`; -1 if none
-  // does. `level`: one that is level with the start, and falls.
-  int firstAcross(const Vec3& start, const Vec3& end, const Arc& arc, Feature level) const {
+  // Of the edges at the arc's vertex, the one that first rises above it from `start` to `end`, if any does.
+  // `level`: one that is level with the start, and falls.
+  std::optional<int> firstAcross(const Vec3& start, const Vec3& end, const Arc& arc, Feature level) const {
     const ConvexPolyhedron& other = arc.edge_of_a ? pair_.b : pair_.a;
     const auto inOther = [&](const Vec3& n) { return arc.edge_of_a ? Vec3(-pair_.directionToB(n)) : n; };
     const Vec3 from = inOther(start);
     const Vec3 to = inOther(end);
-    int crossing = -1;
+    std::optional<int> crossing;
     double first = 1.0;
     for (const Spoke& spoke : other.spokes(arc.vertex)) {
       if (edgeFeature(spoke.edge) == level) continue;

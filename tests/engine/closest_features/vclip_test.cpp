@@ -264,6 +264,25 @@ TEST(VClip, TrackedFromPoseToPose_EqualsAColdStart) {
       }
 }
 
+// A cube that leaves another by either of two faces goes on leaving by the one that was nearer before.
+TEST(VClip, OfTwoFacesEquallyNear_TheTrackedOneStays) {
+  const ConvexPart cube = box({1, 1, 1});
+  for (const Quat& turn : {Quat::Identity(), turned(Vec3(0.3, -0.7, 0.6).normalized(), 1.1)})
+    for (int axis = 0; axis < 3; ++axis)
+      for (int other = 0; other < 3; ++other) {
+        if (other == axis) continue;
+        Vec3 way = 0.7 * Vec3::Unit(axis) + 0.6 * Vec3::Unit(other);
+        PairMemory memory;
+        EXPECT_NEAR(closestFeatures(cube, {turn, Vec3::Zero()}, cube, {turn, turn * way}, memory).distance_m,
+                    -0.3, 1e-14);
+        way[other] = 0.7;
+        const ClosestFeatures tie =
+            closestFeatures(cube, {turn, Vec3::Zero()}, cube, {turn, turn * way}, memory);
+        EXPECT_NEAR(tie.distance_m, -0.3, 1e-14);
+        EXPECT_NEAR(tie.n_W.dot(turn * Vec3::Unit(axis)), 1.0, 1e-12) << axis << " before " << other;
+      }
+}
+
 TEST(VClip, ACoherentQueryVisitsFewStates) {
   Random random(75);
   const ConvexPart a = part(oracle::randomHull(random, 252)), b = part(oracle::randomHull(random, 252));

@@ -167,6 +167,29 @@ TEST(TrackedDepth, OfASmallStep_CostsFewExpansions) {
   EXPECT_LT(warm, 1000);
 }
 
+// Points of former poses are given up in time, though each time costs a new polytope.
+TEST(TrackedDepth, OfABodyThatTurnsOn_KeepsAPolytopeNearlyAsSmallAsANewOne) {
+  Random random(7322);
+  long tracked = 0, made_anew = 0;
+  for (int run = 0; run < 10; ++run) {
+    const ConvexPolyhedron a = oracle::randomHull(random, 32), b = oracle::randomHull(random, 32);
+    const Quat turn = oracle::turned(random.direction(), 0.01);
+    Pose X_AB{random.rotation(), 0.1 * random.direction()};
+    InnerPolytope polytope;
+    for (int i = 0; i < 600 / kShare; ++i) {
+      X_AB.rotation = (turn * X_AB.rotation).normalized();
+      const PolyhedronPair pair(a, Pose{}, b, X_AB);
+      InnerPolytope other;
+      polytope.minimumTranslation(pair, noiseOf(pair));
+      other.minimumTranslation(pair, noiseOf(pair));
+      tracked += polytope.triangleCount();
+      made_anew += other.triangleCount();
+    }
+  }
+  EXPECT_LT(static_cast<double>(tracked), 1.25 * static_cast<double>(made_anew))
+      << tracked << " triangles, " << made_anew;
+}
+
 // ---- continuous ----
 
 // A smooth way of B about A: positions on a curve of three periods, rotations about two axes.
