@@ -93,7 +93,7 @@ Quat rotationBy(const Vec3& rotation) {
   const double angle = rotation.norm();
   const SineCosine half = sineCosine(0.5 * angle);
   // sin(x/2)/x tends to 1/2.
-  const double scale = angle > 1e-9 ? half.sine / angle : 0.5;
+  const double scale = angle > 0.0 ? half.sine / angle : 0.5;
   return Quat(half.cosine, scale * rotation.x(), scale * rotation.y(), scale * rotation.z());
 }
 

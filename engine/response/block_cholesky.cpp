@@ -27,7 +27,7 @@ BlockCholesky::BlockCholesky(int rows, std::span<const OffDiagonalBlock> blocks)
       columns_(at(rows)) {
   findTree(blocks);
   std::vector<long> entries(at(rows), 0);
-  for (int row = 0; row < rows_; ++row) {
+  for (int row = 1; row < rows_; ++row) {  // the first has no fill
     findFill(row, blocks);
     for (const int column : fill_) products_ += ++entries[at(column)];
   }

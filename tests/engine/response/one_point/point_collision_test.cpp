@@ -189,6 +189,18 @@ TEST(PointCollision, OfARodOnSlipperyGround_TurnsTheSlipRound) {
     }
 }
 
+// Where nothing couples the axes, d s_i / dp = -mu K_ii s_i / |s| along both tangents: s_2 is a power of s_1.
+TEST(PointCollision, WithoutCoupling_TurnsItsSlipByAPowerLaw) {
+  for (const double ratio : {10.0, 30.0, 100.0})
+    for (const double angle : {0.01, 0.03, 0.1}) {
+      const Vec3 before(-1.0, 0.3 * std::cos(angle), 0.3 * std::sin(angle));
+      const PointCollision c{Vec3(1.0, 1.0 / ratio, 1.0).asDiagonal(), before, {1.0, 1.0}, 0.0};
+      const Vec3 after = before + c.response * pointCollisionImpulse(c);
+      EXPECT_NEAR(after.z(), before.z() * std::pow(after.y() / before.y(), ratio), 0.01 * before.z())
+          << ratio << ' ' << angle;
+    }
+}
+
 TEST(PointCollision, ScaledInMassOrSpeed_ScalesItsImpulse) {
   Random random(215);
   for (int i = 0; i < 200; ++i) {
