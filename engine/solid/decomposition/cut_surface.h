@@ -4,7 +4,7 @@
 // triangle is beside which is never found by places but carried along, so that the volumes of what comes of
 // it add up to what was there whatever is rounded: both caps have the same triangles, and a new point lies on
 // an edge. What has come apart becomes surfaces of their own, so that a cut costs what it cuts. Tested in
-// tests/engine/solid/decomposition/convex_decomposition_test.cpp.
+// tests/engine/solid/decomposition/cut_surface_test.cpp and, whole, in convex_decomposition_test.cpp there.
 
 #include <map>
 #include <optional>

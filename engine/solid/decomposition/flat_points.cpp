@@ -121,7 +121,6 @@ class CutSurface::FlatPoints {
     uses_[at(to)] += uses_[at(from)] - 4;
     --uses_[at(left)];
     --uses_[at(right)];
-    uses_[at(from)] = 0;
   }
 
   CutSurface& surface_;

@@ -98,6 +98,16 @@ TEST(PlanarFaces, FarFromTheOriginTheyAreAsPlanarAsCoordinatesAllow) {
   EXPECT_LT(largestBend(vertices, loopsOf(solid)), 1e-11) << "coordinates of 2e4 round by 2e-12";
 }
 
+// By a shift that keeps all digits of the corners, though not of their mean.
+TEST(PlanarFaces, BendByAsMuchFarFromTheOrigin) {
+  const Loops loops{{0, 1, 2, 3, 4}};
+  const std::vector<Vec3> near{
+      {1, 0, 0}, {0.5, 1, 0.25}, {-0.5, 0.5, 0}, {-1, -0.25, -0.125}, {0.25, -1, 0.25}};
+  std::vector<Vec3> far;
+  for (const Vec3& v : near) far.emplace_back(v + Vec3(0x1p27, -0x1p26, 0x1p25));
+  EXPECT_NEAR(largestBend(far, loops), largestBend(near, loops), 1e-6);
+}
+
 // The same over an oblong, whose sides are no axes of its plane: the pattern is that of the product of the
 // two coordinates along the sides.
 TEST(PlanarFaces, OneRaisedCornerIsSharedByAllFour_HoweverTheFaceIsTurned) {

@@ -117,10 +117,12 @@ TEST(SurfaceMesh, WhatIsInTheOpeningOfAnotherIsNoCavity) {
 TEST(SurfaceCrossing, FindsATriangleThatGoesThroughOneThatItSharesACornerWith) {
   SurfaceMesh mesh;
   mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}};
-  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
-  const std::optional<Vec3> p = findCrossing(mesh, 1e-12);
-  ASSERT_TRUE(p);
-  EXPECT_LT((*p - Vec3(0.5, 0.5, 0.0)).norm(), 1e-15);
+  for (const Triangle& through : {Triangle{0, 3, 4}, Triangle{3, 4, 0}, Triangle{4, 0, 3}}) {
+    mesh.triangles = {{0, 1, 2}, through};
+    const std::optional<Vec3> p = findCrossing(mesh, 1e-12);
+    ASSERT_TRUE(p) << "begun at corner " << through[0];
+    EXPECT_LT((*p - Vec3(0.5, 0.5, 0.0)).norm(), 1e-15);
+  }
   mesh.triangles[1] = {0, 1, 4};
   EXPECT_FALSE(findCrossing(mesh, 1e-12)) << "a side in common";
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/foundation/contract.h"
+#include "engine/foundation/index.h"
 #include "engine/solid/mass_properties.h"
 #include "tests/engine/solid/generated_meshes.h"
 #include "tests/oracle/separating_axes.h"
@@ -166,12 +167,98 @@ TEST(ConvexDecomposition, TakesAFilesRoundingForFlat) {
   EXPECT_NEAR(made.report.volume_m3 / surfaceMass(rounded).mass, 1.0, 1e-6);
 }
 
+double surfaceOf(const ConvexPolyhedron& piece) {
+  double area = 0.0;
+  for (int f = 0; f < piece.faceCount(); ++f) {
+    const std::span<const int> loop = piece.faceVertices(f);
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      const Vec3 a = piece.vertex(loop[0]), b = piece.vertex(loop[i - 1]), c = piece.vertex(loop[i]);
+      area += 0.5 * (b - a).cross(c - a).norm();
+    }
+  }
+  return area;
+}
+
+// The volume of what is convex to a tolerance is off by that times its surface on either side.
+TEST(ConvexDecomposition, OfARoundedFile_HasTheSolidsVolumeButForWhatIsFlat_FarFromTheOriginToo) {
+  for (std::uint64_t seed = 4; seed <= 8; ++seed)
+    for (const double far : {0.0, 1000.0}) {
+      SurfaceMesh ball = placed(seededBall(seed));
+      for (Vec3& p : ball.vertices) p += far * Vec3(1.0, -0.5, 0.25);
+      const ConvexDecomposition made = convexDecomposition(closedSurface(ball), {.coordinate_error_m = 1e-4});
+      double surface = 0.0;
+      for (const ConvexPolyhedron& piece : made.pieces) surface += surfaceOf(piece);
+      EXPECT_LE(std::abs(made.report.volume_m3 - surfaceMass(ball).mass),
+                2.0 * made.report.tolerance_m * surface)
+          << "ball " << seed << ", " << far << " m away";
+    }
+}
+
 // Some cuts of this one part what another cut has made convex already.
 TEST(ConvexDecomposition, PutsTogetherPiecesThatMakeAConvexOne) {
   const ClosedSurface surface = closedSurface(placed(seededBall(92)));
   const ConvexDecomposition made = convexDecomposition(surface);
   EXPECT_GT(made.report.merged, 0);
   EXPECT_NEAR(made.report.volume_m3 / surfaceMass(surface.mesh).mass, 1.0, 1e-12);
+}
+
+/// Each triangle in three, with a corner in its middle.
+SurfaceMesh divided(const SurfaceMesh& mesh) {
+  SurfaceMesh made{mesh.vertices, {}};
+  for (const Triangle& t : mesh.triangles) {
+    const int middle = static_cast<int>(made.vertices.size());
+    Vec3 sum = Vec3::Zero();
+    for (const int v : t) sum += mesh.vertices[at(v)];
+    made.vertices.emplace_back(sum / 3.0);
+    for (std::size_t k = 0; k < 3; ++k) made.triangles.push_back({t[k], t[(k + 1) % 3], middle});
+  }
+  return made;
+}
+
+/// A slab with a groove of 15 edges along its lower side, and a block of 14 on its upper one, two of them
+/// across the groove.
+SurfaceMesh blockOverGroove() {
+  constexpr int kSlices = 15, kFirst = 4, kLast = 10, kBottom = 6;
+  const std::vector<Vec2> outline{{2, 0},     {1, 0},    {-1, 0},   {-2, 0}, {-2, -1},
+                                  {-0.2, -1}, {0, -0.6}, {0.2, -1}, {2, -1}};
+  const int n = static_cast<int>(outline.size());
+  SurfaceMesh mesh;
+  for (int i = 0; i <= kSlices; ++i)
+    for (const Vec2& p : outline) mesh.vertices.emplace_back(0.7 * i, p.x(), p.y());
+  for (int i = kFirst; i <= kLast; ++i)
+    for (const double y : {1.0, -1.0}) mesh.vertices.emplace_back(0.7 * i, y, 1.0);
+  const auto foot = [&](int i, int side) { return n * i + 1 + side; };
+  const auto top = [&](int i, int side) { return n * (kSlices + 1) + 2 * (i - kFirst) + side; };
+  for (int i = 0; i < kSlices; ++i)
+    for (int k = 0; k < n; ++k) {
+      const bool below_block = k == 1 && i >= kFirst && i < kLast;
+      if (!below_block)
+        addQuad(mesh, n * i + k, n * i + (k + 1) % n, n * (i + 1) + (k + 1) % n, n * (i + 1) + k);
+    }
+  for (int i = kFirst; i < kLast; ++i) {
+    addQuad(mesh, top(i, 0), top(i, 1), top(i + 1, 1), top(i + 1, 0));
+    addQuad(mesh, foot(i, 0), top(i, 0), top(i + 1, 0), foot(i + 1, 0));
+    addQuad(mesh, foot(i + 1, 1), top(i + 1, 1), top(i, 1), foot(i, 1));
+  }
+  addQuad(mesh, foot(kFirst, 1), top(kFirst, 1), top(kFirst, 0), foot(kFirst, 0));
+  addQuad(mesh, foot(kLast, 0), top(kLast, 0), top(kLast, 1), foot(kLast, 1));
+  for (int k = 0; k < n; ++k) {
+    const int l = (k + 1) % n, last = n * kSlices;
+    if (k == kBottom || l == kBottom) continue;
+    mesh.triangles.push_back({kBottom, l, k});
+    mesh.triangles.push_back({last + kBottom, last + k, last + l});
+  }
+  return mesh;
+}
+
+// Along the groove a cut would remove 15 notches, and leave two blocks to be cut off: below the block first
+// it removes 14 and crosses none, and one cut each is enough. Of so many triangles few planes are looked at.
+TEST(ConvexDecomposition, CutsFirstWhereNoNotchIsCrossed) {
+  const ConvexDecomposition made =
+      convexDecomposition(closedSurface(placed(divided(divided(blockOverGroove())))));
+  EXPECT_EQ(made.report.notches, 29);
+  EXPECT_EQ(made.report.cuts, 2);
+  EXPECT_EQ(made.pieces.size(), 3u);
 }
 
 // Cuts leave a notch on a triangle thinner than rounding, which no plane divides.

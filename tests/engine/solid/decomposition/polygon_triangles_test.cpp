@@ -83,6 +83,24 @@ TEST(PolygonTriangles, FillARingThatTouchesItsHole) {
   expectFilled(touching);
 }
 
+// Thinner than rounding, they come apart from the bridges to them, whose two sides are left on each other.
+TEST(PolygonTriangles, FillARingAroundTwoHolesThatHaveNoArea) {
+  Polygon slits;
+  slits.add({{0, 0}, {3, 0}, {3, 3}, {0, 3}});
+  for (const double y : {1.0, 2.0}) slits.add({{1, y}, {1.125, y + 3e-14}, {1.25, y}});
+  expectFilled(slits);
+}
+
+// So small a hole would be none to rounding if the polygon reached to the origin.
+TEST(PolygonTriangles, FillARingThatTouchesASmallHoleFarFromTheOrigin) {
+  const Vec2 corner(0x1p21, -0x1p21);
+  const double e = 0x1p-12;
+  Polygon touching;
+  touching.add({corner, corner + Vec2(1, 0), corner + Vec2(1, 1), corner + Vec2(0, 1)});
+  touching.add({corner, corner + Vec2(e, 2 * e), corner + Vec2(2 * e, e)});
+  expectFilled(touching);
+}
+
 // Two lobes that meet in a corner, as one ring: a triangle across would join what is apart.
 TEST(PolygonTriangles, JoinNoLobesThatMeetInACorner) {
   Polygon lobes;
@@ -181,6 +199,17 @@ TEST(PolygonTriangles, SayNothingOfARingThatCrossesItself) {
   Polygon crossed;
   crossed.add({{0, 0}, {2, 0}, {0.5, 1}, {2, 2}, {0, 2}, {1.5, 1}});
   EXPECT_FALSE(polygonTriangles(crossed.rings, crossed.corners, 1e-14));
+}
+
+// All triangles of some ways to take them apart run counter-clockwise, as those of a region do.
+TEST(PolygonTriangles, SayNothingOfSixCornersThatCrossThemselves) {
+  for (const std::vector<Vec2>& ring : {std::vector<Vec2>{{0, 5}, {2, 2}, {4, 1}, {6, 5}, {0, 2}, {6, 0}},
+                                        std::vector<Vec2>{{2, 6}, {2, 1}, {3, 2}, {4, 4}, {1, 0}, {4, 1}},
+                                        std::vector<Vec2>{{0, 5}, {4, 3}, {4, 4}, {2, 6}, {3, 0}, {5, 5}}}) {
+    Polygon crossed;
+    crossed.add(ring);
+    EXPECT_FALSE(polygonTriangles(crossed.rings, crossed.corners, 1e-14));
+  }
 }
 
 }  // namespace
