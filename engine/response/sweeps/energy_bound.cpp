@@ -33,6 +33,12 @@ double workOf(std::span<const ContactRow> rows, const VelocityOf& velocityOf) {
   return work;
 }
 
+// Where `first` + s `growth` is zero, or none where it begins above. Where it ends above, s is less than one,
+// to the rounding too.
+double shareOf(double first, double growth) {
+  return first < 0.0 ? -first / growth : 0.0;
+}
+
 void applyTimes(double factor, std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
   for (ContactRow row : rows) {
     row.impulse *= factor;
@@ -59,8 +65,7 @@ void takeBackGain(std::span<ContactRow> rows, std::span<ImpulseBody> bodies) {
   const double before = powerOnMisses(rows, bodies);
   const double twice_energy = after - before;
   const bool gains = before + after > 0.0;
-  const double share = gains ? std::clamp(-before / twice_energy, 0.0, 1.0) : 1.0;
-  scaleTo(share, rows, bodies);
+  scaleTo(gains ? shareOf(before, twice_energy) : 1.0, rows, bodies);
 }
 
 void takeBackWork(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
@@ -72,8 +77,7 @@ void takeBackWork(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
   if (!(at_begin + at_end > 0.0)) return;
   applyTimes(-1.0, rows, bodies);
   const double without = workOf(rows, now);
-  const double share = std::clamp(-(at_begin + without) / (at_end - without), 0.0, 1.0);
-  scaleTo(share, rows, bodies);
+  scaleTo(shareOf(at_begin + without, at_end - without), rows, bodies);
 }
 
 }  // namespace carom

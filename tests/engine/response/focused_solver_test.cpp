@@ -6,6 +6,7 @@
 
 #include "engine/response/conjugate_sweeps.h"
 #include "engine/response/standing_solver.h"
+#include "engine/response/sweeps/turning_resistance.h"
 #include "tests/engine/response/sweeps/masonry.h"
 
 namespace carom {
@@ -74,6 +75,31 @@ TEST(SolveContactsFocused, TheVelocitiesAreThoseThatTheImpulsesGive) {
     EXPECT_LT((m.bodies[i].velocity.angular - given[i].velocity.angular).norm(), 1e-11) << i;
   }
   expectWithinCones(m);
+}
+
+// What resists turning has torques as well, which the struck box and its neighbours take.
+TEST(SolveContactsFocused, TheVelocitiesAreThoseThatImpulsesAndTorquesGive) {
+  Masonry m = standing(columns(60, 10));
+  m.bodies[5].velocity.linear += Vec3(0.02, 0.01, -0.03);
+  m.bodies[5].velocity.angular += Vec3(0.03, -0.02, 0.05);
+  for (ContactRow& row : m.rows) {
+    row.resistance = {0.02, 0.02};
+    prepareRow(row, m.bodies);
+  }
+  const Masonry before = m;
+  std::vector<ImpulseBody> given = m.bodies;
+  solveContactsFocused(m.rows, m.bodies, {.sweeps = 1000, .residual_mps = 1e-3 * kGained});
+  double torques = 0.0;
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    applyToRow(m.rows[i], m.rows[i].impulse - before.rows[i].impulse, given);
+    applyTorqueToRow(m.rows[i], m.rows[i].torque, given);
+    torques += m.rows[i].torque.norm();
+  }
+  EXPECT_GT(torques, 1e-4) << "nothing resists";
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    EXPECT_LT((m.bodies[i].velocity.linear - given[i].velocity.linear).norm(), 1e-12) << i;
+    EXPECT_LT((m.bodies[i].velocity.angular - given[i].velocity.angular).norm(), 1e-11) << i;
+  }
 }
 
 // From a cold start the work is everywhere, and conjugate gradients over all rows, not broken off, do it

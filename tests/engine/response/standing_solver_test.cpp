@@ -181,6 +181,29 @@ TEST(HeldRows, AStepSolvesTheEquationsOfAllRows) {
   }
 }
 
+// A box that falls and turns, or only turns, as its locks allow: held at its corners (on a hinge without
+// friction, which its axis would leave nothing to do) it has come to rest, but for one share of the
+// stiffness.
+TEST(HeldRows, AStepBringsToRestWhatTurnsOnARailOrAHinge) {
+  for (const bool hinge : {false, true}) {
+    Masonry m = columns(1, 1);
+    ImpulseBody& body = m.bodies[1];
+    body.has_locks = true;
+    body.free_axes = hinge ? Vec3(Vec3::Zero()) : Vec3::UnitZ();
+    if (hinge) body.inverse_tensor = Vec3(0.0, body.inverse_tensor(1, 1), 0.0).asDiagonal();
+    body.velocity.linear = -kGained * body.free_axes;
+    body.velocity.angular = hinge ? Vec3(0.0, 0.3, 0.0) : Vec3(0.2, 0.3, -0.1);
+    for (ContactRow& row : m.rows) {
+      if (hinge) row.friction = {};
+      prepareRow(row, m.bodies);
+      row.impulse = Vec3(0.05, 0.0, 0.0);
+    }
+    HeldRows held(m.rows, m.bodies);
+    ASSERT_TRUE(held.step(m.rows, m.bodies));
+    EXPECT_LT(m.fastest(), 1e-6) << (hinge ? "on a hinge" : "on a rail");
+  }
+}
+
 TEST(HeldRows, LeavesAloneWhatDoesNotPressAndTheFrictionOfWhatSlides) {
   Masonry m = columns(1, 2);
   for (ContactRow& row : m.rows) row.impulse = Vec3(0.05, 0.0, 0.0);
