@@ -21,7 +21,7 @@
 // - witnesses within rounding of each other have no direction: the walk says kInside, and the axes decide.
 // Begun far off, on exact lattice poses, a walk can still stop between borders of V-regions: the margin that
 // the support planes leave tells (kLost), and the axis of the widest slab leads on. Tested in
-// tests/engine/closest_features/vclip_test.cpp and stale_seed_test.cpp.
+// tests/engine/closest_features/separated/feature_walk_test.cpp, vclip_test.cpp and stale_seed_test.cpp.
 
 #include <array>
 

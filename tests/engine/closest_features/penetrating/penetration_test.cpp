@@ -84,6 +84,33 @@ TEST(MinimumTranslation, OfASegmentInABox_LeavesByTheNearestFace) {
   EXPECT_LT((m.normal - Vec3::UnitZ()).norm(), 1e-15);
 }
 
+// The rounding of a cross product, some 1e-16, turns it by that over the sine: across directions that are
+// parallel but for 1e-10 it is right to a few millionths, and closer to parallel there is none. Across the
+// first it is to the rounding over a sine of 0.1, at worst.
+TEST(CommonPerpendicular, IsRightToItsRoundingOrThereIsNone) {
+  Random random(311);
+  int none = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 d1 = random.direction();
+    const Vec3 aside = d1.cross(random.direction()).normalized();
+    const double turn = random.logUniform(1e-12, 1.0);
+    const Vec3 d2 = (std::cos(turn) * d1 + std::sin(turn) * aside).normalized();
+    const oracle::Vec3R cross = d1.cast<oracle::Real>().cross(d2.cast<oracle::Real>());
+    const auto sine = static_cast<double>(cross.norm());
+    const auto across = commonPerpendicular(d1, d2);
+    if (sine < 0.99e-10 || sine > 1.01e-10) {
+      ASSERT_EQ(across.has_value(), sine > 1e-10) << sine;
+    }
+    none += !across;
+    if (!across) continue;
+    const Vec3 n = cross.normalized().cast<double>();
+    ASSERT_LT((across->direction - n).norm(), 4e-16 / sine + 4e-16) << sine;
+    ASSERT_NEAR(across->inverse_sine * sine, 1.0, 4e-16 / sine + 4e-16);
+    ASSERT_LT(std::abs(across->direction.dot(d1)), 2e-15) << sine;
+  }
+  EXPECT_GT(none, 2000);
+}
+
 // Edges that are almost parallel: their cross product is mostly rounding, which must not show in the gap
 // along it. Against the heights of all vertices along the axis itself, in long double.
 TEST(MinimumTranslation, AcrossAlmostParallelEdges_IsTheGapAlongItsOwnNormal) {

@@ -29,18 +29,21 @@ TEST(ExhaustiveSearch, GivesTheDistanceOfBruteForce) {
   EXPECT_LT(apart, 180);
 }
 
+// Under the tip of a hull, which ends edges as well, and under a point, which ends none.
 TEST(ExhaustiveSearch, FindsEveryFaceOfEither) {
   oracle::Random random(3202);
-  const ConvexPolyhedron box = boxPolyhedron({1, 2, 3}), tip = oracle::randomHull(random, 8);
-  for (int f = 0; f < box.faceCount(); ++f) {
-    Vec3 middle = Vec3::Zero();
-    for (const int v : box.faceVertices(f)) middle += 0.25 * box.vertex(v);
-    const Vec3& n = box.plane(f).normal;
-    const Vec3& lowest = tip.vertex(tip.support(-n));
-    const Pose X_WT{Quat::Identity(), middle + 0.1 * n - lowest};
-    EXPECT_EQ(exhaustiveSearch(PolyhedronPair(box, Pose(), tip, X_WT)).features.a, faceFeature(f));
-    EXPECT_EQ(exhaustiveSearch(PolyhedronPair(tip, X_WT, box, Pose())).features.b, faceFeature(f));
-  }
+  const ConvexPolyhedron box = boxPolyhedron({1, 2, 3});
+  for (const ConvexPolyhedron& tip :
+       {oracle::randomHull(random, 8), ConvexPolyhedron::point(0.3 * random.direction())})
+    for (int f = 0; f < box.faceCount(); ++f) {
+      Vec3 middle = Vec3::Zero();
+      for (const int v : box.faceVertices(f)) middle += 0.25 * box.vertex(v);
+      const Vec3& n = box.plane(f).normal;
+      const Vec3& lowest = tip.vertex(tip.support(-n));
+      const Pose X_WT{Quat::Identity(), middle + 0.1 * n - lowest};
+      EXPECT_EQ(exhaustiveSearch(PolyhedronPair(box, Pose(), tip, X_WT)).features.a, faceFeature(f));
+      EXPECT_EQ(exhaustiveSearch(PolyhedronPair(tip, X_WT, box, Pose())).features.b, faceFeature(f));
+    }
 }
 
 // No feature of one is near any of the other.
