@@ -336,6 +336,39 @@ TEST(KinematicPress, LeavesARowThatItCannotPressAtRest) {
   for (const int box : boxes) EXPECT_LT(w.state(box).linear_velocity.norm(), 0.01 * u) << box;
 }
 
+// A box between it and a wall: as it stops, its contacts are found anew for a press that stands. What they
+// take of the box is at most the momentum that it had with the press, and what reopens a gap that is too
+// small, not what comes of pressing it against the wall until the solver gives up.
+TEST(KinematicPress, TakesNoMoreThanABoxsMomentumWhereItStops) {
+  for (const double u : {0.02, 0.05})
+    for (const double friction : {0.0, 0.3}) {
+      SCOPED_TRACE(testing::Message() << u << " m/s, friction " << friction);
+      KinematicWorld w({1.0 / 240.0, kDown});
+      w.addStatic(Solid::box(Vec3(8, 8, 1)), {Quat::Identity(), Vec3(0, 0, -0.5)}, rubbing(friction));
+      w.addStatic(Solid::box(Vec3(1, 2, 2)), {Quat::Identity(), Vec3(0.5, 0, 1.0)}, rubbing(friction));
+      const double side = 0.3, gap = restGap(side), room = 0.005;
+      const int box = w.add(Solid::box(Vec3::Constant(side)),
+                            {Quat::Identity(), Vec3(-gap - 0.5 * side, 0, 0.5 * side + gap)}, Vec3::Zero(),
+                            Vec3::Zero(), rubbing(friction));
+      const int press = w.addDriven(Solid::box(Vec3(0.2, 1.0, 0.2)),
+                                    {Quat::Identity(), Vec3(-2.0 * gap - room - side - 0.1, 0, 0.5 * side)},
+                                    Vec3(u, 0, 0), Vec3::Zero(), rubbing(friction));
+      w.start();
+      StepView view;
+      w.world.watch(&view);
+      while (w.world.time() < room / u + 0.2) {
+        const double late_s = w.world.audit().kinematic_late_s;
+        w.world.step();
+        if (w.world.audit().kinematic_late_s == late_s) continue;
+        double pressed = 0.0;
+        for (const ContactView& contact : view.lasting)
+          if (contact.body_a == press || contact.body_b == press) pressed += std::abs(contact.impulse_W.x());
+        ASSERT_LE(pressed, w.world.mass(box) * (u + tolerance::kGapSpeed)) << w.world.time();
+      }
+      EXPECT_GT(w.world.audit().kinematic_late_s, 0.1);
+    }
+}
+
 TEST(KinematicBodies, StopAtStaticOnes) {
   KinematicWorld w({1.0 / 240.0, kDown});
   const int moved =

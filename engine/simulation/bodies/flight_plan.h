@@ -2,7 +2,8 @@
 // The free paths of bodies: the exact parabola under gravity alone; through air and water the path and the
 // momentum that end where the body's own flight through its environment ends (environment_flight.h). In
 // between both change evenly: the environment acts as its mean force and torque, so what an impulse cuts
-// short is planned anew from there, and nothing acts twice. Internal to the simulation floor. Tested through
+// short is planned anew from there, and nothing acts twice. Internal to the simulation floor. Tested in
+// tests/engine/simulation/bodies/flight_plan_test.cpp and through
 // tests/engine/simulation/ and tests/physics/.
 
 #include <memory>

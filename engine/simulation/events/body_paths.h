@@ -1,7 +1,8 @@
 #pragma once
 // What events make of the paths of single bodies within a step: each path ends where an event takes its body
 // up, and begins there anew. Whoever changes a path says so to the searches of its pairs (event_loop.cpp).
-// Internal to the simulation floor. Tested through tests/engine/simulation/ and tests/physics/.
+// Internal to the simulation floor. Tested in tests/engine/simulation/events/body_paths_test.cpp and
+// through tests/engine/simulation/ and tests/physics/.
 
 #include <vector>
 

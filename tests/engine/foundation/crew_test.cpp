@@ -108,5 +108,23 @@ TEST(Crew, OfTwoThreads_WorksOnTwoPartsAtATime) {
   }
 }
 
+// A thread that has waited for so long that it sleeps would leave the caller to do the work alone.
+TEST(Crew, OfTwoThreads_WorksOnTwoPartsAtATimeAfterAPauseToo) {
+  using namespace std::chrono_literals;
+  Crew crew(2);
+  crew.run(2, [](int) {});
+  for (int round = 0; round < 5; ++round) {
+    std::this_thread::sleep_for(50ms);
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    std::atomic<int> begun = 0, alone = 0;
+    crew.run(2, [&](int) {
+      ++begun;
+      while (begun < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+      if (begun < 2) ++alone;
+    });
+    ASSERT_EQ(alone, 0) << round;
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -114,5 +114,27 @@ TEST(LeastDisplacements, OneBodyAmongManyThatDoNotGiveWay_MovesOutBetweenThem) {
   EXPECT_LT(least.products, 500);
 }
 
+// Around a cone each plane asks for a little less than a displacement up the axis gives it. Most of them let
+// go; one after the other that would take three products each.
+TEST(LeastDisplacements, AmongPlanesMostOfWhichLetGo_TakeFewerThanTwoProductsEach) {
+  constexpr int kPlanes = 1000;
+  oracle::Random random(21);
+  std::vector<Opening> openings;
+  for (int i = 0; i < kPlanes; ++i) {
+    const double around = 2.0 * std::numbers::pi * i / kPlanes;
+    const Vec3 n(std::sin(0.8) * std::cos(around), std::sin(0.8) * std::sin(around), std::cos(0.8));
+    openings.push_back({-1, 0, n, 0.3 * n.z() - random.uniform(0.0, 0.01)});
+  }
+  const LeastDisplacements least = leastDisplacements(openings, 1);
+  EXPECT_LT(least.products, 2 * kPlanes);
+  int pressing = 0;
+  for (const Opening& o : openings) {
+    const double opened = openedBy(o, least.displacement_W);
+    EXPECT_GE(opened, o.opening_m - 1e-6);
+    pressing += opened < o.opening_m + 1e-6;
+  }
+  EXPECT_LT(pressing, kPlanes / 10);
+}
+
 }  // namespace
 }  // namespace carom

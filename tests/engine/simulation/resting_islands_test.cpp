@@ -1,5 +1,6 @@
 // Coming to rest, by what is looked at for it.
 
+#include "engine/foundation/tolerances.h"
 #include "engine/simulation/resting_islands.h"
 #include "engine/simulation/world.h"
 
@@ -53,6 +54,36 @@ TEST(RestingIslands, LookAtTheirOwnRowsOnly) {
 TEST(RestingIslands, AreWholeStacksOfTheLightestBoxesToo) {
   const Looked most = mostLookedAt(stacks(10, 0.5), 20);
   EXPECT_EQ(most.rows, 80);
+}
+
+// A ball that rolling resistance brakes until it is told to rest, when its friction, m a with
+// a = 5/7 lever/radius g, has nothing left to do: from then on it is shown to press with its weight, to what
+// may be left over of balanced forces.
+TEST(RestingIslands, PressWithTheirWeightAloneWhateverBrakedThem) {
+  constexpr double kBraking = 0.02, kRadius = 0.2, kG = 9.81, kStep = 1.0 / 240;
+  World world({.step_s = kStep, .gravity = Vec3(0, 0, -kG)});
+  Material material;
+  material.rolling_resistance_m = 7.0 / 5.0 * kBraking / kG * kRadius;
+  const int floor = world.addSolid(Solid::box({20, 20, 1}));
+  const int ball = world.addSolid(Solid::ball(kRadius));
+  world.addBody({floor, {Quat::Identity(), Vec3(0, 0, -0.5)}, Vec3::Zero(), Vec3::Zero(), material, true});
+  const Vec3 velocity(0.45 * tolerance::kRestSpeed, 0, 0), spin(0, velocity.x() / kRadius, 0);
+  world.addBody({ball, {Quat::Identity(), Vec3(0, 0, kRadius)}, velocity, spin, material, false});
+  ASSERT_TRUE(world.start().empty());
+  StepView view;
+  world.watch(&view);
+  const double weight = world.mass(1) * kG * kStep;
+  double braked = 0.0;
+  for (int step = 0; step < 100 && world.states()[1].mode != Mode::kResting; ++step) {
+    EXPECT_GT(world.states()[1].linear_velocity.x(), 0.0);
+    world.step();
+    braked = view.lasting.at(0).impulse_W.x();
+  }
+  world.step();
+  ASSERT_EQ(world.states()[1].mode, Mode::kResting);
+  EXPECT_NEAR(braked, -world.mass(1) * kBraking * kStep, 0.01 * weight * kBraking / kG);
+  ASSERT_EQ(view.lasting.size(), 1u);
+  EXPECT_LT((view.lasting[0].impulse_W - Vec3(0, 0, weight)).norm(), tolerance::kRestAcceleration * weight);
 }
 
 // What moves beside them is none of their business.

@@ -97,6 +97,38 @@ TEST(StepView, LastingContactsCarryTheWeightOfAStepAlsoAtRest) {
   expectWeight();
 }
 
+// A box that turns about its lower edge, which comes down slowly: its rows stand where it is in the middle of
+// the step, and so does what is shown of them, halfway across the gap there.
+TEST(StepView, LastingContactsOfWhatTurnsAreShownHalfwayAcrossTheGapInMidStep) {
+  constexpr double kStep = 1.0 / 240.0, kTilt = 0.4, kGap = 4e-4;
+  World world({kStep, Vec3(0.0, 0.0, -kG), true});
+  addBox(world, {4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}, true);
+  const Vec3 size(0.3, 0.4, 0.2);
+  const Quat tilt(Eigen::AngleAxisd(kTilt, Vec3::UnitY()));
+  const auto lowest = [&](const Quat& R_WB) {
+    double z = 0.0;
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5}) z = std::min(z, (R_WB * size.cwiseProduct(Vec3(x, 0.0, y))).z());
+    return z;
+  };
+  BodyDescription box{world.addSolid(Solid::box(size)), {}, Vec3::Zero(), Vec3::Zero(), {}, false};
+  box.X_WB = {tilt, Vec3(0.0, 0.0, kGap - lowest(tilt))};
+  box.angular_velocity = Vec3(0.0, 1.5, 0.0);
+  // The edge is slower than what counts as a collision.
+  const Vec3 edge = tilt * Vec3(0.5 * size.x(), 0.0, -0.5 * size.z());
+  box.linear_velocity = -box.angular_velocity.cross(edge) - Vec3(0.0, 0.0, 0.02);
+  world.addBody(box);
+  ASSERT_TRUE(world.start().empty());
+  StepView view;
+  world.watch(&view);
+  world.step();
+  ASSERT_EQ(view.lasting.size(), 2u);
+  const Quat R_then = Quat(Eigen::AngleAxisd(kTilt + 0.5 * kStep * box.angular_velocity.y(), Vec3::UnitY()));
+  const double gap_then = box.X_WB.position.z() + 0.5 * kStep * box.linear_velocity.z() + lowest(R_then);
+  EXPECT_LT(gap_then, kGap - 4e-5);
+  for (const ContactView& contact : view.lasting) EXPECT_NEAR(contact.p_A.z() - 0.5, 0.5 * gap_then, 1e-9);
+}
+
 // A block slides at 60 steps a second: four substeps bear a quarter of its weight each.
 TEST(StepView, LastingContactsCarryTheWeightOfAWholeStepAlsoInSubsteps) {
   World world({1.0 / 60.0, Vec3(0.0, 0.0, -kG), true});
