@@ -21,17 +21,14 @@ double surface(const Bounds& bounds) {
 
 }  // namespace
 
-void BoundsTree::setLeaves(std::span<const Bounds> bounds, std::span<const int> groups) {
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    nodes_[i].bounds = bounds[i];
-    nodes_[i].group = groups.empty() ? kNoGroup : groups[i];
-  }
+void BoundsTree::setLeaves(std::span<const Bounds> bounds) {
+  for (std::size_t i = 0; i < bounds.size(); ++i) nodes_[i].bounds = bounds[i];
 }
 
-void BoundsTree::build(std::span<const Bounds> bounds, std::span<const int> groups) {
+void BoundsTree::build(std::span<const Bounds> bounds) {
   leaves_ = static_cast<int>(bounds.size());
   nodes_.assign(bounds.empty() ? 0 : 2 * bounds.size() - 1, {});
-  setLeaves(bounds, groups);
+  setLeaves(bounds);
   root_ = -1;
   if (bounds.empty()) return;
   std::vector<int> things(bounds.size());
@@ -41,13 +38,13 @@ void BoundsTree::build(std::span<const Bounds> bounds, std::span<const int> grou
   built_surface_ = fitAll();
 }
 
-void BoundsTree::moveAll(std::span<const Bounds> bounds, std::span<const int> groups) {
+void BoundsTree::moveAll(std::span<const Bounds> bounds) {
   if (static_cast<int>(bounds.size()) != leaves_) {
-    build(bounds, groups);
+    build(bounds);
     return;
   }
-  setLeaves(bounds, groups);
-  if (!(fitAll() <= kWorn * built_surface_)) build(bounds, groups);
+  setLeaves(bounds);
+  if (!(fitAll() <= kWorn * built_surface_)) build(bounds);
 }
 
 // Children first. Returns the surface of all nodes above leaves.
@@ -96,7 +93,6 @@ void BoundsTree::fit(int i) {
   const Node& first = node(node(i).children[0]);
   const Node& second = node(node(i).children[1]);
   node(i).bounds = together(first.bounds, second.bounds);
-  node(i).group = first.group == second.group ? first.group : kNoGroup;
 }
 
 // No parent: the child is the root.
@@ -166,8 +162,7 @@ void BoundsTree::refitFrom(int i) {
   }
 }
 
-void BoundsTree::move(int thing, const Bounds& bounds, int group) {
-  node(thing).group = group;
+void BoundsTree::move(int thing, const Bounds& bounds) {
   if (leaves_ == 1) {
     node(thing).bounds = bounds;
     return;
@@ -188,13 +183,12 @@ void BoundsTree::grow(int thing, const Bounds& bounds) {
     node(i).bounds = together(node(i).bounds, bounds);
 }
 
-int BoundsTree::find(const Bounds& bounds, std::vector<int>& found, int without) const {
+int BoundsTree::find(const Bounds& bounds, std::vector<int>& found) const {
   found.clear();
   int visited = 0;
   for (int i = root_; i >= 0;) {
     ++visited;
-    const bool counts = without == kNoGroup || node(i).group != without;
-    const bool meets = counts && node(i).bounds.overlaps(bounds);
+    const bool meets = node(i).bounds.overlaps(bounds);
     if (meets && !isLeaf(i)) {
       i = node(i).children[0];
       continue;

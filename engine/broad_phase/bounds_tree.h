@@ -4,9 +4,7 @@
 // the nodes above it grows least, and on the way back up a node changes places with the child of its sibling
 // where that makes the sibling smaller (C. Ericson, Real-Time Collision Detection, 2005, 6.3.2 and 6.4; A.
 // Kensler, Tree rotations for improving bounding volume hierarchies, 2008). Where it splits decides what a
-// query costs, never what it finds. Things may be of a group, such as the pieces of a body: a query that
-// leaves a group out turns back at nodes that hold nothing else. Tested in
-// tests/engine/broad_phase/bounds_tree_test.cpp.
+// query costs, never what it finds. Tested in tests/engine/broad_phase/bounds_tree_test.cpp.
 
 #include <array>
 #include <span>
@@ -18,28 +16,24 @@ namespace carom {
 
 class BoundsTree {
  public:
-  static constexpr int kNoGroup = -1;
-
-  /// Splits at medians, along the axis on which the bounds are spread most. Cost O(n log n). `groups`: one a
-  /// thing, 0 or more or kNoGroup; none: all are of no group.
-  void build(std::span<const Bounds> bounds, std::span<const int> groups = {});
-  /// Gives all things other bounds, and groups as `build` does. Keeps its shape, O(n), while its nodes are
-  /// about as small as when it was built last; then it is built anew.
-  void moveAll(std::span<const Bounds> bounds, std::span<const int> groups = {});
+  /// Splits at medians, along the axis on which the bounds are spread most. Cost O(n log n).
+  void build(std::span<const Bounds> bounds);
+  /// Gives all things other bounds. Keeps its shape, O(n), while its nodes are about as small as when it was
+  /// built last; then it is built anew.
+  void moveAll(std::span<const Bounds> bounds);
   int size() const { return leaves_; }
   const Bounds& bounds(int thing) const { return nodes_[static_cast<std::size_t>(thing)].bounds; }
-  /// Gives a thing other bounds and this group. Cost about O(log n).
-  void move(int thing, const Bounds& bounds, int group = kNoGroup);
+  /// Gives a thing other bounds. Cost about O(log n).
+  void move(int thing, const Bounds& bounds);
   /// Makes the bounds of a thing hold these too. Cost about O(log n).
   void grow(int thing, const Bounds& bounds);
-  /// All things whose bounds overlap these, without those of one group, in no order. Returns how many nodes
-  /// it has looked at, which is what it costs: about O(log n + found).
-  int find(const Bounds& bounds, std::vector<int>& found, int without = kNoGroup) const;
+  /// All things whose bounds overlap these, in no order. Returns how many nodes it has looked at, which is
+  /// what it costs: about O(log n + found).
+  int find(const Bounds& bounds, std::vector<int>& found) const;
 
  private:
   struct Node {
     Bounds bounds;
-    int group = kNoGroup;  ///< Of all leaves below.
     int parent = -1;
     std::array<int, 2> children{-1, -1};
   };
@@ -48,7 +42,7 @@ class BoundsTree {
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   bool isLeaf(int i) const { return i < leaves_; }
   int side(int i) const { return node(node(i).parent).children[1] == i ? 1 : 0; }
-  void setLeaves(std::span<const Bounds> bounds, std::span<const int> groups);
+  void setLeaves(std::span<const Bounds> bounds);
   int buildNode(std::span<int> things, int& next);
   void fit(int i);
   double fitAll();

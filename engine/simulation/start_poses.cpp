@@ -152,7 +152,8 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
     Body& body = start.bodies[i];
     body.path = Trajectory{.X_WB = body.X_WB, .velocity = displacements[i] / kWay_s};
   }
-  if (!start.table.pathsLeaveBounds(start.bodies, start.shapes, start.active, kWay_s, alone)) return false;
+  const PairedWorld world{start.bodies, start.shapes, start.settings, alone};
+  if (start.table.bodiesThatMeetOthers(world, start.active, kWay_s).empty()) return false;
   const auto shapesOfPairs = [&] {
     std::vector<IndexPair> shapes;
     for (const int place : start.table.active()) shapes.push_back(start.table.pairs()[at(place)].shapes);
@@ -161,7 +162,7 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
   const std::vector<IndexPair> before = shapesOfPairs();
   StepCounters counters;
   start.table.updateBounds(start.bodies, start.shapes, start.active, kWay_s, alone);
-  start.table.collect({start.bodies, start.shapes, start.settings}, counters, nullptr);
+  start.table.collect(world, counters, nullptr);
   const std::vector<IndexPair> now = shapesOfPairs();
   return !std::includes(before.begin(), before.end(), now.begin(), now.end());
 }

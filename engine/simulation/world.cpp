@@ -63,6 +63,7 @@ struct World::Impl {
   bool finite = true;  ///< All states, after the last substep.
 
   LastingWorld lastingWorld() { return {bodies, shapes, table, active, substep, crew}; }
+  PairedWorld pairedWorld() { return {bodies, shapes, substep, crew}; }
   /// Calls work(index) for every active body, side by side.
   template <typename Work>
   void forActive(const Work& work) {
@@ -137,16 +138,15 @@ void World::Impl::planFlight(PhaseClock* clock) {
 void World::Impl::findPairs(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
   table.updateBounds(bodies, shapes, active.list(), substep.step_s, crew);
-  table.collect({bodies, shapes, substep}, counters, clock);
+  table.collect(pairedWorld(), counters, clock);
 }
 
-// Pairs that paths could meet which leave the bounds that bodies were paired by are added; the others keep
-// their places, which contact rows know them by.
+// Pairs that paths could meet which leave the bounds that bodies were paired by are added, and those that
+// were apart looked at again; the others keep their places, which contact rows know them by.
 void World::Impl::meetFarther(PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kBroadPhase);
-  if (!table.pathsLeaveBounds(bodies, shapes, active.list(), substep.step_s, crew)) return;
-  for (const int i : active.list())
-    if (bodies[at(i)].moves()) table.extend(i, 0.0, {bodies, shapes, substep}, counters, clock);
+  const std::span<const int> met = table.bodiesThatMeetOthers(pairedWorld(), active.list(), substep.step_s);
+  table.extend(met, 0.0, pairedWorld(), counters);
 }
 
 void World::Impl::solveContacts(PhaseClock* clock) {
@@ -313,7 +313,7 @@ int World::Impl::substepsWanted() {
   if (std::none_of(list.begin(), list.end(), [&](int i) { return stirs(bodies[at(i)]); })) return 1;
   double length_s = tolerance::kFineStep;
   int awake = 0;
-  for (const int place : table.active()) {
+  for (const int place : table.candidates()) {
     const ShapePair& pair = table.pairs()[at(place)];
     const Body& a = bodies[at(pair.body_a)];
     const Body& b = bodies[at(pair.body_b)];
@@ -540,7 +540,7 @@ Audit World::audit() const {
   Audit audit;
   audit.time_s = time();
   audit.last_step = w.counters;
-  audit.smallest_gap_m = w.table.smallestGap();
+  audit.smallest_gap_m = w.table.smallestGap(w.bodies, w.shapes);
   audit.resting_bodies = w.dynamic_bodies;
   audit.work_J = w.work_J;
   for (const int i : w.active.list()) {  // the others have neither energy of motion nor momentum

@@ -23,12 +23,6 @@ constexpr std::size_t kPairsOfAPart = 1000;
 constexpr int kMostLevels = 5;
 constexpr int kVisitsOfAnEvent = 10;  // of each row of the island, in the mean; 6 in a pile of 250 boxes
 
-// No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
-// height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
-double lastingHeight(const ShapePair& pair, double step_s) {
-  return pair.window.ceiling + pair.collision_speed_mps * step_s;
-}
-
 // So many landings of an island of a world of `rows` can be solved as events within a step's budget.
 int fewLandings(std::size_t rows) {
   return sweepsInBudget(rows) / kVisitsOfAnEvent;
@@ -366,7 +360,7 @@ class Assembly {
                              .X_WA = world_.bodies[at(pair.body_a)].X_WB,
                              .X_WB = world_.bodies[at(pair.body_b)].X_WB,
                              .former = remembered.view(),
-                             .height_m = lastingHeight(pair, step_s)};
+                             .height_m = pair.lastingHeight(step_s)};
     std::vector<SourcedRow>& rows = stretch.of_pair;
     appendRows(request, pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
     // A point that comes in fast (the far edge of a falling box) lands, or has its own time of impact and
@@ -397,7 +391,7 @@ class Assembly {
                 .X_WA = landing.X_WA,
                 .X_WB = landing.X_WB,
                 .former = remembered.view(),
-                .height_m = lastingHeight(pair, world_.settings.step_s),
+                .height_m = pair.lastingHeight(world_.settings.step_s),
                 .struck = true},
                pair, world_.bodies, world_.shapes, contacts_.bodies, rows);
     for (SourcedRow& sourced : rows) {
@@ -548,7 +542,7 @@ std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) co
 }
 
 bool isLasting(const ShapePair& pair, double step_s) {
-  return pair.closest.distance_m <= lastingHeight(pair, step_s);
+  return pair.closest.distance_m <= pair.lastingHeight(step_s);
 }
 
 void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/index.h"
@@ -104,6 +105,19 @@ void scaleRemembered(ShapePair& pair, double factor) {
   }
 }
 
+// What stays higher on the paths that are planned is hardly brought near by what contacts do to these; where
+// it is, bodiesThatMeetOthers says so.
+double safeHeight(const ShapePair& pair, double step_s) {
+  return pair.contactHeight(step_s) + 2.0 * pair.window.manifold;
+}
+
+// As the bodies were at the end of the last step.
+ClosestFeatures closestNow(const ShapePair& pair, FeaturePair& tracked, const std::vector<Body>& bodies,
+                           const std::vector<Shape>& shapes) {
+  return closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
+                         *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, tracked);
+}
+
 // Room for the collision window, and for what contacts may do to the velocity within the step.
 double pairingMargin(const Shape& shape) {
   return 2.0 * tolerance::kManifoldHeight * std::min(shape.width_m, tolerance::kWindowLargestScale);
@@ -117,10 +131,13 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
     proxies_.resize(shapes.size());
     starts_.resize(shapes.size());
     of_body_.resize(bodies.size());
+    apart_of_body_.resize(bodies.size());
     first_shape_.assign(bodies.size() + 1, 0);
     for (const Shape& shape : shapes) ++first_shape_[at(shape.body) + 1];
     std::partial_sum(first_shape_.begin(), first_shape_.end(), first_shape_.begin());
   }
+  active_bodies_.assign(active.begin(), active.end());
+  end_s_ = end_s;
   active_shapes_.clear();
   for (const int body : active)
     for (int i = first_shape_[at(body)]; i < first_shape_[at(body) + 1]; ++i) active_shapes_.push_back(i);
@@ -138,7 +155,7 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
 }
 
 ShapePair PairTable::makePair(IndexPair shapes_of_pair, const PairedWorld& world) const {
-  const auto& [bodies, shapes, settings] = world;
+  const auto& [bodies, shapes, settings, crew] = world;
   ShapePair pair;
   pair.shapes = shapes_of_pair;
   pair.rank = rankOf(shapes_of_pair);
@@ -152,7 +169,61 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const PairedWorld& world
   return pair;
 }
 
-// In its place among the pairs of its bodies; nobody asks for those of static ones.
+// Along that of the world's axes on which the bounds are farthest apart where the paths begin.
+SeparatingAxis PairTable::axisOfBounds(const ShapePair& pair, const std::vector<Body>& bodies) const {
+  const Bounds &a = starts_[at(pair.shapes.a)], &b = starts_[at(pair.shapes.b)];
+  const Vec3 above = b.low - a.high, below = a.low - b.high;
+  Eigen::Index axis = 0;
+  const double gap = above.cwiseMax(below).maxCoeff(&axis);
+  const Vec3 n_W = Vec3::Unit(axis) * (above[axis] >= below[axis] ? 1.0 : -1.0);
+  return separatingAxis(n_W, gap, bodies[at(pair.body_a)].X_WB, bodies[at(pair.body_b)].X_WB);
+}
+
+// In their place among the near pairs of its bodies, or with those that are apart; nobody asks for those of
+// static ones.
+void PairTable::enlist(int place, const std::vector<Body>& bodies) {
+  ShapePair& pair = pairAt(place);
+  for (const bool of_b : {false, true}) {
+    const int body = of_b ? pair.body_b : pair.body_a;
+    if (bodies[at(body)].is_static) continue;
+    if (pair.near) {
+      std::vector<int>& known = of_body_[at(body)];
+      const auto before = [this](int p, int q) { return isBefore(p, q); };
+      known.insert(std::upper_bound(known.begin(), known.end(), place, before), place);
+    } else {
+      pair.apart_at[of_b ? 1 : 0] = static_cast<int>(apart_of_body_[at(body)].size());
+      apart_of_body_[at(body)].push_back(place);
+    }
+  }
+}
+
+// The last of those that are apart takes its place.
+void PairTable::unlist(int place, const std::vector<Body>& bodies) {
+  const ShapePair& pair = pairAt(place);
+  for (const bool of_b : {false, true}) {
+    const int body = of_b ? pair.body_b : pair.body_a;
+    if (bodies[at(body)].is_static) continue;
+    if (pair.near) {
+      std::erase(of_body_[at(body)], place);
+      continue;
+    }
+    std::vector<int>& known = apart_of_body_[at(body)];
+    const int spot = pair.apart_at[of_b ? 1 : 0];
+    ShapePair& last = pairAt(known.back());
+    last.apart_at[last.body_b == body ? 1 : 0] = spot;
+    known[at(spot)] = known.back();
+    known.pop_back();
+  }
+}
+
+void PairTable::setNear(int place, bool near, const std::vector<Body>& bodies) {
+  if (pairAt(place).near == near) return;
+  unlist(place, bodies);
+  pairAt(place).near = near;
+  if (!near) pairAt(place).remembered.clear();
+  enlist(place, bodies);
+}
+
 int PairTable::add(ShapePair pair, const std::vector<Body>& bodies) {
   if (count() >= kMostPairs) throw TooManyPairs();
   int place = static_cast<int>(pairs_.size());
@@ -164,20 +235,13 @@ int PairTable::add(ShapePair pair, const std::vector<Body>& bodies) {
     pairAt(place) = std::move(pair);
   }
   pairAt(place).active = true;
-  for (const int body : {pairAt(place).body_a, pairAt(place).body_b}) {
-    if (bodies[at(body)].is_static) continue;
-    std::vector<int>& known = of_body_[at(body)];
-    known.insert(
-        std::upper_bound(known.begin(), known.end(), place, [this](int p, int q) { return isBefore(p, q); }),
-        place);
-  }
+  enlist(place, bodies);
   return place;
 }
 
 void PairTable::remove(int place, const std::vector<Body>& bodies) {
+  unlist(place, bodies);
   ShapePair& pair = pairAt(place);
-  for (const int body : {pair.body_a, pair.body_b})
-    if (!bodies[at(body)].is_static) std::erase(of_body_[at(body)], place);
   pair.remembered.clear();
   pair.shapes = {};
   pair.active = false;
@@ -185,10 +249,16 @@ void PairTable::remove(int place, const std::vector<Body>& bodies) {
 }
 
 // Pairs without an active body are kept, and looked at no more.
-void PairTable::restPairs(const std::vector<Body>& bodies) {
+void PairTable::restPairs(const PairedWorld& world, StepCounters& counters) {
+  const std::vector<Body>& bodies = world.bodies;
   std::erase_if(active_, [&](int place) {
     ShapePair& pair = pairAt(place);
     if (bodies[at(pair.body_a)].active || bodies[at(pair.body_b)].active) return false;
+    if (!pair.near) {
+      pair.closest = closestNow(pair, pair.tracked, bodies, world.shapes);
+      counters.addQuery(pair.closest.states);
+      setNear(place, true, bodies);
+    }
     pair.active = false;
     pair.scale = scale_;
     if (resting_gap_m_) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
@@ -216,11 +286,68 @@ void PairTable::takeInExtended(const std::vector<Body>& bodies) {
     std::sort(active_.begin(), active_.end(), before);
 }
 
+void PairTable::queryAll(std::span<const int> places, const PairedWorld& world, StepCounters& counters) {
+  world.crew.runStretches(places.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    StepCounters made;
+    for (const int place : places.subspan(begin, end - begin)) {
+      ShapePair& pair = pairAt(place);
+      pair.closest = closestNow(pair, pair.tracked, world.bodies, world.shapes);
+      made.addQuery(pair.closest.states);
+      made.iteration_limits += pair.closest.reached_limit;
+    }
+    std::atomic_ref(counters.distance_queries) += made.distance_queries;
+    std::atomic_ref(counters.states_walked) += made.states_walked;
+    std::atomic_ref(counters.iteration_limits) += made.iteration_limits;
+  });
+}
+
+// Whether what is known of a pair proves that it cannot come near on the paths that are planned.
+bool PairTable::willStayApart(ShapePair& pair, bool is_queried, const PairedWorld& world) const {
+  const double step_s = world.settings.step_s;
+  if (is_queried) {
+    if (pair.closest.distance_m <= pair.contactHeight(step_s)) return false;
+    pair.apart = separatingAxis(pair.closest.n_W, pair.closest.distance_m, world.bodies[at(pair.body_a)].X_WB,
+                                world.bodies[at(pair.body_b)].X_WB);
+  }
+  return leastGapOf(pair, world.shapes) > safeHeight(pair, step_s);
+}
+
+// Which of the active pairs the step looks at. What was apart is queried only where that is not proven any
+// more.
+void PairTable::tellApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock) {
+  const auto prove = [&](std::span<const int> places, bool are_queried) {
+    stays_apart_.assign(places.size(), 0);
+    world.crew.runStretches(places.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        ShapePair& pair = pairAt(places[i]);
+        stays_apart_[i] = willStayApart(pair, are_queried || pair.near, world) ? 1 : 0;
+      }
+    });
+  };
+  prove(active_, false);
+  asked_.clear();
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (stays_apart_[i] != 0)
+      setNear(active_[i], false, world.bodies);
+    else if (!pairAt(active_[i]).near)
+      asked_.push_back(active_[i]);
+  }
+  {
+    const PhaseScope phase(clock, StepPhase::kClosestFeatures);
+    queryAll(asked_, world, counters);
+  }
+  prove(asked_, true);
+  for (std::size_t i = 0; i < asked_.size(); ++i) setNear(asked_[i], stays_apart_[i] == 0, world.bodies);
+  near_.clear();
+  for (const int place : active_)
+    if (pairAt(place).near) near_.push_back(place);
+}
+
 void PairTable::collect(const PairedWorld& world, StepCounters& counters, PhaseClock* clock) {
   const std::vector<Body>& bodies = world.bodies;
-  const std::vector<Shape>& shapes = world.shapes;
-  const std::vector<IndexPair>& wanted = finder_.find(proxies_, active_shapes_);
-  restPairs(bodies);
+  boundPaths(bodies, active_bodies_, end_s_);
+  const std::vector<IndexPair>& wanted = finder_.find(proxies_, active_bodies_);
+  restPairs(world, counters);
   takeInExtended(bodies);
   collected_.clear();
   auto old = active_.begin();
@@ -232,51 +359,97 @@ void PairTable::collect(const PairedWorld& world, StepCounters& counters, PhaseC
       continue;
     }
     ShapePair pair = makePair(shapes_of_pair, world);
-    const PhaseScope phase(clock, StepPhase::kClosestFeatures);
-    pair.closest =
-        closestFeatures(*shapes[at(pair.shapes.a)].part, bodies[at(pair.body_a)].X_WB,
-                        *shapes[at(pair.shapes.b)].part, bodies[at(pair.body_b)].X_WB, pair.tracked);
-    counters.addQuery(pair.closest.states);
-    counters.iteration_limits += pair.closest.reached_limit;
+    pair.apart = axisOfBounds(pair, bodies);
     collected_.push_back(add(std::move(pair), bodies));
   }
   for (; old != active_.end(); ++old) remove(*old, bodies);
   active_.swap(collected_);
   counters.candidate_pairs = static_cast<int>(count());
   counters.active_pairs = static_cast<int>(active_.size());
+  tellApart(world, counters, clock);
 }
 
-void PairTable::extend(int body, double time_s, const PairedWorld& world, StepCounters& counters,
-                       PhaseClock* clock) {
-  const std::vector<Body>& bodies = world.bodies;
-  const std::vector<Shape>& shapes = world.shapes;
+void PairTable::boundPaths(const std::vector<Body>& bodies, std::span<const int> active, double end_s) {
+  path_bounds_.resize(bodies.size());
+  for (const int i : active) path_bounds_[at(i)] = PathBound(bodies[at(i)].path, 0.0, end_s);
+}
+
+double PairTable::leastGapOf(const ShapePair& pair, const std::vector<Shape>& shapes) const {
+  return leastGap(pair.apart, path_bounds_[at(pair.body_a)], shapes[at(pair.shapes.a)].reach_m,
+                  path_bounds_[at(pair.body_b)], shapes[at(pair.shapes.b)].reach_m);
+}
+
+bool PairTable::staysApart(const ShapePair& pair, const PairedWorld& world) const {
+  return leastGapOf(pair, world.shapes) > pair.contactHeight(world.settings.step_s);
+}
+
+// Makes the bounds of a body's shapes hold its path, and pairs what has grown with what it is not paired
+// with.
+void PairTable::pairGrown(int body, double time_s, const PairedWorld& world, StepCounters& counters) {
+  const Trajectory& path = world.bodies[at(body)].path;
+  grown_.clear();
   for (int shape = first_shape_[at(body)]; shape < first_shape_[at(body) + 1]; ++shape) {
     const std::size_t i = at(shape);
-    const Trajectory& path = bodies[at(body)].path;
-    starts_[i] = boundsAt(*shapes[i].part, path.X_WB);
-    const Bounds swept = sweptBounds(starts_[i], shapes[i], path, world.settings.step_s);
+    if (time_s > 0.0) starts_[i] = boundsAt(*world.shapes[i].part, path.X_WB);
+    const Bounds swept = sweptBounds(starts_[i], world.shapes[i], path, world.settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
-    const Bounds onwards = widened(swept, pairingMargin(shapes[i]));
+    const Bounds onwards = widened(swept, pairingMargin(world.shapes[i]));
     proxies_[i].bounds.low = proxies_[i].bounds.low.cwiseMin(onwards.low);
     proxies_[i].bounds.high = proxies_[i].bounds.high.cwiseMax(onwards.high);
-    finder_.grow(shape, onwards);
-    finder_.findPartners(proxies_, shape, partners_);
-    for (int partner : partners_) {
-      const IndexPair both{std::min(shape, partner), std::max(shape, partner)};
-      const std::vector<int>& known = of_body_[at(body)];
-      if (std::any_of(known.begin(), known.end(), [&](int p) { return pairAt(p).shapes == both; })) continue;
-      ShapePair pair = makePair(both, world);
-      pair.rank = kAddedWithinAStep + extended_.size();
-      const PhaseScope phase(clock, StepPhase::kClosestFeatures);
-      pair.closest =
-          closestFeatures(*shapes[at(both.a)].part, bodies[at(pair.body_a)].path.at(time_s),
-                          *shapes[at(both.b)].part, bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
-      counters.addQuery(pair.closest.states);
-      const int place = add(std::move(pair), bodies);
-      active_.push_back(place);
-      extended_.push_back(place);
-      ++counters.candidate_pairs;
+    finder_.grow(body, onwards);
+    grown_.push_back(shape);
+  }
+  if (grown_.empty()) return;
+  finder_.findPartners(proxies_, grown_, partners_);
+  known_.clear();
+  for (const std::vector<int>* places : {&of_body_[at(body)], &apart_of_body_[at(body)]})
+    for (const int place : *places) known_.push_back(pairAt(place).shapes);
+  std::sort(known_.begin(), known_.end());
+  for (const IndexPair& with : partners_) {
+    const IndexPair both{std::min(with.a, with.b), std::max(with.a, with.b)};
+    if (std::binary_search(known_.begin(), known_.end(), both)) continue;
+    ShapePair pair = makePair(both, world);
+    pair.rank = kAddedWithinAStep + extended_.size();
+    const int place = add(std::move(pair), world.bodies);
+    active_.push_back(place);
+    extended_.push_back(place);
+    ++counters.candidate_pairs;
+    comeNear(place, time_s, world, counters);
+  }
+}
+
+void PairTable::comeNear(int place, double time_s, const PairedWorld& world, StepCounters& counters) {
+  ShapePair& pair = pairAt(place);
+  pair.closest = closestFeatures(
+      *world.shapes[at(pair.shapes.a)].part, world.bodies[at(pair.body_a)].path.at(time_s),
+      *world.shapes[at(pair.shapes.b)].part, world.bodies[at(pair.body_b)].path.at(time_s), pair.tracked);
+  counters.addQuery(pair.closest.states);
+  setNear(place, true, world.bodies);
+  near_.push_back(place);
+}
+
+void PairTable::extend(std::span<const int> some, double time_s, const PairedWorld& world,
+                       StepCounters& counters) {
+  ++extension_;
+  extended_in_.resize(world.bodies.size());
+  bounded_in_.resize(world.bodies.size());
+  const auto boundPath = [&](int body) {
+    if (std::exchange(bounded_in_[at(body)], extension_) == extension_) return;
+    path_bounds_[at(body)] = PathBound(world.bodies[at(body)].path, time_s, world.settings.step_s);
+  };
+  for (const int body : some) {
+    extended_in_[at(body)] = extension_;
+    pairGrown(body, time_s, world, counters);
+    boundPath(body);
+    asked_.clear();
+    for (const int place : apart_of_body_[at(body)]) {
+      const ShapePair& pair = pairAt(place);
+      const int other = pair.body_a == body ? pair.body_b : pair.body_a;
+      if (extended_in_[at(other)] == extension_) continue;  // that was asked already
+      boundPath(other);
+      if (!staysApart(pair, world)) asked_.push_back(place);
     }
+    for (const int place : asked_) comeNear(place, time_s, world, counters);
   }
 }
 
@@ -289,6 +462,7 @@ void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldS
     pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
     pair.active = true;
     active_.push_back(place);
+    near_.push_back(place);
   }
 }
 
@@ -298,7 +472,15 @@ void PairTable::scaleImpulses(double factor) {
   scale_ *= factor;
 }
 
-double PairTable::smallestGap() const {
+double PairTable::gapOf(const ShapePair& pair, const std::vector<Body>& bodies,
+                        const std::vector<Shape>& shapes) const {
+  if (pair.near) return pair.closest.distance_m;
+  FeaturePair tracked = pair.tracked;
+  return closestNow(pair, tracked, bodies, shapes).distance_m;
+}
+
+// What is apart is at least as far as where contacts begin.
+double PairTable::smallestGap(const std::vector<Body>& bodies, const std::vector<Shape>& shapes) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!resting_gap_m_) {
     resting_gap_m_ = kInfinity;
@@ -306,7 +488,10 @@ double PairTable::smallestGap() const {
       if (!pair.isFree() && !pair.active) resting_gap_m_ = std::min(*resting_gap_m_, pair.closest.distance_m);
   }
   double smallest = *resting_gap_m_;
-  for (const int place : active_) smallest = std::min(smallest, pairAt(place).closest.distance_m);
+  for (const int place : near_) smallest = std::min(smallest, pairAt(place).closest.distance_m);
+  for (const int place : active_)
+    if (const ShapePair& pair = pairAt(place); !pair.near && pair.window.manifold < smallest)
+      smallest = std::min(smallest, gapOf(pair, bodies, shapes));
   return smallest;
 }
 
@@ -319,28 +504,40 @@ std::vector<int> PairTable::all() const {
   return places;
 }
 
-bool PairTable::pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                                 std::span<const int> active, double end_s, Crew& crew) const {
-  std::atomic<bool> leave = false;
-  crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end && !leave; ++k) {
-      const std::size_t b = at(active[k]);
-      if (!bodies[b].moves()) continue;
-      for (std::size_t i = at(first_shape_[b]); i < at(first_shape_[b + 1]); ++i)
-        if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], shapes[i], bodies[b].path, end_s)))
-          leave = true;
+std::span<const int> PairTable::bodiesThatMeetOthers(const PairedWorld& world, std::span<const int> active,
+                                                     double end_s) {
+  const std::vector<Body>& bodies = world.bodies;
+  meets_.assign(bodies.size(), 0);
+  const auto mark = [&](int body) { std::atomic_ref(meets_[at(body)]).store(1, std::memory_order_relaxed); };
+  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
+    for (const int b : active.subspan(begin, end - begin)) {
+      if (!bodies[at(b)].moves()) continue;
+      for (std::size_t i = at(first_shape_[at(b)]); i < at(first_shape_[at(b) + 1]); ++i)
+        if (!proxies_[i].bounds.contains(sweptBounds(starts_[i], world.shapes[i], bodies[at(b)].path, end_s)))
+          mark(b);
     }
   });
-  return leave;
+  boundPaths(bodies, active, end_s);
+  world.crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+    for (const int place : std::span(active_).subspan(begin, end - begin)) {
+      const ShapePair& pair = pairAt(place);
+      if (pair.near || staysApart(pair, world)) continue;
+      mark(bodies[at(pair.body_a)].moves() ? pair.body_a : pair.body_b);
+    }
+  });
+  met_.clear();
+  for (const int b : active)
+    if (meets_[at(b)] != 0) met_.push_back(b);
+  return met_;
 }
 
 void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
                         StepCounters& counters) {
-  crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
+  crew.runStretches(near_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     int queries = 0, limits = 0;
     long states = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      ShapePair& pair = pairAt(active_[i]);
+      ShapePair& pair = pairAt(near_[i]);
       const Body& a = bodies[at(pair.body_a)];
       const Body& b = bodies[at(pair.body_b)];
       if (!a.travels() && !b.travels()) continue;

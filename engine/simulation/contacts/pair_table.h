@@ -12,6 +12,7 @@
 
 #include "engine/broad_phase/pair_finder.h"
 #include "engine/contact/contact_manifold.h"
+#include "engine/contact/separating_axis.h"
 #include "engine/contact/time_of_impact.h"
 #include "engine/foundation/crew.h"
 #include "engine/simulation/bodies/body.h"
@@ -46,19 +47,27 @@ struct Landing {
 struct ShapePair {
   IndexPair shapes;
   std::uint64_t rank = 0;  ///< Pairs come in the order of their shapes, those added within a step after them.
-  bool active = false;
-  double scale = 1.0;  ///< Of the table's impulses, when it was active last.
   int body_a = -1;
   int body_b = -1;
+  bool active = false;
+  bool near = false;              ///< Within this step its shapes could come near each other.
+  SeparatingAxis apart;           ///< If not: why.
+  std::array<int, 2> apart_at{};  ///< Its places among what is apart of body_a and body_b.
+  double scale = 1.0;             ///< Of the table's impulses, when it was active last.
   CollisionWindow window;
   double restitution = 0.0;
   double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
   FeaturePair tracked;
-  ClosestFeatures closest;                    ///< At the end of the last step.
+  ClosestFeatures closest;                    ///< At the end of the last step, if it is near.
   std::optional<Landing> landing;             ///< In this step: its contact rows are made of it.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 
   bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
+  /// No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
+  /// height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
+  double lastingHeight(double step_s) const { return window.ceiling + collision_speed_mps * step_s; }
+  /// What stays higher has neither contacts nor times of impact within the step.
+  double contactHeight(double step_s) const { return std::max(window.manifold, lastingHeight(step_s)); }
   /// Whether a force of its contacts acts.
   bool presses() const {
     return std::ranges::any_of(remembered,
@@ -88,6 +97,7 @@ struct PairedWorld {
   const std::vector<Body>& bodies;
   const std::vector<Shape>& shapes;
   const WorldSettings& settings;
+  Crew& crew;
 };
 
 class PairTable {
@@ -96,64 +106,94 @@ class PairTable {
   /// with a margin of the collision window. All bodies must be active the first time.
   void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                     std::span<const int> active, double end_s, Crew& crew);
-  /// Makes the pairs of active bodies those whose bounds overlap, keeping what was remembered; new ones are
-  /// queried at the bodies' poses of the last finished step. The pairs of others stay as they are.
+  /// Makes the pairs of active bodies those whose bounds overlap, keeping what was remembered, and tells
+  /// those that stay apart on the planned paths from those that could come near: these are queried at the
+  /// bodies' poses of the last finished step. The pairs of others stay as they are.
   void collect(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
-  /// Pairs that the body's path could meet and that are not in the table yet are added, queried at `time_s`.
-  void extend(int body, double time_s, const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
+  /// Pairs that the paths of some bodies could meet and that are not in the table yet are added, and those
+  /// that were apart and could come near on them are near from now on, queried at `time_s`.
+  void extend(std::span<const int> some, double time_s, const PairedWorld& world, StepCounters& counters);
   /// The pairs of a body that rested are active from now on, until the next `collect`.
   void activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings);
   /// For a step of another length: what was remembered of the impulses, so many times, a power of two.
   void scaleImpulses(double factor);
-  /// Whether the path of some active body leaves the bounds it was paired by; all start where they did then.
-  bool pathsLeaveBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
-                        std::span<const int> active, double end_s, Crew& crew) const;
-  /// Queries the closest features again where a body moved.
+  /// Bodies whose path leaves the bounds they were paired by, or could bring near what was apart, ascending;
+  /// all start where they did then.
+  std::span<const int> bodiesThatMeetOthers(const PairedWorld& world, std::span<const int> active,
+                                            double end_s);
+  /// Queries the closest features of what is near again where a body moved.
   void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
                StepCounters& counters);
 
   /// By place; some places may be free.
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }
-  /// The places of the pairs that the step looks at: those with an active body. In their order after
-  /// `collect`.
-  const std::vector<int>& active() const { return active_; }
+  /// The places of the pairs that the step looks at: those with an active body that could come near each
+  /// other. In their order after `collect`.
+  const std::vector<int>& active() const { return near_; }
+  /// The places of all pairs with an active body whose bounds overlap, in their order after `collect`.
+  const std::vector<int>& candidates() const { return active_; }
   /// The places of all pairs, in their order. Cost O(pairs).
   std::vector<int> all() const;
   /// Of all pairs, m; +infinity when there is none. Cost O(active), and where one that rested with the
   /// smallest gap has woken, O(pairs).
-  double smallestGap() const;
+  double smallestGap(const std::vector<Body>& bodies, const std::vector<Shape>& shapes) const;
+  /// Of a pair, m, apart or not.
+  double gapOf(const ShapePair& pair, const std::vector<Body>& bodies,
+               const std::vector<Shape>& shapes) const;
   std::size_t count() const { return pairs_.size() - free_.size(); }
   /// By what the impulses that a pair remembers are to be multiplied.
   double impulseScale(const ShapePair& pair) const { return pair.active ? 1.0 : scale_ / pair.scale; }
   /// One a shape: what it was paired by.
   const std::vector<Proxy>& proxies() const { return proxies_; }
-  /// The places of the pairs of a body that is not static, in their order.
+  /// The places of the pairs of a body that is not static, in their order, without those that are apart.
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
   ShapePair makePair(IndexPair shapes_of_pair, const PairedWorld& world) const;
+  SeparatingAxis axisOfBounds(const ShapePair& pair, const std::vector<Body>& bodies) const;
+  void tellApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
+  void queryAll(std::span<const int> places, const PairedWorld& world, StepCounters& counters);
+  void boundPaths(const std::vector<Body>& bodies, std::span<const int> active, double end_s);
+  double leastGapOf(const ShapePair& pair, const std::vector<Shape>& shapes) const;
+  bool staysApart(const ShapePair& pair, const PairedWorld& world) const;
+  bool willStayApart(ShapePair& pair, bool is_queried, const PairedWorld& world) const;
+  void enlist(int place, const std::vector<Body>& bodies);
+  void unlist(int place, const std::vector<Body>& bodies);
+  void setNear(int place, bool near, const std::vector<Body>& bodies);
+  void comeNear(int place, double time_s, const PairedWorld& world, StepCounters& counters);
+  void pairGrown(int body, double time_s, const PairedWorld& world, StepCounters& counters);
   ShapePair& pairAt(int place) { return pairs_[static_cast<std::size_t>(place)]; }
   const ShapePair& pairAt(int place) const { return pairs_[static_cast<std::size_t>(place)]; }
   bool isBefore(int place, int other) const { return pairAt(place).rank < pairAt(other).rank; }
   int add(ShapePair pair, const std::vector<Body>& bodies);
   void remove(int place, const std::vector<Body>& bodies);
-  void restPairs(const std::vector<Body>& bodies);
+  void restPairs(const PairedWorld& world, StepCounters& counters);
   void takeInExtended(const std::vector<Body>& bodies);
 
   std::vector<int> first_shape_;  ///< Of each body, and the end.
+  std::vector<int> active_bodies_;
   std::vector<int> active_shapes_;
+  double end_s_ = 0.0;  ///< Of the paths that bounds were made for.
   std::vector<Proxy> proxies_;
-  std::vector<Bounds> starts_;  ///< Of the shapes, where the paths start that they were paired by.
+  std::vector<Bounds> starts_;          ///< Of the shapes, where the paths start that they were paired by.
+  std::vector<PathBound> path_bounds_;  ///< Of the bodies.
+  long extension_ = 0;
+  std::vector<long> extended_in_, bounded_in_;  ///< In which each body was, and its path bounded, last.
   PairFinder finder_;
   std::vector<ShapePair> pairs_;
   std::vector<int> free_;                        ///< Places.
   std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
+  std::vector<int> near_;                        ///< Of these, those that are near, ascending by rank.
   std::vector<int> extended_;                    ///< Places of the pairs added since.
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
-  std::vector<std::vector<int>> of_body_;
-  std::vector<int> partners_, collected_, extended_bodies_;  ///< Scratch.
+  std::vector<std::vector<int>> of_body_;        ///< Near ones.
+  std::vector<std::vector<int>> apart_of_body_;  ///< In no order.
+  // Scratch.
+  std::vector<int> collected_, extended_bodies_, grown_, asked_, met_;
+  std::vector<IndexPair> partners_, known_;
+  std::vector<char> stays_apart_, meets_;
 };
 
 }  // namespace carom

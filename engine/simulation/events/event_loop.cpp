@@ -541,7 +541,7 @@ class EventLoop {
 
   void extendPairs(double time_s) {
     const PhaseScope phase(clock_, StepPhase::kBroadPhase);
-    for (int body : changed_) table_.extend(body, time_s, {bodies_, shapes_, settings_}, counters_, clock_);
+    table_.extend(changed_, time_s, {bodies_, shapes_, settings_, crew_}, counters_);
   }
 
   std::vector<Body>& bodies_;

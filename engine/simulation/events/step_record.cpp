@@ -68,7 +68,8 @@ void recordPairs(const RecordedWorld& world, StepView& view) {
   view.candidates.clear();
   for (const int place : world.table.all()) {
     const ShapePair& pair = world.table.pairs()[at(place)];
-    view.candidates.push_back({pair.body_a, pair.body_b, pair.closest.distance_m});
+    view.candidates.push_back(
+        {pair.body_a, pair.body_b, world.table.gapOf(pair, world.bodies, world.shapes)});
   }
   std::stable_sort(view.candidates.begin(), view.candidates.end(),
                    [](const CandidateView& x, const CandidateView& y) {

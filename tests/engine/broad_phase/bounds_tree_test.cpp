@@ -27,9 +27,9 @@ std::vector<int> everyoneAt(const std::vector<Bounds>& all, const Bounds& where)
   return found;
 }
 
-std::vector<int> foundAt(const BoundsTree& tree, const Bounds& where, int without = BoundsTree::kNoGroup) {
+std::vector<int> foundAt(const BoundsTree& tree, const Bounds& where) {
   std::vector<int> found{-1};  // what was there before does not matter
-  tree.find(where, found, without);
+  tree.find(where, found);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -103,40 +103,6 @@ TEST(BoundsTree, FindsWhatAskingEverybodyFinds_WhenAllMoveAtOnce) {
       for (const Bounds& bounds : all) ASSERT_EQ(foundAt(tree, bounds), everyoneAt(all, bounds)) << c;
     }
   }
-}
-
-// Groups of things near each other, as pieces of bodies are, and a few that are of none; some change theirs.
-TEST(BoundsTree, LeavesOutTheGroupThatItIsToldTo) {
-  Random random(46);
-  BoundsTree tree;
-  std::size_t left_out = 0;
-  for (int c = 0; c < 60; ++c) {
-    const Place place{random.logUniform(0.1, 10.0), random.logUniform(0.1, 10.0)};
-    std::vector<Bounds> all;
-    std::vector<int> groups;
-    const auto groupOf = [&] { return random.integer(BoundsTree::kNoGroup, 5); };
-    for (int i = random.integer(1, 100); i > 0; --i) {
-      groups.push_back(groupOf());
-      all.push_back(anyBounds(random, place));
-      all.back().low.x() += 2.0 * groups.back();
-      all.back().high.x() += 2.0 * groups.back();
-    }
-    c % 2 == 0 ? tree.build(all, groups) : tree.moveAll(all, groups);
-    for (int change = 0; change < 100; ++change) {
-      const std::size_t i = static_cast<std::size_t>(random.integer(0, static_cast<int>(all.size()) - 1));
-      const Bounds where = random.integer(0, 1) == 0 ? all[i] : anyBounds(random, place);
-      const int without = groupOf();
-      std::vector<int> expected = everyoneAt(all, where);
-      left_out += std::erase_if(expected, [&](int thing) {
-        return without != BoundsTree::kNoGroup && groups[static_cast<std::size_t>(thing)] == without;
-      });
-      ASSERT_EQ(foundAt(tree, where, without), expected) << "case " << c << " after " << change;
-      if (change % 10 == 9) groups[i] = groupOf();
-      all[i] = anyBounds(random, place);
-      tree.move(static_cast<int>(i), all[i], groups[i]);
-    }
-  }
-  EXPECT_GT(left_out, 3000u);
 }
 
 // A thousand boxes about the corners of a grid, numbered in any order, and what finding the neighbours of

@@ -14,11 +14,10 @@ namespace {
 
 using oracle::Random;
 
-Proxy somewhere(Random& random, int n) {
+Proxy somewhere(Random& random) {
   Proxy p;
   p.bounds.low = 3.0 * Vec3(random.uniform(-1, 1), random.uniform(-0.3, 0.3), random.uniform(-1, 1));
   p.bounds.high = p.bounds.low + 2.0 * Vec3(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
-  p.group = random.integer(0, n / 2);
   p.moves = random.integer(0, 2) > 0;
   return p;
 }
@@ -28,60 +27,82 @@ void shift(Proxy& proxy, const Vec3& by) {
   proxy.bounds.high += by;
 }
 
+// Groups of one to `most` proxies near each other.
+std::vector<Proxy> manyGroups(Random& random, int groups, int most) {
+  std::vector<Proxy> proxies;
+  for (int group = 0; group < groups; ++group) {
+    const Proxy first = somewhere(random);
+    for (int i = random.integer(1, most); i > 0; --i) {
+      proxies.push_back(first);
+      proxies.back().group = group;
+      shift(proxies.back(), random.uniform(0, 1) * random.direction());
+    }
+  }
+  return proxies;
+}
+
 std::vector<int> allOf(const std::vector<Proxy>& proxies) {
-  std::vector<int> all(proxies.size());
+  std::vector<int> all(static_cast<std::size_t>(proxies.back().group + 1));
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
 
 std::vector<IndexPair> pairsWith(const std::vector<int>& active, const std::vector<Proxy>& proxies) {
   std::vector<IndexPair> pairs = candidatePairs(proxies);
-  const auto isActive = [&](int i) { return std::binary_search(active.begin(), active.end(), i); };
+  const auto isActive = [&](int i) {
+    return std::binary_search(active.begin(), active.end(), proxies[static_cast<std::size_t>(i)].group);
+  };
   std::erase_if(pairs, [&](const IndexPair& pair) { return !isActive(pair.a) && !isActive(pair.b); });
   return pairs;
 }
 
-// A world of trembling things, of which some come to rest and others wake, and in some steps a few leap, or
-// all that are awake, or one changes its group or whether it can move, comes or goes.
+// A world of trembling groups, of which some come to rest and others wake, and in some steps a few leap, or
+// all that are awake, or one changes whether it can move, or proxies come or go.
 TEST(PairFinder, FindsInEveryStepWhatStartingAgainFinds) {
   Random random(43);
   std::size_t found = 0, rested = 0;
   for (int world = 0; world < 20; ++world) {
-    std::vector<Proxy> proxies;
-    for (int i = 0; i < 200; ++i) proxies.push_back(somewhere(random, 200));
+    std::vector<Proxy> proxies = manyGroups(random, world % 2 == 0 ? 200 : 60, world % 2 == 0 ? 1 : 6);
     PairFinder finder;
     std::vector<int> active = allOf(proxies);
     for (int step = 0; step < 100; ++step) {
       const int event = random.integer(0, 9);
       const double tremble = event == 0 ? 1.0 : 3e-5;
-      const auto any = [&]() -> Proxy& {
-        return proxies[static_cast<std::size_t>(
-            active[static_cast<std::size_t>(random.integer(0, static_cast<int>(active.size()) - 1))])];
+      const auto isActive = [&](const Proxy& proxy) {
+        return std::binary_search(active.begin(), active.end(), proxy.group);
       };
-      for (const int i : active) {
-        Proxy& proxy = proxies[static_cast<std::size_t>(i)];
-        if (proxy.moves) shift(proxy, tremble * random.uniform(0, 1) * random.direction());
-      }
+      const auto any = [&]() -> Proxy& {
+        for (;;) {
+          Proxy& proxy =
+              proxies[static_cast<std::size_t>(random.integer(0, static_cast<int>(proxies.size()) - 1))];
+          if (isActive(proxy)) return proxy;
+        }
+      };
+      for (Proxy& proxy : proxies)
+        if (isActive(proxy) && proxy.moves) shift(proxy, tremble * random.uniform(0, 1) * random.direction());
       if (event == 1) shift(any(), random.direction());
       if (event == 2 || event == 3)
         for (int i = 0; i < 3; ++i) shift(any(), random.uniform(0, 3) * random.direction());
-      if (event == 4) any().moves = random.integer(0, 1) > 0;
-      if (event == 5) any().group = random.integer(0, 100);
-      if (event == 6) proxies.push_back(any());
+      if (event == 4 || event == 5) any().moves = random.integer(0, 1) > 0;
+      if (event == 6) {
+        Proxy one_more = any();
+        one_more.group = proxies.back().group + random.integer(0, 1);
+        proxies.push_back(one_more);
+      }
       if (event == 7) proxies.pop_back();
       if (event == 6 || event == 7) active = allOf(proxies);
       const std::vector<IndexPair> expected = pairsWith(active, proxies);
       ASSERT_EQ(finder.find(proxies, active), expected) << "world " << world << ", step " << step;
       found += expected.size();
-      rested += proxies.size() - active.size();
+      const std::vector<int> all = allOf(proxies);
+      rested += all.size() - active.size();
       if (event == 8) std::erase_if(active, [&](int) { return random.integer(0, 2) == 0; });
       if (event == 9) {
-        for (int i = 0; i < 10; ++i)
-          active.push_back(random.integer(0, static_cast<int>(proxies.size()) - 1));
+        for (int i = 0; i < 10; ++i) active.push_back(random.integer(0, all.back()));
         std::sort(active.begin(), active.end());
         active.erase(std::unique(active.begin(), active.end()), active.end());
       }
-      if (active.empty()) active = allOf(proxies);
+      if (active.empty()) active = all;
     }
   }
   EXPECT_GT(found, 1000000u);
@@ -91,23 +112,28 @@ TEST(PairFinder, FindsInEveryStepWhatStartingAgainFinds) {
 // What an event has made grow is asked about within the step, and paired as it then is by the next.
 TEST(PairFinder, KnowsWhatHasGrownWithinAStep) {
   Random random(44);
-  std::vector<Proxy> proxies;
-  for (int i = 0; i < 100; ++i) proxies.push_back(somewhere(random, 100));
+  std::vector<Proxy> proxies = manyGroups(random, 40, 4);
   const std::vector<int> all = allOf(proxies);
   PairFinder finder;
   for (int step = 0; step < 50; ++step) {
     ASSERT_EQ(finder.find(proxies, all), candidatePairs(proxies)) << step;
-    const int i = random.integer(0, 99);
-    Proxy& proxy = proxies[static_cast<std::size_t>(i)];
-    const Bounds before = proxy.bounds;
-    proxy.bounds = widened(before, random.uniform(0, 2));
-    finder.grow(i, proxy.bounds);
-    std::vector<int> partners, expected;
-    finder.findPartners(proxies, i, partners);
-    for (int j = 0; j < 100; ++j)
-      if (canPair(proxy, proxies[static_cast<std::size_t>(j)])) expected.push_back(j);
+    const int group = random.integer(0, all.back());
+    const std::vector<Proxy> before = proxies;
+    std::vector<int> grown;
+    std::vector<IndexPair> expected;
+    for (int i = 0; i < static_cast<int>(proxies.size()); ++i) {
+      Proxy& proxy = proxies[static_cast<std::size_t>(i)];
+      if (proxy.group != group || random.integer(0, 3) == 0) continue;
+      proxy.bounds = widened(proxy.bounds, random.uniform(0, 2));
+      finder.grow(group, proxy.bounds);
+      grown.push_back(i);
+      for (int j = 0; j < static_cast<int>(proxies.size()); ++j)
+        if (canPair(proxy, proxies[static_cast<std::size_t>(j)])) expected.push_back({i, j});
+    }
+    std::vector<IndexPair> partners{{7, 8}};  // what was there before does not matter
+    finder.findPartners(proxies, grown, partners);
     ASSERT_EQ(partners, expected) << step;
-    if (step % 2 == 0) proxy.bounds = before;
+    if (step % 2 == 0) proxies = before;
   }
 }
 
