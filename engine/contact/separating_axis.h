@@ -44,7 +44,7 @@ struct PathBound {
 /// How far turning can have carried a point that is 1 m from its centre away from where it was in the
 /// orientation `R_before`, m: at most across the circle.
 inline double mostTurned(const Quat& R_before, const PathBound& path) {
-  const Eigen::Vector4d before = R_before.coeffs(), now = path.rotation.coeffs();
+  const Eigen::Vector4d &before = R_before.coeffs(), &now = path.rotation.coeffs();
   // Half of this is the sine of a quarter of the angle; the chord is twice the sine of half of it.
   const double difference = std::sqrt(std::min((now - before).squaredNorm(), (now + before).squaredNorm()));
   return std::min(2.0 * difference + path.turning, 2.0);
