@@ -205,7 +205,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
   finite = std::all_of(active.list().begin(), active.list().end(),
                        [this](int i) { return isFinite(bodies[at(i)]); });
   if (!finite) return;
-  event_memory.lifts.pay(bodies, active.list(), planner);
+  event_memory.lifts.pay(bodies, active.list(), planner, event_memory.closed);
   event_memory.closed.restore(bodies);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(bodies, shapes, crew, counters);

@@ -1,6 +1,7 @@
 // Constant forces and torques on bodies: flight, friction, spin, and the work that they do.
 
 #include <numbers>
+#include <tuple>
 
 #include "tests/physics/small_world.h"
 #include "tests/support/world_energy.h"
@@ -48,6 +49,39 @@ TEST(ConstantForce, MakesAParabolaAndItsWorkIsTheEnergy) {
   EXPECT_LT((state.linear_velocity - 2.0 * a).norm(), 1e-12);
   EXPECT_NEAR(world.audit().work_J, force.dot(2.0 * a), 1e-9 * force.dot(2.0 * a));
   EXPECT_NEAR((energyOf(world) - before) / world.audit().work_J, 1.0, 1e-9);
+}
+
+// Two boxes are pressed against a third from both sides, out of line, and a ball strikes it: what they gain
+// is the loads' work, and none of it is a motion of all together.
+TEST(ConstantForce, LoadsThatCancelMoveNothingAsAWhole) {
+  for (const double force : {100.0, 1000.0})
+    for (const auto& [rate_hz, friction, restitution] :
+         {std::tuple(60.0, 0.4, 0.3), {60.0, 0.3, 0.0}, {120.0, 0.0, 0.5}, {240.0, 0.4, 0.8}}) {
+      SCOPED_TRACE(testing::Message() << force << " N, " << rate_hz << " Hz, e " << restitution);
+      World world({1.0 / rate_hz, kNoGravity});
+      const auto add = [&](const Solid& solid, const Vec3& place, const Vec3& velocity, double push_N) {
+        BodyDescription d;
+        d.solid = world.addSolid(solid);
+        d.X_WB.position = place;
+        d.linear_velocity = velocity;
+        d.material = {friction, friction, restitution, 1000.0};
+        d.load.force_W = Vec3(push_N, 0, 0);
+        world.addBody(d);
+      };
+      add(Solid::box({0.3, 0.4, 0.5}), {-0.31, 0.02, 0.0}, Vec3::Zero(), force);
+      add(Solid::box({0.3, 0.3, 0.3}), {0.0, 0.0, 0.0}, Vec3::Zero(), 0.0);
+      add(Solid::box({0.3, 0.5, 0.4}), {0.31, -0.03, 0.05}, Vec3::Zero(), -force);
+      add(Solid::ball(0.12), {0.05, 1.2, 0.1}, {0.1, -3.0, 0.0}, 0.0);
+      ASSERT_TRUE(world.start().empty());
+      const Vec3 momentum = world.audit().linear_momentum;
+      const double energy = energyOf(world);
+      for (int i = 0; i < 2 * rate_hz; ++i) {
+        world.step();
+        const double pushed = force * (i + 1) / rate_hz;
+        ASSERT_LT((world.audit().linear_momentum - momentum).norm(), 1e-10 * (momentum.norm() + pushed)) << i;
+        ASSERT_LT(energyOf(world), energy + world.audit().work_J + 1e-9 * (energy + pushed)) << i;
+      }
+    }
 }
 
 TEST(ConstantTorque, SpinsABodyUpAboutAPrincipalAxis) {

@@ -80,23 +80,34 @@ void ClosedIslands::findMomenta(const std::vector<Body>& bodies) {
 
 void ClosedIslands::measure(const std::vector<Body>& bodies, const FlightPlanner& planner) {
   for (const int i : met_) islandOf(i) = {};
-  for (const int i : met_) islandOf(i).open |= is_open_[at(i)] != 0 || !planner.isWeightAll(i, bodies[at(i)]);
+  for (const int i : met_) {
+    islandOf(i).open |= is_open_[at(i)] != 0 || bodies[at(i)].locks.any();
+    islandOf(i).loaded |= !planner.isWeightAll(i, bodies[at(i)]);
+  }
   findCenters(bodies);
   findMomenta(bodies);
 }
 
+bool ClosedIslands::owe(int body, double energy_J) {
+  if (has_met_[at(body)] == 0 || islandOf(body).open || !islandOf(body).loaded) return false;
+  islandOf(body).owed_J += energy_J;
+  return true;
+}
+
 // Of all motions with this angular momentum the rotation of all together has the least energy.
 void ClosedIslands::balance(Island& island) {
-  const Vec3 missing = island.kept - island.angular_momentum;
-  if (missing.norm() <= kRounding * island.terms) return;
+  const Vec3 missing = island.loaded ? Vec3::Zero() : Vec3(island.kept - island.angular_momentum);
+  const bool is_kept = missing.norm() <= kRounding * island.terms;
+  if (is_kept && !(island.owed_J > 0.0)) return;
   const Mat3 inverse = island.tensor.inverse();
   island.spin = inverse * island.angular_momentum;
-  island.spin_change = inverse * missing;
+  if (!is_kept) island.spin_change = inverse * missing;
   const double beside_J = island.energy_J - 0.5 * dot(island.spin, island.angular_momentum);
-  const double more_J = dot(island.spin + 0.5 * island.spin_change, missing);
+  const double more_J = dot(island.spin + 0.5 * island.spin_change, missing) + island.owed_J;
   if (!(more_J > 0.0)) return;
   if (more_J > beside_J) {
     island.spin_change.setZero();
+    if (island.owed_J > 0.0) island.share = 0.0;
     return;
   }
   island.share = std::sqrt(1.0 - more_J / beside_J);
@@ -106,7 +117,10 @@ void ClosedIslands::restore(std::vector<Body>& bodies) {
   for (const int i : met_) {
     if (together_.of(i) != i) continue;
     Island& island = islands_[at(i)];
-    island = {.open = island.open, .kept = island.angular_momentum};
+    island = {.open = island.open,
+              .loaded = island.loaded,
+              .owed_J = island.owed_J,
+              .kept = island.angular_momentum};
   }
   findCenters(bodies);
   findMomenta(bodies);
@@ -114,7 +128,7 @@ void ClosedIslands::restore(std::vector<Body>& bodies) {
     if (together_.of(i) == i && !islands_[at(i)].open) balance(islands_[at(i)]);
   for (const int i : met_) {
     const Island& island = islandOf(i);
-    if (island.spin_change.isZero(0.0)) continue;
+    if (island.spin_change.isZero(0.0) && island.share == 1.0) continue;
     Body& body = bodies[at(i)];
     const Vec3 r = body.X_WB.position - island.center;
     Velocity& v = body.velocity;

@@ -1,10 +1,12 @@
 #pragma once
-// Angular momentum of bodies that only meet each other. Contact leads paths beside their momenta, so that
-// gaps stay open while bodies turn, and a momentum that goes along another line has another moment: what
-// nothing from outside acts on would lose its angular momentum, or gain some. It is given back as a rotation
-// of all of them together, about their common centre of mass, which changes no speed at which any two of them
-// meet; its energy comes out of what they move beside that rotation. Where they have less, nothing is given
-// back. Internal to the simulation floor. Tested in tests/engine/simulation/events/closed_islands_test.cpp.
+// Momentum of bodies that only meet each other. Contact leads paths beside their momenta, so that gaps stay
+// open while bodies turn, and a momentum that goes along another line has another moment: what nothing from
+// outside acts on would lose its angular momentum, or gain some. It is given back as a rotation of all of
+// them together, about their common centre of mass, which changes no speed at which any two of them meet; its
+// energy comes out of what they move beside that rotation. Where they have less, nothing is given back.
+// What loads push keeps no angular momentum, but what its paths were lifted by (path_lifts.h) comes out of
+// the same motion, so that loads which cancel each other move nothing as a whole. Internal to the simulation
+// floor. Tested in tests/engine/simulation/events/closed_islands_test.cpp.
 
 #include <span>
 #include <vector>
@@ -24,12 +26,16 @@ class ClosedIslands {
   void leaveOpen(int body) { note(body, true); }
   /// At the end of the substep, while bodies still have the poses and velocities that it began with.
   void measure(const std::vector<Body>& bodies, const FlightPlanner& planner);
+  /// Takes over what a body has to pay for lifts, J, where nothing holds its island but loads; else false.
+  bool owe(int body, double energy_J);
   /// When they have those of its end.
   void restore(std::vector<Body>& bodies);
 
  private:
   struct Island {
-    bool open = false;  ///< Something else acts on it than itself and gravity.
+    bool open = false;    ///< It has met something else than itself.
+    bool loaded = false;  ///< Something else acts on it than gravity.
+    double owed_J = 0.0;  ///< For lifts.
     double mass_kg = 0.0;
     Vec3 center = Vec3::Zero();  ///< Of mass, m; and how it moves, m/s.
     Vec3 velocity = Vec3::Zero();

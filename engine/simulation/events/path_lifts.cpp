@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/foundation/index.h"
 
@@ -52,7 +53,8 @@ void PathLifts::join(int a, int b, const std::vector<Body>& bodies) {
   if (bodies[at(a)].moves() && bodies[at(b)].moves()) together_.join(a, b);
 }
 
-void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner) {
+void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner,
+                    ClosedIslands& closed) {
   const auto accountOf = [&](int i) -> Account& { return accounts_[at(together_.of(i))]; };
   for (const int i : active) accountOf(i) = {};
   for (const int i : active) {
@@ -64,9 +66,10 @@ void PathLifts::pay(std::vector<Body>& bodies, std::span<const int> active, cons
   for (const int i : active) {
     Body& body = bodies[at(i)];
     const Account& account = accountOf(i);
-    if (body.lift > 0.0 && account.net_J > 0.0)
-      takeBack(body, body.lift * (account.net_J / account.raised_J), planner.pull(i, body));
-    body.lift = 0.0;
+    const double lift = std::exchange(body.lift, 0.0);
+    if (!(lift > 0.0) || !(account.net_J > 0.0)) continue;
+    const double energy = lift * (account.net_J / account.raised_J);
+    if (!closed.owe(i, body.inertia.mass_kg * energy)) takeBack(body, energy, planner.pull(i, body));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "engine/modes/islands.h"
 #include "engine/simulation/bodies/flight_plan.h"
+#include "engine/simulation/events/closed_islands.h"
 
 namespace carom {
 
@@ -27,8 +28,10 @@ class PathLifts {
   void begin(std::size_t bodies);
   /// The paths of these, if they move, were led together.
   void join(int a, int b, const std::vector<Body>& bodies);
-  /// At the end of the substep, when bodies have their velocities and `lift` is whole.
-  void pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner);
+  /// At the end of the substep, when bodies have their velocities and `lift` is whole. What only meets itself
+  /// keeps its momentum: its islands pay (ClosedIslands::owe).
+  void pay(std::vector<Body>& bodies, std::span<const int> active, const FlightPlanner& planner,
+           ClosedIslands& closed);
 
  private:
   struct Account {

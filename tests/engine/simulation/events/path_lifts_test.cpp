@@ -37,7 +37,9 @@ void pay(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& led,
   for (const auto& [a, b] : led) lifts.join(a, b, bodies);
   std::vector<int> all;
   for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(static_cast<int>(i));
-  lifts.pay(bodies, all, plannerOf(std::vector<AppliedLoad>(bodies.size(), load)));
+  ClosedIslands closed;
+  closed.begin(bodies.size());
+  lifts.pay(bodies, all, plannerOf(std::vector<AppliedLoad>(bodies.size(), load)), closed);
 }
 
 TEST(PathLifts, TheFallingSpeedPaysToTheJoule) {
@@ -80,6 +82,30 @@ TEST(PathLifts, BodiesThatLedEachOtherPayTogether) {
   EXPECT_EQ(alone[1].velocity.linear.z(), -3.0) << "being lowered gives nothing";
 }
 
+// Loads that push them together move nothing as a whole; what they made of it lies in what each moves beside
+// the others.
+TEST(PathLifts, WhatOnlyMeetsItselfPaysToTheJouleAndKeepsItsMomentum) {
+  std::vector<Body> bodies{bodyAt(1.0, {1.0, 2.0, -3.0}, {0.0, 0.4, 0.0}), bodyAt(4.0, {0.5, 2.0, 0.0})};
+  bodies[1].X_WB.position = {1.1, 0.2, 0.0};
+  bodies[0].lift = 0.3;
+  bodies[1].lift = 0.05;
+  const auto momentum = [&] { return Vec3(bodies[0].velocity.linear + 4.0 * bodies[1].velocity.linear); };
+  const Vec3 before = momentum();
+  const double energy = energyOf(bodies[0]) + energyOf(bodies[1]);
+  const FlightPlanner planner = plannerOf({{.force_W = {50.0, 0.0, 0.0}}, {.force_W = {-50.0, 0.0, 0.0}}});
+  ClosedIslands closed;
+  PathLifts lifts;
+  closed.begin(2);
+  lifts.begin(2);
+  closed.meet(0, 1, bodies);
+  lifts.join(0, 1, bodies);
+  closed.measure(bodies, planner);
+  lifts.pay(bodies, std::vector<int>{0, 1}, planner, closed);
+  closed.restore(bodies);
+  EXPECT_LT((momentum() - before).norm(), 1e-14 * before.norm());
+  EXPECT_NEAR(energyOf(bodies[0]) + energyOf(bodies[1]), energy - 0.3 - 4.0 * 0.05, 1e-12);
+}
+
 TEST(PathLifts, WhereNothingPullsNobodyPays) {
   WorldSettings settings;
   settings.gravity = Vec3::Zero();
@@ -89,7 +115,9 @@ TEST(PathLifts, WhereNothingPullsNobodyPays) {
   bodies[0].lift = 1.5;
   PathLifts lifts;
   lifts.begin(1);
-  lifts.pay(bodies, std::vector<int>{0}, planner);
+  ClosedIslands closed;
+  closed.begin(1);
+  lifts.pay(bodies, std::vector<int>{0}, planner, closed);
   EXPECT_EQ(bodies[0].velocity.linear, Vec3(3.0, 0.0, -2.0));
 }
 
