@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What concave bodies may cost, and keep: pieces and time of decompositions, energy in a bowl over 20 s, CPU of a step of
-rings, chain, net, a plate of 512 pieces at rest, and forty random closed meshes dropped together.
+rings, chain, net, a plate of 512 pieces at rest, and forty and two hundred random closed meshes dropped together.
 
 Usage: python3 tests/suites/mesh_bars.py CAROM [-o FOLDER]
 
@@ -8,6 +8,8 @@ Prints a line a bar: met or missed, the figure, and what is wanted. Exit code 1 
 """
 
 import argparse
+import math
+import random
 import re
 import resource
 import subprocess
@@ -91,6 +93,20 @@ def dropped():
                    limit_s=300)
 
 
+def many_dropped():
+    """Two hundred bodies of 54 pieces in the mean, turned at random."""
+    chance = random.Random(1)
+    shapes = {f"lump {k}": bumpy(300 + k, 0.25, 8, 14) for k in range(20)}
+    bodies = [floor(20)]
+    for k in range(200):
+        place = (0.6 * (k % 6) - 1.5 + chance.uniform(-0.05, 0.05), 0.6 * (k // 6 % 6) - 1.5 + chance.uniform(-0.05, 0.05),
+                 0.5 + 0.6 * (k // 36))
+        turned = [chance.gauss(0, 1) for _ in range(4)]
+        length = math.hypot(*turned)
+        bodies.append(body(f"lump {k}", mesh(f"lump {k % 20}"), place, rotation=[x / length for x in turned]))
+    return Fixture("many-dropped", bodies, 4, "", nothing, friction=0.5, rate=60, meshes=shapes, energy=None, limit_s=300)
+
+
 def bars(program, folder):
     yield from decomposition(program, folder)
     yield from bowl(program, folder)
@@ -101,6 +117,7 @@ def bars(program, folder):
     yield ("step/net of 24 links", *step_cost(program, folder, next(nets()), 10))
     yield ("step/plate of many pieces at rest", *step_cost(program, folder, plate_at_rest(), 0.2))
     yield ("step/forty random meshes dropped, 60 Hz", *step_cost(program, folder, dropped(), 1e3 / 60))
+    yield ("step/two hundred meshes dropped, 60 Hz", *step_cost(program, folder, many_dropped(), 1e3 / 60))
 
 
 def main():
