@@ -200,7 +200,7 @@ bool openTouching(const StartingBodies& start) {
     if (!displacements[i].isZero(0.0)) start.bodies[i].X_WB.position += displacements[i];
   Crew alone;
   StepCounters counters;
-  start.table.requery(start.bodies, start.shapes, alone, counters);
+  start.table.requery({start.bodies, start.shapes, start.settings, alone}, counters);
   return true;
 }
 

@@ -208,7 +208,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
   event_memory.lifts.pay(bodies, active.list(), planner, event_memory.closed);
   event_memory.closed.restore(bodies);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
-  table.requery(bodies, shapes, crew, counters);
+  table.requery(pairedWorld(), counters);
 }
 
 void World::Impl::accumulateStillness() {

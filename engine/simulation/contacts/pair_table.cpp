@@ -105,12 +105,6 @@ void scaleRemembered(ShapePair& pair, double factor) {
   }
 }
 
-// What stays higher on the paths that are planned is hardly brought near by what contacts do to these; where
-// it is, bodiesThatMeetOthers says so.
-double safeHeight(const ShapePair& pair, double step_s) {
-  return pair.contactHeight(step_s) + 2.0 * pair.window.manifold;
-}
-
 // As the bodies were at the end of the last step.
 ClosestFeatures closestNow(const ShapePair& pair, FeaturePair& tracked, const std::vector<Body>& bodies,
                            const std::vector<Shape>& shapes) {
@@ -121,6 +115,14 @@ ClosestFeatures closestNow(const ShapePair& pair, FeaturePair& tracked, const st
 // Room for the collision window, and for what contacts may do to the velocity within the step.
 double pairingMargin(const Shape& shape) {
   return 2.0 * tolerance::kManifoldHeight * std::min(shape.width_m, tolerance::kWindowLargestScale);
+}
+
+// What stays higher on the paths that are planned is hardly brought near by what contacts do to these; where
+// it is, bodiesThatMeetOthers says so.
+double safeHeight(const ShapePair& pair, const PairedWorld& world) {
+  const double margin = std::min(pairingMargin(world.shapes[at(pair.shapes.a)]),
+                                 pairingMargin(world.shapes[at(pair.shapes.b)]));
+  return pair.contactHeight(world.settings.step_s) + margin;
 }
 
 }  // namespace
@@ -286,11 +288,14 @@ void PairTable::takeInExtended(const std::vector<Body>& bodies) {
     std::sort(active_.begin(), active_.end(), before);
 }
 
-void PairTable::queryAll(std::span<const int> places, const PairedWorld& world, StepCounters& counters) {
+template <typename Wanted>
+void PairTable::queryWhere(const Wanted& wanted, std::span<const int> places, const PairedWorld& world,
+                           StepCounters& counters) {
   world.crew.runStretches(places.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     StepCounters made;
     for (const int place : places.subspan(begin, end - begin)) {
       ShapePair& pair = pairAt(place);
+      if (!wanted(pair)) continue;
       pair.closest = closestNow(pair, pair.tracked, world.bodies, world.shapes);
       made.addQuery(pair.closest.states);
       made.iteration_limits += pair.closest.reached_limit;
@@ -303,13 +308,12 @@ void PairTable::queryAll(std::span<const int> places, const PairedWorld& world, 
 
 // Whether what is known of a pair proves that it cannot come near on the paths that are planned.
 bool PairTable::willStayApart(ShapePair& pair, bool is_queried, const PairedWorld& world) const {
-  const double step_s = world.settings.step_s;
   if (is_queried) {
-    if (pair.closest.distance_m <= pair.contactHeight(step_s)) return false;
+    if (pair.closest.distance_m <= pair.contactHeight(world.settings.step_s)) return false;
     pair.apart = separatingAxis(pair.closest.n_W, pair.closest.distance_m, world.bodies[at(pair.body_a)].X_WB,
                                 world.bodies[at(pair.body_b)].X_WB);
   }
-  return leastGapOf(pair, world.shapes) > safeHeight(pair, step_s);
+  return leastGapOf(pair, world.shapes) > safeHeight(pair, world);
 }
 
 // Which of the active pairs the step looks at. What was apart is queried only where that is not proven any
@@ -334,7 +338,7 @@ void PairTable::tellApart(const PairedWorld& world, StepCounters& counters, Phas
   }
   {
     const PhaseScope phase(clock, StepPhase::kClosestFeatures);
-    queryAll(asked_, world, counters);
+    queryWhere([](const ShapePair&) { return true; }, asked_, world, counters);
   }
   prove(asked_, true);
   for (std::size_t i = 0; i < asked_.size(); ++i) setNear(asked_[i], stays_apart_[i] == 0, world.bodies);
@@ -531,26 +535,10 @@ std::span<const int> PairTable::bodiesThatMeetOthers(const PairedWorld& world, s
   return met_;
 }
 
-void PairTable::requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
-                        StepCounters& counters) {
-  crew.runStretches(near_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-    int queries = 0, limits = 0;
-    long states = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      ShapePair& pair = pairAt(near_[i]);
-      const Body& a = bodies[at(pair.body_a)];
-      const Body& b = bodies[at(pair.body_b)];
-      if (!a.travels() && !b.travels()) continue;
-      pair.closest = closestFeatures(*shapes[at(pair.shapes.a)].part, a.X_WB, *shapes[at(pair.shapes.b)].part,
-                                     b.X_WB, pair.tracked);
-      ++queries;
-      states += pair.closest.states;
-      limits += pair.closest.reached_limit;
-    }
-    std::atomic_ref(counters.distance_queries) += queries;
-    std::atomic_ref(counters.states_walked) += states;
-    std::atomic_ref(counters.iteration_limits) += limits;
-  });
+void PairTable::requery(const PairedWorld& world, StepCounters& counters) {
+  const auto travels = [&](int body) { return world.bodies[at(body)].travels(); };
+  queryWhere([&](const ShapePair& pair) { return travels(pair.body_a) || travels(pair.body_b); }, near_,
+             world, counters);
 }
 
 }  // namespace carom

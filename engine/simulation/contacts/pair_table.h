@@ -122,8 +122,7 @@ class PairTable {
   std::span<const int> bodiesThatMeetOthers(const PairedWorld& world, std::span<const int> active,
                                             double end_s);
   /// Queries the closest features of what is near again where a body moved.
-  void requery(const std::vector<Body>& bodies, const std::vector<Shape>& shapes, Crew& crew,
-               StepCounters& counters);
+  void requery(const PairedWorld& world, StepCounters& counters);
 
   /// By place; some places may be free.
   std::vector<ShapePair>& pairs() { return pairs_; }
@@ -153,7 +152,9 @@ class PairTable {
   ShapePair makePair(IndexPair shapes_of_pair, const PairedWorld& world) const;
   SeparatingAxis axisOfBounds(const ShapePair& pair, const std::vector<Body>& bodies) const;
   void tellApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
-  void queryAll(std::span<const int> places, const PairedWorld& world, StepCounters& counters);
+  template <typename Wanted>
+  void queryWhere(const Wanted& wanted, std::span<const int> places, const PairedWorld& world,
+                  StepCounters& counters);
   void boundPaths(const std::vector<Body>& bodies, std::span<const int> active, double end_s);
   double leastGapOf(const ShapePair& pair, const std::vector<Shape>& shapes) const;
   bool staysApart(const ShapePair& pair, const PairedWorld& world) const;
@@ -184,7 +185,7 @@ class PairTable {
   std::vector<ShapePair> pairs_;
   std::vector<int> free_;                        ///< Places.
   std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
-  std::vector<int> near_;                        ///< Of these, those that are near, ascending by rank.
+  std::vector<int> near_;                        ///< Of these, those that are near, in the same order.
   std::vector<int> extended_;                    ///< Places of the pairs added since.
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.

@@ -35,7 +35,7 @@ class ManyBodies {
       body.path = Trajectory{0.0, random_.pose(kRoom), random_.direction()};
       body.X_WB = body.path.X_WB;
     }
-    table_.requery(bodies_, shapes_, crew_, counters_);
+    table_.requery(world(), counters_);
     table_.updateBounds(bodies_, shapes_, all_, settings_.step_s, crew_);
     table_.collect(world(), counters_, nullptr);
   }
@@ -111,7 +111,6 @@ class ManyBodies {
     }
     return smallest - pair.contactHeight(settings_.step_s);
   }
-  double smallestGap() const { return table_.smallestGap(bodies_, shapes_); }
   const PairTable& table() const { return table_; }
 
  private:
