@@ -59,12 +59,13 @@ TEST(ConstantForce, LoadsThatCancelMoveNothingAsAWhole) {
          {std::tuple(60.0, 0.4, 0.3), {60.0, 0.3, 0.0}, {120.0, 0.0, 0.5}, {240.0, 0.4, 0.8}}) {
       SCOPED_TRACE(testing::Message() << force << " N, " << rate_hz << " Hz, e " << restitution);
       World world({1.0 / rate_hz, kNoGravity});
+      const Material material{friction, friction, restitution, 1000.0};
       const auto add = [&](const Solid& solid, const Vec3& place, const Vec3& velocity, double push_N) {
         BodyDescription d;
         d.solid = world.addSolid(solid);
         d.X_WB.position = place;
         d.linear_velocity = velocity;
-        d.material = {friction, friction, restitution, 1000.0};
+        d.material = material;
         d.load.force_W = Vec3(push_N, 0, 0);
         world.addBody(d);
       };
