@@ -41,13 +41,16 @@ struct PathBound {
   double turning = 0.0;              ///< rad, from there until the interval ends, at most.
 };
 
-/// How far turning can have carried a point that is 1 m from its centre away from where it was in the
-/// orientation `R_before`, m: at most across the circle.
-inline double mostTurned(const Quat& R_before, const PathBound& path) {
-  const Eigen::Vector4d &before = R_before.coeffs(), &now = path.rotation.coeffs();
+/// How far from where it was in one orientation a point that is 1 m from its centre can be in another, m.
+inline double mostTurned(const Quat& R_before, const Quat& R_now) {
+  const Eigen::Vector4d &before = R_before.coeffs(), &now = R_now.coeffs();
   // Half of this is the sine of a quarter of the angle; the chord is twice the sine of half of it.
-  const double difference = std::sqrt(std::min((now - before).squaredNorm(), (now + before).squaredNorm()));
-  return std::min(2.0 * difference + path.turning, 2.0);
+  return 2.0 * std::sqrt(std::min((now - before).squaredNorm(), (now + before).squaredNorm()));
+}
+
+/// Likewise, anywhere on the path: at most across the circle.
+inline double mostTurned(const Quat& R_before, const PathBound& path) {
+  return std::min(mostTurned(R_before, path.rotation) + path.turning, 2.0);
 }
 
 /// No less is the gap of two parts within the interval of both paths, m. Their cores reach so far from the

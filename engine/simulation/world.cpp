@@ -287,7 +287,7 @@ void World::Impl::wakeDriven() {
 void World::Impl::planSubstep(double begin_s, double length_s, PhaseClock* clock) {
   substep.step_s = length_s;
   planner.beginStep(begin_s, length_s);
-  for (const int place : table.active()) table.pairs()[at(place)].landing.reset();
+  for (const int place : table.active()) table.pairs()[at(place)].lands = false;
   planFlight(clock);
   findPairs(clock);
   wakeDriven();

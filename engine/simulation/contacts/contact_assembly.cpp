@@ -113,7 +113,7 @@ class Assembly {
     world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const ShapePair& pair = world_.table.pairs()[at(active[i])];
-        landings[i] = pair.landing ? kForeseen : comesDown(pair) ? kApproaches : kNo;
+        landings[i] = pair.lands ? kForeseen : comesDown(pair) ? kApproaches : kNo;
       }
     });
     const auto none = std::count(landings.begin(), landings.end(), kNo);
@@ -122,9 +122,10 @@ class Assembly {
     world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       StepCounters made;
       for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = world_.table.pairs()[at(active[i])];
-        if (landings[i] == kApproaches && !isInDoubt(pair.body_a) && !isInDoubt(pair.body_b))
-          pair.landing = foreseenLanding(pair, made);
+        const ShapePair& pair = world_.table.pairs()[at(active[i])];
+        if (landings[i] != kApproaches || isInDoubt(pair.body_a) || isInDoubt(pair.body_b)) continue;
+        if (const std::optional<Landing> landing = foreseenLanding(pair, made))
+          world_.table.land(active[i], *landing);
       }
       std::atomic_ref(counters_.distance_queries) += made.distance_queries;
       std::atomic_ref(counters_.states_walked) += made.states_walked;
@@ -214,7 +215,7 @@ class Assembly {
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
         if (!givesWay(pair, world_.bodies)) continue;
-        const bool last = pair.landing || lastsAsItLies(active[i]);
+        const bool last = pair.lands || lastsAsItLies(active[i]);
         lasts[i] = last ? 1 : 0;
         if (!last) pair.remembered.clear();
       }
@@ -229,7 +230,7 @@ class Assembly {
       const bool a_moves = moves(pair.body_a);
       if (a_moves && moves(pair.body_b)) islands.join(pair.body_a, pair.body_b);
       lasting_.push_back({a_moves ? pair.body_a : pair.body_b, -kWhole, pair.rank, active[i]});
-      if (pair.landing) landings.push_back(active[i]);
+      if (pair.lands) landings.push_back(active[i]);
       rows += pair.remembered.size();
     }
     for (LastingPair& pair : lasting_) pair.island = islands.of(pair.island);
@@ -243,7 +244,7 @@ class Assembly {
     std::sort(landings.begin(), landings.end());
     std::erase_if(lasting_, [&](const LastingPair& lasting) {
       ShapePair& pair = world_.table.pairs()[at(lasting.pair)];
-      if (pair.landing || !std::binary_search(landings.begin(), landings.end(), lasting.pair) ||
+      if (pair.lands || !std::binary_search(landings.begin(), landings.end(), lasting.pair) ||
           lastsAsItLies(lasting.pair))
         return false;
       pair.remembered.clear();
@@ -332,7 +333,7 @@ class Assembly {
     const Body& b = world_.bodies[at(pair.body_b)];
     std::vector<SourcedRow>& rows = stretch.of_pair;
     rows.clear();
-    if (pair.landing)
+    if (pair.lands)
       appendLandingRows(lasting.pair, pair, rows);
     else
       appendLastingRows(lasting.pair, pair, stretch);
@@ -382,7 +383,7 @@ class Assembly {
   // Where the bodies come down. There the gap is known, and how it goes on changing with the velocities. They
   // act from the beginning of the step: so long before counts as if the gap were larger by what it lost.
   void appendLandingRows(int index, const ShapePair& pair, std::vector<SourcedRow>& rows) {
-    const Landing& landing = *pair.landing;
+    const Landing& landing = world_.table.landingOf(index);
     const RememberedPoints remembered(pair);
     appendRows({.pair = index,
                 .row_a = pair.body_a,
@@ -527,7 +528,7 @@ std::vector<int> crowdedLandings(std::span<const int> pairs, const LastingWorld&
     if (landings[islandOf(pair)] > few)
       crowded.push_back(pair);
     else
-      world.table.pairs()[at(pair)].landing.reset();
+      world.table.pairs()[at(pair)].lands = false;
   return crowded;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/index.h"
+#include "engine/foundation/visit.h"
 #include "engine/simulation/bodies/phase_clock.h"
 #include "engine/simulation/contacts/contact_rows.h"
 
@@ -49,12 +50,10 @@ Bounds turnedBounds(const ConvexPolyhedron& core, const Mat3& to_body) {
   return bounds;
 }
 
-// The bounds of a part in a pose.
-Bounds boundsAt(const ConvexPart& part, const Pose& X) {
-  Bounds bounds = turnedBounds(part.core, X.rotation.conjugate().toRotationMatrix());
-  bounds.low += X.position - Vec3::Constant(part.radius_m);
-  bounds.high += X.position + Vec3::Constant(part.radius_m);
-  return bounds;
+// The bounds of a part from its body's centre, in the axes of the world.
+TurnedBounds turnedBounds(const ConvexPart& part, const Quat& R_WB) {
+  const Bounds core = turnedBounds(part.core, R_WB.conjugate().toRotationMatrix());
+  return {widened(core, part.radius_m), R_WB};
 }
 
 // Everything the part can touch along its path: its bounds at the start moved along the parabola and grown by
@@ -132,6 +131,8 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
   if (proxies_.size() != shapes.size()) {
     proxies_.resize(shapes.size());
     starts_.resize(shapes.size());
+    turned_bounds_.clear();
+    for (const Shape& shape : shapes) turned_bounds_.push_back(turnedBounds(*shape.part, Quat::Identity()));
     of_body_.resize(bodies.size());
     apart_of_body_.resize(bodies.size());
     first_shape_.assign(bodies.size() + 1, 0);
@@ -148,12 +149,28 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
       const std::size_t i = at(active_shapes_[k]);
       const Body& body = bodies[at(shapes[i].body)];
       proxies_[i].group = shapes[i].body;
-      starts_[i] = boundsAt(*shapes[i].part, body.path.X_WB);
+      starts_[i] = boundsAt(active_shapes_[k], body.path.X_WB, shapes);
       const Bounds swept = sweptBounds(starts_[i], shapes[i], body.path, end_s);
       proxies_[i].bounds = widened(swept, pairingMargin(shapes[i]));
       proxies_[i].moves = !body.is_static;  // resting bodies stay paired, so that contacts are remembered
     }
   });
+}
+
+// Those that were made for another orientation, and what turning can have added to them: while this is less
+// than the margin that the shape is paired with, they are nearly as good as new ones.
+Bounds PairTable::boundsAt(int shape, const Pose& X_WB, const std::vector<Shape>& shapes) {
+  const Shape& s = shapes[at(shape)];
+  TurnedBounds& known = turned_bounds_[at(shape)];
+  double turned = s.reach_m * mostTurned(known.R_WB, X_WB.rotation);
+  if (turned > pairingMargin(s)) {
+    known = turnedBounds(*s.part, X_WB.rotation);
+    turned = 0.0;
+  }
+  Bounds bounds = widened(known.bounds, turned);
+  bounds.low += X_WB.position;
+  bounds.high += X_WB.position;
+  return bounds;
 }
 
 ShapePair PairTable::makePair(IndexPair shapes_of_pair, const PairedWorld& world) const {
@@ -231,6 +248,7 @@ int PairTable::add(ShapePair pair, const std::vector<Body>& bodies) {
   int place = static_cast<int>(pairs_.size());
   if (free_.empty()) {
     pairs_.push_back(std::move(pair));
+    landings_.emplace_back();
   } else {
     place = free_.back();
     free_.pop_back();
@@ -293,13 +311,12 @@ void PairTable::queryWhere(const Wanted& wanted, std::span<const int> places, co
                            StepCounters& counters) {
   world.crew.runStretches(places.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     StepCounters made;
-    for (const int place : places.subspan(begin, end - begin)) {
-      ShapePair& pair = pairAt(place);
-      if (!wanted(pair)) continue;
+    visit(std::span(pairs_), places.subspan(begin, end - begin), [&](std::size_t, ShapePair& pair) {
+      if (!wanted(pair)) return;
       pair.closest = closestNow(pair, pair.tracked, world.bodies, world.shapes);
       made.addQuery(pair.closest.states);
       made.iteration_limits += pair.closest.reached_limit;
-    }
+    });
     std::atomic_ref(counters.distance_queries) += made.distance_queries;
     std::atomic_ref(counters.states_walked) += made.states_walked;
     std::atomic_ref(counters.iteration_limits) += made.iteration_limits;
@@ -322,10 +339,9 @@ void PairTable::tellApart(const PairedWorld& world, StepCounters& counters, Phas
   const auto prove = [&](std::span<const int> places, bool are_queried) {
     stays_apart_.assign(places.size(), 0);
     world.crew.runStretches(places.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        ShapePair& pair = pairAt(places[i]);
-        stays_apart_[i] = willStayApart(pair, are_queried || pair.near, world) ? 1 : 0;
-      }
+      visit(std::span(pairs_), places.subspan(begin, end - begin), [&](std::size_t i, ShapePair& pair) {
+        stays_apart_[begin + i] = willStayApart(pair, are_queried || pair.near, world) ? 1 : 0;
+      });
     });
   };
   prove(active_, false);
@@ -394,7 +410,7 @@ void PairTable::pairGrown(int body, double time_s, const PairedWorld& world, Ste
   grown_.clear();
   for (int shape = first_shape_[at(body)]; shape < first_shape_[at(body) + 1]; ++shape) {
     const std::size_t i = at(shape);
-    if (time_s > 0.0) starts_[i] = boundsAt(*world.shapes[i].part, path.X_WB);
+    if (time_s > 0.0) starts_[i] = boundsAt(shape, path.X_WB, world.shapes);
     const Bounds swept = sweptBounds(starts_[i], world.shapes[i], path, world.settings.step_s);
     if (proxies_[i].bounds.contains(swept)) continue;
     const Bounds onwards = widened(swept, pairingMargin(world.shapes[i]));
@@ -523,11 +539,11 @@ std::span<const int> PairTable::bodiesThatMeetOthers(const PairedWorld& world, s
   });
   boundPaths(bodies, active, end_s);
   world.crew.runStretches(active_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
-    for (const int place : std::span(active_).subspan(begin, end - begin)) {
-      const ShapePair& pair = pairAt(place);
-      if (pair.near || staysApart(pair, world)) continue;
+    const std::span<const int> places = std::span<const int>(active_).subspan(begin, end - begin);
+    visit(std::span<const ShapePair>(pairs_), places, [&](std::size_t, const ShapePair& pair) {
+      if (pair.near || staysApart(pair, world)) return;
       mark(bodies[at(pair.body_a)].moves() ? pair.body_a : pair.body_b);
-    }
+    });
   });
   met_.clear();
   for (const int b : active)

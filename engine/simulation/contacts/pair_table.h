@@ -51,15 +51,15 @@ struct ShapePair {
   int body_b = -1;
   bool active = false;
   bool near = false;              ///< Within this step its shapes could come near each other.
-  SeparatingAxis apart;           ///< If not: why.
+  bool lands = false;             ///< Its contact rows of this step are made of its landing.
+  SeparatingAxis apart;           ///< If it is not near: why.
   std::array<int, 2> apart_at{};  ///< Its places among what is apart of body_a and body_b.
-  double scale = 1.0;             ///< Of the table's impulses, when it was active last.
   CollisionWindow window;
-  double restitution = 0.0;
   double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
+  double restitution = 0.0;
+  double scale = 1.0;  ///< Of the table's impulses, when it was active last.
   FeaturePair tracked;
   ClosestFeatures closest;                    ///< At the end of the last step, if it is near.
-  std::optional<Landing> landing;             ///< In this step: its contact rows are made of it.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 
   bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
@@ -100,6 +100,12 @@ struct PairedWorld {
   Crew& crew;
 };
 
+/// Of a shape from its body's centre of mass, in the axes of the world.
+struct TurnedBounds {
+  Bounds bounds;
+  Quat R_WB = Quat::Identity();  ///< The orientation that they were made for.
+};
+
 class PairTable {
  public:
   /// The bounds that each shape of the active bodies (ascending) sweeps from its path's start to `end_s`,
@@ -127,6 +133,13 @@ class PairTable {
   /// By place; some places may be free.
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }
+  /// Of a pair that lands.
+  const Landing& landingOf(int place) const { return landings_[static_cast<std::size_t>(place)]; }
+  /// The pair lands so in this step.
+  void land(int place, const Landing& landing) {
+    landings_[static_cast<std::size_t>(place)] = landing;
+    pairAt(place).lands = true;
+  }
   /// The places of the pairs that the step looks at: those with an active body that could come near each
   /// other. In their order after `collect`.
   const std::vector<int>& active() const { return near_; }
@@ -149,6 +162,7 @@ class PairTable {
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
+  Bounds boundsAt(int shape, const Pose& X_WB, const std::vector<Shape>& shapes);
   ShapePair makePair(IndexPair shapes_of_pair, const PairedWorld& world) const;
   SeparatingAxis axisOfBounds(const ShapePair& pair, const std::vector<Body>& bodies) const;
   void tellApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
@@ -175,7 +189,8 @@ class PairTable {
   std::vector<int> first_shape_;  ///< Of each body, and the end.
   std::vector<int> active_bodies_;
   std::vector<int> active_shapes_;
-  double end_s_ = 0.0;  ///< Of the paths that bounds were made for.
+  double end_s_ = 0.0;                       ///< Of the paths that bounds were made for.
+  std::vector<TurnedBounds> turned_bounds_;  ///< Of the shapes.
   std::vector<Proxy> proxies_;
   std::vector<Bounds> starts_;          ///< Of the shapes, where the paths start that they were paired by.
   std::vector<PathBound> path_bounds_;  ///< Of the bodies.
@@ -183,6 +198,7 @@ class PairTable {
   std::vector<long> extended_in_, bounded_in_;  ///< In which each body was, and its path bounded, last.
   PairFinder finder_;
   std::vector<ShapePair> pairs_;
+  std::vector<Landing> landings_;                ///< One a pair: few land, and all pairs are gone through.
   std::vector<int> free_;                        ///< Places.
   std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
   std::vector<int> near_;                        ///< Of these, those that are near, in the same order.

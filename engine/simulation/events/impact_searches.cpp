@@ -72,7 +72,7 @@ void ImpactSearches::look(int index) {
 std::vector<int> ImpactSearches::foreseeLandings() {
   std::vector<int> landings;
   for (const int i : table_.active()) {
-    ShapePair& pair = table_.pairs()[at(i)];
+    const ShapePair& pair = table_.pairs()[at(i)];
     const TimeOfImpact& found = predictions_[at(i)].found;
     if (pair.restitution > 0.0 || !predictions_[at(i)].searched) continue;
     while (found.outcome == TimeOfImpact::Outcome::kPending && !isSpent()) look(i);
@@ -82,7 +82,7 @@ std::vector<int> ImpactSearches::foreseeLandings() {
     // By then it goes another way.
     if (found.time_s > std::min(bodies_[at(pair.body_a)].piece_end_s, bodies_[at(pair.body_b)].piece_end_s))
       continue;
-    pair.landing = landingOn(bodies_[at(pair.body_a)].path, bodies_[at(pair.body_b)].path, found);
+    table_.land(i, landingOn(bodies_[at(pair.body_a)].path, bodies_[at(pair.body_b)].path, found));
     landings.push_back(i);
   }
   return landings;
@@ -139,7 +139,7 @@ void ImpactSearches::beginAt(int index, const ClosestFeatures& at_begin) {
   Prediction& prediction = predictions_[at(index)];
   const ShapePair& pair = table_.pairs()[at(index)];
   prediction.search = {pair.window,      pair.collision_speed_mps, beginOf(pair),
-                       settings_.step_s, pair.restitution == 0.0,  pair.landing.has_value()};
+                       settings_.step_s, pair.restitution == 0.0,  pair.lands};
   prediction.found = beginSearch(prediction.search, at_begin);
   prediction.searched = true;
   prediction.looked = false;

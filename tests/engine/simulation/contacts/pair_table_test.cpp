@@ -182,6 +182,38 @@ TEST(PairTable, ExtendsByThePairsThatAskingAllShapesFinds_InTheirOrder) {
   EXPECT_GT(added_in_all, 1000u);
 }
 
+// Bounds of a shape that turns slowly are not made anew in every step.
+TEST(PairTable, HoldsWhatTurnsSlowly_InHardlyMoreThanItNeeds) {
+  constexpr double kWidth = 0.4, kMargin = 2.0 * tolerance::kManifoldHeight * kWidth;
+  const Solid block = Solid::box({kWidth, 0.5, 0.7});
+  const ConvexPart& part = block.parts()[0];
+  const std::vector<Shape> shapes{{0, &part, block.radius(), kWidth}};
+  std::vector<Body> bodies(1);
+  Random random(47);
+  PairTable table;
+  Crew crew;
+  const double turn = 0.2 * kMargin / block.radius();  // in a step
+  Trajectory& path = bodies[0].path;
+  for (int step = 0; step < 500; ++step) {
+    path = Trajectory{0.0, {path.at(1.0).rotation, 0.1 * random.direction()}};
+    path.spin = turn * random.direction();
+    table.updateBounds(bodies, shapes, std::vector<int>{0}, 1.0, crew);
+    const Bounds& bounds = table.proxies()[0].bounds;
+    for (const double t : {0.0, 0.5, 1.0}) {
+      Vec3 low = Vec3::Constant(1e9), high = -low;
+      for (int v = 0; v < part.core.vertexCount(); ++v) {
+        const Vec3 p_W = path.at(t) * part.core.vertex(v);
+        low = low.cwiseMin(p_W);
+        high = high.cwiseMax(p_W);
+      }
+      ASSERT_GE((low - bounds.low).minCoeff(), 0.5 * kMargin) << step;
+      ASSERT_GE((bounds.high - high).minCoeff(), 0.5 * kMargin) << step;
+      ASSERT_LE((low - bounds.low).maxCoeff(), 4.0 * kMargin) << step;
+      ASSERT_LE((bounds.high - high).maxCoeff(), 4.0 * kMargin) << step;
+    }
+  }
+}
+
 // Neither on the paths that are planned nor on those that events give them.
 TEST(PairTable, LooksAtAllThatComesNearWithinTheStep) {
   Random random(46);
