@@ -222,7 +222,9 @@ void World::Impl::accumulateStillness() {
 void World::Impl::dampSwings() {
   for (const int i : active.list()) {
     Body& body = bodies[at(i)];
-    if (!body.moves() || !contacts.touched[at(i)] || body.collided) {
+    // What touches only what flies with it has no rest to swing about, and keeps its momentum.
+    const bool flies = planner.isVacuum() && event_memory.closed.isClosed(i);
+    if (!body.moves() || !contacts.touched[at(i)] || body.collided || flies) {
       body.swing.forget();
       continue;
     }

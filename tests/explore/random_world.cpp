@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/explore/driven_heaps.h"
-#include "tests/explore/moved_worlds.h"
 #include "tests/explore/random_shapes.h"
+#include "tests/explore/worlds/driven_heaps.h"
+#include "tests/explore/worlds/loaded_worlds.h"
+#include "tests/explore/worlds/moved_worlds.h"
 
 namespace carom::explore {
 namespace {
@@ -377,6 +378,7 @@ class WorldMaker {
 }  // namespace
 
 ExploredWorld randomWorld(std::uint64_t seed) {
+  if (seed >= kLoadedWorlds) return loadedWorld(seed);
   if (seed >= kDrivenHeaps) return drivenHeap(seed);
   return seed >= kMovedWorlds ? movedWorld(seed) : WorldMaker(seed).make();
 }

@@ -19,6 +19,8 @@ struct ExploredWorld {
 inline constexpr std::uint64_t kMovedWorlds = 1'000'000'000;
 /// And from here on of heaps that are driven (driven_heaps.h).
 inline constexpr std::uint64_t kDrivenHeaps = 2'000'000'000;
+/// And from here on of bodies that loads press together (loaded_worlds.h).
+inline constexpr std::uint64_t kLoadedWorlds = 3'000'000'000;
 
 ExploredWorld randomWorld(std::uint64_t seed);
 

@@ -64,6 +64,34 @@ TEST(DrivenHeap, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
   expectWorldsOf(kDrivenHeaps, 3);
 }
 
+TEST(LoadedWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kLoadedWorlds, 1);
+}
+
+// Where nothing is static and no load turns along, what is left over of all forces but weights is a share.
+TEST(LoadedWorld, HasLoadsThatCancelOrNearlyDo) {
+  int floating = 0, cancel = 0;
+  for (std::uint64_t seed = kLoadedWorlds; seed < kLoadedWorlds + 100; ++seed) {
+    const demos::Scene scene = randomWorld(seed).scene;
+    Vec3 sum = Vec3::Zero();
+    double all = 0.0;
+    bool known = true;
+    for (const demos::Body& body : scene.bodies) {
+      known = known && !body.is_static && !body.load.turnsAlong();
+      if (!known) break;
+      const Vec3 push = body.load.force_W + *body.mass_kg * scene.gravity;
+      sum += push;
+      all += push.norm();
+    }
+    if (!known) continue;
+    ++floating;
+    EXPECT_LE(sum.norm(), 0.06 * all) << seed;
+    cancel += sum.norm() <= 1e-12 * all ? 1 : 0;
+  }
+  EXPECT_GT(floating, 50);
+  EXPECT_GT(cancel, floating / 2);
+}
+
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const auto meeting = overlapOfStart(randomWorld(seed).scene);

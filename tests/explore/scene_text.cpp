@@ -61,11 +61,13 @@ Json shapeJson(const demos::Shape& shape) {
   return std::visit([](const auto& form) { return formJson(form); }, shape.form);
 }
 
-Json materialJson(const Material& m) {
-  return Json::object({{"staticFriction", m.static_friction},
-                       {"dynamicFriction", m.dynamic_friction},
-                       {"restitution", m.restitution},
-                       {"density", m.density_kgpm3}});
+Json materialJson(const demos::Body& body) {
+  const Material& m = body.material;
+  Json json = Json::object({{"staticFriction", m.static_friction},
+                            {"dynamicFriction", m.dynamic_friction},
+                            {"restitution", m.restitution}});
+  if (!body.mass_kg) json.set("density", m.density_kgpm3);  // one of them
+  return json;
 }
 
 Json kinematicJson(const demos::Body& body) {
@@ -101,11 +103,14 @@ Json bodyJson(const demos::Body& body) {
   if (body.is_kinematic) json.set("kinematic", kinematicJson(body));
   if (body.keyframes.empty()) setPose(json, body.X_WS);
   if (body.locks.any()) json.set("locked", locksJson(body.locks));
+  if (body.mass_kg) json.set("mass", *body.mass_kg);
   if (!body.load.force_W.isZero(0.0)) json.set("force", numbers(body.load.force_W));
   if (!body.load.torque_W.isZero(0.0)) json.set("torque", numbers(body.load.torque_W));
+  if (!body.load.force_B.isZero(0.0)) json.set("bodyForce", numbers(body.load.force_B));
+  if (!body.load.torque_B.isZero(0.0)) json.set("bodyTorque", numbers(body.load.torque_B));
   if (!body.linear_velocity.isZero(0.0)) json.set("linearVelocity", numbers(body.linear_velocity));
   if (!body.angular_velocity.isZero(0.0)) json.set("angularVelocity", numbers(body.angular_velocity));
-  json.set("material", materialJson(body.material));
+  json.set("material", materialJson(body));
   return json;
 }
 

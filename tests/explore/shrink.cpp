@@ -54,6 +54,9 @@ void roundBody(Body& body, int digits) {
   for (double& q : body.X_WS.rotation.coeffs()) q = rounded(q, turn_digits);
   body.linear_velocity = rounded(body.linear_velocity, digits);
   body.angular_velocity = rounded(body.angular_velocity, digits);
+  for (Vec3* load : {&body.load.force_W, &body.load.torque_W, &body.load.force_B, &body.load.torque_B})
+    *load = rounded(*load, digits);
+  if (body.mass_kg) body.mass_kg = rounded(*body.mass_kg, digits);
   Material& m = body.material;
   for (double* number : {&m.static_friction, &m.dynamic_friction, &m.restitution, &m.density_kgpm3})
     *number = rounded(*number, digits);
@@ -134,6 +137,16 @@ class Shrinker {
       const bool moves = !body.linear_velocity.isZero(0.0);
       body.linear_velocity.setZero();
       return moves;
+    });
+    tryEach([](Body& body) {
+      const bool twists = !body.load.torque_W.isZero(0.0) || !body.load.torque_B.isZero(0.0);
+      body.load.torque_W = body.load.torque_B = Vec3::Zero();
+      return twists;
+    });
+    tryEach([](Body& body) {
+      const bool pushes = !body.load.isZero();
+      body.load = {};
+      return pushes;
     });
     tryEach([](Body& body) {
       const bool turned = !body.X_WS.rotation.vec().isZero(0.0);

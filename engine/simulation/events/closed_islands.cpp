@@ -88,8 +88,12 @@ void ClosedIslands::measure(const std::vector<Body>& bodies, const FlightPlanner
   findMomenta(bodies);
 }
 
+bool ClosedIslands::isClosed(int body) const {
+  return has_met_[at(body)] != 0 && !islandOf(body).open;
+}
+
 bool ClosedIslands::owe(int body, double energy_J) {
-  if (has_met_[at(body)] == 0 || islandOf(body).open || !islandOf(body).loaded) return false;
+  if (!isClosed(body) || !islandOf(body).loaded) return false;
   islandOf(body).owed_J += energy_J;
   return true;
 }

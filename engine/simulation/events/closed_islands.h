@@ -26,6 +26,8 @@ class ClosedIslands {
   void leaveOpen(int body) { note(body, true); }
   /// At the end of the substep, while bodies still have the poses and velocities that it began with.
   void measure(const std::vector<Body>& bodies, const FlightPlanner& planner);
+  /// Once measured: whether it has met others, and none of its island what stands.
+  bool isClosed(int body) const;
   /// Takes over what a body has to pay for lifts, J, where nothing holds its island but loads; else false.
   bool owe(int body, double energy_J);
   /// When they have those of its end.
@@ -52,6 +54,7 @@ class ClosedIslands {
   };
 
   void note(int body, bool open);
+  const Island& islandOf(int body) const { return islands_[static_cast<std::size_t>(together_.of(body))]; }
   Island& islandOf(int body) { return islands_[static_cast<std::size_t>(together_.of(body))]; }
   void findCenters(const std::vector<Body>& bodies);
   void findMomenta(const std::vector<Body>& bodies);

@@ -512,8 +512,10 @@ class EventLoop {
         changed_.push_back(index);
       }
       paths_.lead(index, cluster_.path(i), !crowded && cluster_.bends(i));
-      for (const int first : {cluster_.member(0).body, cluster_.member(1).body})
+      for (const int first : {cluster_.member(0).body, cluster_.member(1).body}) {
         lifts_.join(first, index, bodies_);
+        closed_.meet(first, index, bodies_);  // it may have joined the cluster for its path alone
+      }
     }
     for (const int i : changed_) paths_.findOpening(i);
     for (std::size_t i = 0; i < cluster_.size(); ++i)

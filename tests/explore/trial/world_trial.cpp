@@ -55,6 +55,7 @@ class WorldTrial {
         world.statesWithin(share, between);
         judge.lookBetween(between, step_);
       }
+      judge.lookAlong([&world](double share, std::vector<BodyState>& at) { world.statesWithin(share, at); });
       if (!judge.look(world.states(), world.audit().last_step, step_)) break;
     }
     judge.conclude(steps);

@@ -4,6 +4,7 @@
 // has closed again has given it back. Tested in tests/explore/watch/world_judge_test.cpp.
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/explore/finding.h"
 #include "tests/explore/watch/own_mechanics.h"
@@ -50,10 +51,12 @@ class EnergyWatch {
     std::string detail;
   };
   /// `turned_J`: what the spins of bodies in free flight have gained in the step, which FlightWatch judges,
-  /// and the work of kinematic bodies and loads.
-  Gain after(const Mechanics& now, Real turned_J) {
-    const Real rounding =
-        kRounding * (last_.kinetic_J + now.kinetic_J + last_.potential_scale_J + now.potential_scale_J);
+  /// and the work of kinematic bodies and loads. `work_scale_J`: what that of loads is a difference of, since
+  /// the start.
+  Gain after(const Mechanics& now, Real turned_J, Real work_scale_J = 0) {
+    const Real worked = work_scale_J - std::exchange(work_scale_J_, work_scale_J);
+    const Real rounding = kRounding * (last_.kinetic_J + now.kinetic_J + last_.potential_scale_J +
+                                       now.potential_scale_J + worked);
     scale_J_ = std::max(scale_J_, last_.kinetic_J);
     level_J_ += turned_J + rounding;
     const Real gain = now.total() - level_J_;
@@ -73,7 +76,7 @@ class EnergyWatch {
   }
 
  private:
-  Real lifted_J_ = 0, level_J_ = 0, scale_J_ = 0;
+  Real lifted_J_ = 0, level_J_ = 0, scale_J_ = 0, work_scale_J_ = 0;
   Mechanics last_;
 };
 

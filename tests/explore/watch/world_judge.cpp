@@ -1,6 +1,7 @@
 #include "tests/explore/watch/world_judge.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::explore {
 namespace {
@@ -32,13 +33,18 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
       leap_(world, bodies_),
       kinetic_before_J_(start_.kinetic_J),
       moved_(world),
+      loads_(world, bodies_),
       apart_(world) {
   const Air& air = world.settings().air;
   const bool dry = world.settings().fluids.empty();
   keeps_energy_ = dry && (!(air.density_kgpm3 > 0.0) || air.wind.isZero(0.0));
+  const auto all = [&world](bool (*has)(const BodyDescription&)) {
+    return std::all_of(world.bodies().begin(), world.bodies().end(), has);
+  };
   keeps_momentum_ = dry && !(air.density_kgpm3 > 0.0) && bodies_.size() == world.bodies().size() &&
-                    std::all_of(world.bodies().begin(), world.bodies().end(),
-                                [](const BodyDescription& d) { return d.load.isZero() && !d.locks.any(); });
+                    all([](const BodyDescription& d) { return !d.locks.any(); });
+  knows_work_ = loads_.any() && dry && !(air.density_kgpm3 > 0.0) &&
+                all([](const BodyDescription& d) { return !d.is_kinematic && !d.load.bends(); });
   checkMasses();
   lookForOverlap(world.states(), "overlap", 0);
 }
@@ -52,8 +58,8 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
   lookForOverlap(states, "overlap", step);
   const Mechanics now = mechanicsOf(bodies_, states, world_.settings().gravity);
   if (keeps_energy_) {
-    const EnergyWatch::Gain gain =
-        energy_.after(now, flight_.after(states, step, findings_) + counters.work_J);
+    const EnergyWatch::Gain gain = energy_.after(
+        now, flight_.after(states, step, findings_) + workOfStep(counters, step), loads_.sum().work_scale_J);
     totals_.worst_gain = std::max(totals_.worst_gain, gain.of_tolerance);
     if (gain.of_scale > 0.0) findings_.add("energy", gain.of_scale, step, gain.detail);
     leap_.after(states, kinetic_before_J_ + now.kinetic_J + std::abs(Real{counters.work_J}), step, findings_);
@@ -110,21 +116,39 @@ void WorldJudge::count(const StepCounters& counters, int step) {
     findings_.add("events", counters.events / bodies, step, "events a body in one step");
 }
 
-// Of all bodies together: the momentum that gravity gives, and the angular momentum about their common
-// centre.
+// By kinematic bodies and loads, J. Where it can be told from the paths alone, the engine's account is not
+// believed but compared.
+Real WorldJudge::workOfStep(const StepCounters& counters, int step) {
+  if (!knows_work_) return counters.work_J;
+  const Pushed& pushed = loads_.sum();
+  told_J_ += counters.work_J;
+  const Real off = std::abs(told_J_ - pushed.work_J);
+  if (off > kRounding * step * pushed.work_scale_J)
+    findings_.add("work", static_cast<double>(off / pushed.work_scale_J), step,
+                  shown(static_cast<double>(told_J_)) + " J told, " +
+                      shown(static_cast<double>(pushed.work_J)) + " J on the paths");
+  return pushed.work_J - std::exchange(pushed_J_, pushed.work_J);
+}
+
+// Of all bodies together: the momentum that gravity and loads give, and the angular momentum about their
+// common centre.
 void WorldJudge::checkMomentum(const Mechanics& now, int step) {
   Real mass = 0;
   for (const OwnBody& body : bodies_) mass += body.mass;
+  const Pushed& pushed = loads_.sum();
   const Vec3R fallen = step * Real{world_.settings().step_s} * mass * world_.settings().gravity.cast<Real>();
   momentum_scale_ = std::max({momentum_scale_, start_.momentum_scale, now.momentum_scale});
   angular_scale_ = std::max({angular_scale_, start_.angular_scale, now.angular_scale});
+  const Real linear_scale = momentum_scale_ + pushed.impulse_scale;
+  const Real angular_scale = angular_scale_ + pushed.angular_scale;
   const Real rounding = kRounding * step;
-  const Real off = (now.momentum - start_.momentum - fallen).norm();
-  if (off > rounding * momentum_scale_)
-    findings_.add("momentum", static_cast<double>(off / momentum_scale_), step, "of sum m |v|");
-  const Real turned = (now.angular - start_.angular).norm();
-  if (turned > rounding * angular_scale_)
-    findings_.add("angular", static_cast<double>(turned / angular_scale_), step, "of sum m r |v| + I w");
+  const Real off = (now.momentum - start_.momentum - fallen - pushed.impulse).norm();
+  if (off > rounding * linear_scale + pushed.impulse_unknown)
+    findings_.add("momentum", static_cast<double>(off / linear_scale), step, "of sum m |v| + |F| t");
+  const Real turned = (now.angular - start_.angular - pushed.angular).norm();
+  if (turned > rounding * angular_scale + pushed.angular_unknown)
+    findings_.add("angular", static_cast<double>(turned / angular_scale), step,
+                  "of sum m r |v| + I w + r |F| t + |torque| t");
 }
 
 }  // namespace carom::explore

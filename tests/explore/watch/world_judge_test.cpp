@@ -21,8 +21,10 @@ std::vector<Finding> judged(const std::string& text, const Fault& fault, int ste
   const demos::Scene scene = demos::parseScene(text, "planted.json");
   World world = demos::makeSceneWorld(scene, {}).world;
   WorldJudge judge(scene, world);
+  world.keepPaths(true);
   for (int step = 1; step <= steps; ++step) {
     world.step();
+    judge.lookAlong([&world](double share, std::vector<BodyState>& at) { world.statesWithin(share, at); });
     std::vector<BodyState> states(world.states().begin(), world.states().end());
     StepCounters counters = world.audit().last_step;
     if (fault && step >= 5) fault(states, counters);
@@ -60,8 +62,19 @@ const char* const kGliding = R"({"format": 1, "rate": 100, "description": "glide
   {"name": "box", "shape": {"box": [0.5, 0.5, 0.5]}, "position": [-1, 0, 0.25], "linearVelocity": [1, 0, 0],
    "material": "ice"}]})";
 
+// Two boxes in free flight, pushed past each other and turned, each by its own.
+const char* const kPushed = R"({"format": 1, "rate": 100, "gravity": [0, 0, -9.81], "bodies": [
+  {"name": "a", "shape": {"box": [0.5, 0.4, 0.3]}, "mass": 40, "force": [300, 0, 20], "linearVelocity": [0, 1, 0]},
+  {"name": "b", "shape": {"box": [0.3, 0.4, 0.5]}, "mass": 70, "force": [-300, 10, 0], "position": [0, 3, 1],
+   "torque": [0, 30, 0], "linearVelocity": [1, 0, 0], "angularVelocity": [1, 2, 0]}]})";
+
+// The same where the loads are of the body's own axes.
+const char* const kDriven = R"({"format": 1, "rate": 100, "gravity": [0, 0, 0], "bodies": [
+  {"name": "a", "shape": {"box": [0.5, 0.4, 0.3]}, "bodyForce": [300, 0, 20], "angularVelocity": [1, 2, 0]},
+  {"name": "b", "shape": {"box": [0.3, 0.4, 0.5]}, "bodyTorque": [30, 0, 0], "position": [0, 3, 1]}]})";
+
 TEST(WorldJudge, FindsNothingInHonestRuns) {
-  for (const char* scene : {kClosed, kFalling, kGliding})
+  for (const char* scene : {kClosed, kFalling, kGliding, kPushed, kDriven})
     for (const Finding& finding : judged(scene, nullptr))
       ADD_FAILURE() << finding.kind << ' ' << finding.detail;
 }
@@ -110,6 +123,28 @@ TEST(WorldJudge, SeesMomentumOfAClosedSystemChange) {
   EXPECT_TRUE(of(findings, "angular"));
   const auto moved = [](std::vector<BodyState>& s, StepCounters&) { s[1].X_WB.position.x() += 1e-8; };
   EXPECT_TRUE(of(judged(kClosed, moved), "angular")) << "moved aside without momentum";
+}
+
+TEST(WorldJudge, SeesMomentumThatNoLoadHasGiven) {
+  const auto pushed = [](std::vector<BodyState>& s, StepCounters&) { s[0].linear_velocity.y() += 1e-9; };
+  EXPECT_TRUE(of(judged(kPushed, pushed), "momentum"));
+  const auto turned = [](std::vector<BodyState>& s, StepCounters&) { s[0].angular_velocity.x() += 1e-6; };
+  const std::vector<Finding> findings = judged(kPushed, turned);
+  EXPECT_FALSE(of(findings, "momentum"));
+  EXPECT_TRUE(of(findings, "angular"));
+  const auto much = [](std::vector<BodyState>& s, StepCounters&) { s[0].linear_velocity.y() += 1.0; };
+  EXPECT_TRUE(of(judged(kDriven, much), "momentum"));
+}
+
+TEST(WorldJudge, SeesWorkThatNoForceHasDone) {
+  const char* const pulled = R"({"format": 1, "rate": 100, "gravity": [0, 0, 0], "bodies": [
+    {"name": "a", "shape": {"sphere": {"radius": 0.5}}, "force": [300, 0, 0]}]})";
+  const auto told = [](std::vector<BodyState>&, StepCounters& c) { c.work_J *= 1.0 + 1e-6; };
+  const std::vector<Finding> findings = judged(pulled, told);
+  EXPECT_TRUE(of(findings, "work"));
+  EXPECT_FALSE(of(findings, "energy")) << "what is told is not believed";
+  const auto faster = [](std::vector<BodyState>& s, StepCounters&) { s[0].linear_velocity *= 1.0 + 1e-9; };
+  EXPECT_TRUE(of(judged(pulled, faster), "energy"));
 }
 
 TEST(WorldJudge, SeesSpinGrowInFreeFlight) {

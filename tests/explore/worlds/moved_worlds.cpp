@@ -1,4 +1,4 @@
-#include "tests/explore/moved_worlds.h"
+#include "tests/explore/worlds/moved_worlds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/explore/driven_heaps.h"
+#include "tests/explore/worlds/driven_heaps.h"
 
 #include <cmath>
 
