@@ -17,7 +17,6 @@ class ContentHash {
   std::uint64_t value() const { return state_; }
 
  private:
-  void mix(std::uint64_t word);
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
