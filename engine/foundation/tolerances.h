@@ -41,8 +41,8 @@ inline constexpr double kFineFall = 2.0e-3;
 /// Pairs that are awake, times substeps: where this is exceeded, the step has fewer substeps.
 inline constexpr int kFinePairs = 300;
 
-// Contact solver. Residuals are relative to the speed that gravity adds in a step. Small islands and large
-// ones are told apart by kFocusedRows (focused_solver.h).
+// Contact solver. Residuals are relative to the speed that gravity, or a load, adds in a step. Small islands
+// and large ones are told apart by kFocusedRows (focused_solver.h).
 
 /// The residual of islands that the budget of row visits lets be solved with care.
 inline constexpr double kSolverResidual = 1.0e-8;

@@ -67,8 +67,22 @@ void RestingIslands::findRows(const LastingContacts& contacts) {
     forQuestions(contacts.rows[i], [&](Question& q) { rows_[q.rows_end++] = i; });
 }
 
+// Whether something holds an island where it is: what it lies on, or rails. Without air and fluids the rest
+// flies, however slowly, and keeps its momentum.
+bool RestingIslands::isHeld(const RestingWorld& world, const Question& question) const {
+  if (!world.planner.isVacuum()) return true;
+  const std::vector<Body>& bodies = world.bodies;
+  return std::ranges::any_of(membersOf(question),
+                             [&](const Member& m) { return bodies[at(m.body)].locks.any(); }) ||
+         std::ranges::any_of(rowsOf(question), [&](std::size_t i) {
+           const ContactRow& row = world.contacts.rows[i];
+           return row.impulse.x() > 0.0 && !(bodies[at(row.a)].moves() && bodies[at(row.b)].moves());
+         });
+}
+
 // What an island does not consist of, but lies on, is one body that cannot move.
 void RestingIslands::ask(const RestingWorld& world, Question& question) const {
+  if (!isHeld(world, question)) return;
   const LastingContacts& contacts = world.contacts;
   const FlightPlanner& planner = world.planner;
   std::vector<ImpulseBody> bodies;

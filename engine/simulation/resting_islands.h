@@ -51,6 +51,7 @@ class RestingIslands {
   void findQuestions(const RestingWorld& world, std::span<const int> moving);
   void seatMembers(std::size_t bodies);
   void findRows(const LastingContacts& contacts);
+  bool isHeld(const RestingWorld& world, const Question& question) const;
   void ask(const RestingWorld& world, Question& question) const;
   void answer(const RestingWorld& world, const Question& question) const;
   std::span<const Member> membersOf(const Question& question) const {

@@ -165,7 +165,7 @@ void World::Impl::endPath(std::size_t index) {
   const Quat rotation_before = body.X_WB.rotation;
   const bool flew_freely = body.flewFreely();
   body.velocity = body.velocityAt(substep.step_s, body.X_end.rotation);
-  body.lift += liftOfPath(body, body.velocity, body.X_end.position, substep.step_s);
+  countPath(body, body.velocity, body.X_end.position, substep.step_s);
   body.opening_W = 0.0;
   body.X_WB = body.X_end;
   if (body.locks.any()) {
@@ -191,7 +191,11 @@ void World::Impl::keepLastPieces() {
 
 // The state at the step's end, and the closest features there.
 void World::Impl::finishStep(PhaseClock* clock) {
-  for (const int i : active.list()) counters.work_J += planner.workOfLoad(i, bodies[at(i)], substep.step_s);
+  for (const int i : active.list()) {
+    const double by_load_J = planner.workOfLoad(i, bodies[at(i)], substep.step_s);
+    counters.work_J += by_load_J;
+    bodies[at(i)].load_work_J += by_load_J;
+  }
   for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
     const ShapePair& pair = table.pairs()[at(of_pair.pair)];
     event_memory.lifts.join(pair.body_a, pair.body_b, bodies);
@@ -206,7 +210,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
                        [this](int i) { return isFinite(bodies[at(i)]); });
   if (!finite) return;
   event_memory.lifts.pay(bodies, active.list(), planner, event_memory.closed);
-  event_memory.closed.restore(bodies);
+  event_memory.closed.restore(bodies, planner);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(pairedWorld(), counters);
 }
@@ -419,6 +423,7 @@ int World::addBody(const BodyDescription& description) {
   if (body.yields()) {
     body.inertia = inertiaOf(body.material.density_kgpm3, solid.volume(), solid.unitInertia());
     if (body.locks.any()) body.inertia = lockedInertia(body.inertia, body.locks, body.X_WB.rotation);
+    body.pull = pullOf(description.load, impl_->settings.gravity, body.inertia, body.radius_m);
   }
   body.mode = body.is_static ? Mode::kStatic : body.is_kinematic ? Mode::kKinematic : Mode::kFree;
   if (!body.is_static) body.velocity = {description.linear_velocity, description.angular_velocity};

@@ -12,6 +12,7 @@
 #include "engine/motion/rigid_body.h"
 #include "engine/motion/trajectory.h"
 #include "engine/response/one_point/impulse.h"
+#include "engine/simulation/bodies/pull.h"
 #include "engine/simulation/bodies/world_types.h"
 #include "engine/solid/solid.h"
 
@@ -44,7 +45,10 @@ struct StepMotion {
   // the angular velocity at path.start_s, rad/s, and what they make of it, rad/s^2.
   Vec3 solved_spin_B = Vec3::Zero();
   Vec3 turning_B = Vec3::Zero();
-  double lift = 0.0;       ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
+  double lift = 0.0;  ///< Of the substep's paths until path.start_s, J/kg (liftOfPath).
+  /// The integral of its place over those paths, from where the substep began, m s.
+  Vec3 place_sum = Vec3::Zero();
+  double load_work_J = 0.0;  ///< What its load has done on them.
   double opening_W = 0.0;  ///< What contacts do on its path since then, where that opens them (openingPower).
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
@@ -92,6 +96,7 @@ struct Body : StepMotion {
   Inertia inertia;
   Material material;
   double radius_m = 0.0;
+  Pull pull;
   bool is_static = false;
   bool is_kinematic = false;  ///< Its path is prescribed: nothing that it meets changes it.
   double late_s = 0.0;        ///< How late it is on that path: for so long things in its way have stopped it.

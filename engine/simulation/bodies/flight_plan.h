@@ -61,6 +61,8 @@ class FlightPlanner {
   Vec3 pull(int index, const Body& body) const;
   /// What its load does to a body on its path up to `end_s`, J.
   double workOfLoad(int index, const Body& body, double end_s) const;
+  const AppliedLoad& load(int index) const { return loads_[static_cast<std::size_t>(index)]; }
+  double step_s() const { return step_s_; }
   /// Whether gravity alone pushes the body.
   bool isWeightAll(int index, const Body& body) const;
   /// Whether the forces on a body that lies still change by themselves: it floats where waves go.

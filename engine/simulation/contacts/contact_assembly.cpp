@@ -178,8 +178,9 @@ class Assembly {
     const double step_s = world_.settings.step_s;
     const double parting = dot(
         pair.closest.n_W, meanAt(pair.body_b, pair.closest.p_B_W) - meanAt(pair.body_a, pair.closest.p_A_W));
-    // So much nearer at most, with what gravity adds.
-    const double nearer = step_s * (0.5 * step_s * world_.settings.gravity.norm() - parting);
+    // So much nearer at most, with what gravity and loads add.
+    const double pull = pullBetween(world_.bodies[at(pair.body_a)].pull, world_.bodies[at(pair.body_b)].pull);
+    const double nearer = step_s * (0.5 * step_s * pull - parting);
     return nearer > step_s * pair.collision_speed_mps &&
            pair.closest.distance_m - nearer < pair.window.landing;
   }
@@ -474,11 +475,13 @@ class Assembly {
     std::size_t rows = 0;
     for (std::size_t i = 0; i < origins.size(); ++i) {
       if (i == 0 || origins[i].island != origins[i - 1].island)
-        contacts_.islands.push_back({rows, rows, i, i});
+        contacts_.islands.push_back(
+            {rows, rows, i, i, world_.settings.gravity.norm() * world_.settings.step_s});
       contacts_.pair_rows.push_back({origins[i].pair, rows, rows + origins[i].count});
       rows += origins[i].count;
       contacts_.islands.back().row_end = rows;
       contacts_.islands.back().pair_end = i + 1;
+      push(contacts_.islands.back(), world_.table.pairs()[at(origins[i].pair)]);
     }
     contacts_.rows.resize(rows);
     contacts_.sources.resize(rows);
@@ -493,6 +496,12 @@ class Assembly {
         copy(from.sources, contacts_.sources);
       }
     });
+  }
+
+  void push(LastingContacts::Island& island, const ShapePair& pair) const {
+    for (const int body : {pair.body_a, pair.body_b})
+      island.push_mps =
+          std::max(island.push_mps, world_.bodies[at(body)].pull.most_mps2 * world_.settings.step_s);
   }
 
   static constexpr std::size_t kMostStretches = 64;

@@ -79,6 +79,7 @@ struct LastingContacts {
     std::size_t row_end = 0;
     std::size_t pair_begin = 0;
     std::size_t pair_end = 0;
+    double push_mps = 0.0;  ///< What gravity, or a load, gives in the step: residuals are relative to it.
   };
   std::span<ContactRow> rowsOf(const Island& island) {
     return std::span(rows).subspan(island.row_begin, island.row_end - island.row_begin);
@@ -133,11 +134,11 @@ inline int sweepsInBudget(std::size_t rows) {
 }
 
 /// Solves islands within a step's budget of row visits, by `solve(island, sweeps, again)`, which returns its
-/// report: each at first for its share, then those that have not come to `enough_mps` again, for what the
-/// others have left. Returns all row visits.
-template <typename Solve>
+/// report: each at first for its share, then those that have not come to `enough_mps` of it again, for what
+/// the others have left. Returns all row visits.
+template <typename Enough, typename Solve>
 long solveWithinBudget(const LastingContacts& contacts, std::span<const std::size_t> islands,
-                       double enough_mps, const Solve& solve) {
+                       const Enough& enough_mps, const Solve& solve) {
   const auto rowsOf = [&](std::size_t island) {
     return contacts.islands[island].row_end - contacts.islands[island].row_begin;
   };
@@ -147,7 +148,7 @@ long solveWithinBudget(const LastingContacts& contacts, std::span<const std::siz
   for (const std::size_t island : islands) {
     const SolverReport report = solve(island, sweepsInBudget(contacts.rows.size()), false);
     visits += report.visits;
-    if (report.residual_mps <= enough_mps) continue;
+    if (report.residual_mps <= enough_mps(island)) continue;
     unfinished.push_back(island);
     unfinished_rows += rowsOf(island);
   }

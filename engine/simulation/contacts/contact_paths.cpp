@@ -193,7 +193,8 @@ class ContactPaths {
       if (report.residual_mps > coarse_residual_mps) coarse.push_back(island);
       return report;
     };
-    counters_.row_visits += solveWithinBudget(contacts_, islands, kPathResidual, solveIsland);
+    const auto enough = [](std::size_t) { return kPathResidual; };
+    counters_.row_visits += solveWithinBudget(contacts_, islands, enough, solveIsland);
     for (const std::size_t island : coarse)
       passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
   }

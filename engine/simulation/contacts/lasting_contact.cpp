@@ -83,16 +83,15 @@ double residualOf(std::span<const ContactRow> rows, double coarser) {
 
 // What lies still, all of it.
 SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                              std::span<ImpulseBody> solver_bodies, double gravity_speed, Crew& crew) {
-  SolverSettings settings{
-      .sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
-      .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * gravity_speed,
-      .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
-      .crew = &crew};
+                              std::span<ImpulseBody> solver_bodies, double push_mps, Crew& crew) {
+  SolverSettings settings{.sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
+                          .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * push_mps,
+                          .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
+                          .crew = &crew};
   SolverPatience patience(rows, bodies);
   if (patience.isLost()) {
     settings.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows));
-    settings.residual_mps = tolerance::kSolverCrowdResidual * gravity_speed;
+    settings.residual_mps = tolerance::kSolverCrowdResidual * push_mps;
     settings.in_the_mean = true;
     patience.waitAStep();
     return solveContactsFocused(rows, solver_bodies, settings);
@@ -106,28 +105,27 @@ SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bod
 // taken as equations, would contradict each other.
 SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
                                  std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
-                                 double gravity_speed, Crew& crew) {
+                                 double push_mps, Crew& crew) {
   // What presses holds at the gap it has: closing it would keep the rest from lying still.
   for (ContactRow& row : rows)
     if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, gravity_speed, crew);
-  return solveContactsFocused(
-      rows, solver_bodies,
-      {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
-       .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * gravity_speed,
-       .in_the_mean = rows.size() >= kFocusedRows,
-       .crew = &crew});
+  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, push_mps, crew);
+  return solveContactsFocused(rows, solver_bodies,
+                              {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
+                               .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * push_mps,
+                               .in_the_mean = rows.size() >= kFocusedRows,
+                               .crew = &crew});
 }
 
 // Carefully for its share of the budget, and coarsely for longer; a crowd in motion is solved on in the next
 // step.
 SolverReport solveMovingIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, int careful_sweeps,
-                               int most_sweeps, double gravity_speed, Crew& crew) {
+                               int most_sweeps, double push_mps, Crew& crew) {
   return solveContactsFinely(rows, bodies,
                              {.sweeps = most_sweeps,
-                              .residual_mps = tolerance::kSolverResidual * gravity_speed,
+                              .residual_mps = tolerance::kSolverResidual * push_mps,
                               .careful_sweeps = careful_sweeps,
-                              .coarse_residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
+                              .coarse_residual_mps = tolerance::kSolverCoarseResidual * push_mps,
                               .crew = &crew});
 }
 
@@ -184,27 +182,29 @@ std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::sp
 // With friction.
 void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
                    StepCounters& counters) {
-  const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
   const std::span<const BodyMotion> motions = motionsOf(world, contacts);
   const int most_sweeps =
       std::max(tolerance::kSolverMovingSweeps,
                tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size())));
   const auto solve = [&](std::size_t island, int sweeps, bool again) {
     const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
+    const double push_mps = contacts.islands[island].push_mps;
     if (!again && stands(rows, motions)) {
       const SolverReport report =
-          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, gravity_speed, world.crew);
+          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, push_mps, world.crew);
       counters.row_visits += report.visits;
       return SolverReport{};  // it has budgets of its own
     }
     return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
-                             gravity_speed, world.crew);
+                             push_mps, world.crew);
+  };
+  const auto enough = [&](std::size_t island) {
+    return tolerance::kSolverResidual * contacts.islands[island].push_mps;
   };
   // Each round stops a kinematic body, or is the last.
   for (std::vector<std::size_t> unsolved(islands.begin(), islands.end()); !unsolved.empty();
        unsolved = stopWhatLeavesNoRoom(contacts, unsolved, world, counters))
-    counters.row_visits +=
-        solveWithinBudget(contacts, unsolved, tolerance::kSolverResidual * gravity_speed, solve);
+    counters.row_visits += solveWithinBudget(contacts, unsolved, enough, solve);
   for (const std::size_t island : islands)
     takeBackWork(contacts.rowsOf(contacts.islands[island]), contacts.bodies, contacts.before);
 }
@@ -360,13 +360,12 @@ std::vector<int> solveLandings(std::span<const int> pairs, const LastingWorld& w
   for (const int i : bodies) contacts.bodies[at(i)].stir = 0.0;
   for (const std::size_t i : islands) {
     const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[i]);
-    const double gravity_speed = world.settings.gravity.norm() * world.settings.step_s;
-    const SolverReport report =
-        solveContacts(rows, contacts.bodies,
-                      {.sweeps = kLandingSweeps,
-                       .residual_mps = tolerance::kSolverCoarseResidual * gravity_speed,
-                       .resumes = true,
-                       .crew = &world.crew});
+    const double push_mps = contacts.islands[i].push_mps;
+    const SolverReport report = solveContacts(rows, contacts.bodies,
+                                              {.sweeps = kLandingSweeps,
+                                               .residual_mps = tolerance::kSolverCoarseResidual * push_mps,
+                                               .resumes = true,
+                                               .crew = &world.crew});
     takeBackWork(rows, contacts.bodies, contacts.before);
     counters.row_visits += report.visits;
   }

@@ -69,23 +69,23 @@ Bounds sweptBounds(Bounds bounds, const Shape& shape, const Trajectory& path, do
   return bounds;
 }
 
-// What gravity gives a body that falls through the window, or within a step: slower approaches are lasting
-// contact. By and by not so where next to nothing is lost in a bounce, which then goes on for ever: at e = 1
-// only bounces shorter than a fraction of a step are left out. Still less between bodies that both fall:
-// gravity never brings them together again. A trace of it always remains, or the rounding of a finished
-// collision would be taken for another. A bounce that would last longer than a step, 2 e v / g, is one,
-// however slow.
-double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, const WorldSettings& settings) {
+// What gravity, or a load, gives a body that falls through the window, or within a step: slower approaches
+// are lasting contact. By and by not so where next to nothing is lost in a bounce, which then goes on for
+// ever: at e = 1 only bounces shorter than a fraction of a step are left out. Still less between bodies that
+// both fall: gravity never brings them together again. A trace of it always remains, or the rounding of a
+// finished collision would be taken for another. A bounce that would last longer than a step, 2 e v / g, is
+// one, however slow.
+double collisionSpeed(const ShapePair& pair, const std::vector<Body>& bodies, double step_s) {
   const auto given = [&](double gravity) {
-    return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling),
-                    kStepsOfGravity * gravity * settings.step_s);
+    return std::max(std::sqrt(2.0 * gravity * pair.window.ceiling), kStepsOfGravity * gravity * step_s);
   };
-  const double gravity = std::max(settings.gravity.norm(), kLeastGravity);
+  const Body &a = bodies[at(pair.body_a)], &b = bodies[at(pair.body_b)];
+  const double gravity = std::max(pullBetween(a.pull, b.pull), kLeastGravity);
   const double e = pair.restitution;
   if (e == 0.0) return given(gravity);
-  const bool both_fall = !bodies[at(pair.body_a)].supported && !bodies[at(pair.body_b)].supported;
+  const bool both_fall = !a.supported && !b.supported;
   if (both_fall) return std::max(kFallingShare * (1.0 - e) * given(gravity), given(kLeastGravity));
-  const double step_speed = gravity * settings.step_s;
+  const double step_speed = gravity * step_s;
   const double share = std::min((1.0 - e) / (1.0 - tolerance::kLively), 1.0);
   const double noticed = std::min(share * given(gravity), kNoticedBounce * step_speed / (2.0 * e));
   return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
@@ -184,7 +184,7 @@ ShapePair PairTable::makePair(IndexPair shapes_of_pair, const PairedWorld& world
   pair.body_b = b.body;
   pair.window = collisionWindow(std::min(a.width_m, b.width_m));
   pair.restitution = combinedRestitution(bodies[at(pair.body_a)].material, bodies[at(pair.body_b)].material);
-  pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
+  pair.collision_speed_mps = collisionSpeed(pair, bodies, settings.step_s);
   return pair;
 }
 
@@ -374,7 +374,7 @@ void PairTable::collect(const PairedWorld& world, StepCounters& counters, PhaseC
   for (const IndexPair& shapes_of_pair : wanted) {
     for (; old != active_.end() && pairAt(*old).shapes < shapes_of_pair; ++old) remove(*old, bodies);
     if (old != active_.end() && pairAt(*old).shapes == shapes_of_pair) {
-      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, world.settings);
+      pairAt(*old).collision_speed_mps = collisionSpeed(pairAt(*old), bodies, world.settings.step_s);
       collected_.push_back(*old++);
       continue;
     }
@@ -479,7 +479,7 @@ void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldS
     if (pair.active) continue;
     if (resting_gap_m_ && pair.closest.distance_m <= *resting_gap_m_) resting_gap_m_.reset();
     scaleRemembered(pair, impulseScale(pair));
-    pair.collision_speed_mps = collisionSpeed(pair, bodies, settings);
+    pair.collision_speed_mps = collisionSpeed(pair, bodies, settings.step_s);
     pair.active = true;
     active_.push_back(place);
     near_.push_back(place);

@@ -12,11 +12,13 @@ namespace carom {
 void BodyPaths::bring(int index, double time_s) {
   Body& body = bodies_[at(index)];
   if (body.path.start_s == time_s) return;
-  counters_.work_J += planner_.workOfLoad(index, body, time_s);
+  const double work_J = planner_.workOfLoad(index, body, time_s);
+  counters_.work_J += work_J;
+  body.load_work_J += work_J;
   if (ended_ != nullptr) ended_->add(at(index), body, time_s);
   const Pose X_WB = body.path.at(time_s);
   const Velocity momentum_velocity = body.velocityAt(time_s, X_WB.rotation);
-  body.lift += liftOfPath(body, momentum_velocity, X_WB.position, time_s);
+  countPath(body, momentum_velocity, X_WB.position, time_s);
   body.momentum_velocity = momentum_velocity;
   body.solved_spin_B += (time_s - body.path.start_s) * body.turning_B;
   body.path.velocity = body.path.velocityAt(time_s);

@@ -156,7 +156,10 @@ void ContactCluster::support() {
       expand(members_[i].body);
     }
   }
-  solveSpreading(tolerance::kSolverResidual * settings_.gravity.norm() * settings_.step_s);
+  double pull_mps2 = settings_.gravity.norm();
+  for (const Member& member : members_)
+    pull_mps2 = std::max(pull_mps2, bodies_[at(member.body)].pull.most_mps2);
+  solveSpreading(tolerance::kSolverResidual * pull_mps2 * settings_.step_s);
   std::vector<Velocity> before;
   for (const ImpulseBody& body : momentum_) before.push_back(body.velocity);
   takeBackWork(rows_, ends_, before);

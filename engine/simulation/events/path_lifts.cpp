@@ -44,6 +44,14 @@ double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& positi
          body.inertia.inverse_mass * (dot(body.torque, turn) + dt * body.opening_W);
 }
 
+void countPath(Body& body, const Velocity& velocity, const Vec3& position_m, double time_s) {
+  body.lift += liftOfPath(body, velocity, position_m, time_s);
+  const Trajectory& path = body.path;
+  const double dt = time_s - path.start_s;
+  const Vec3 begin = path.X_WB.position - body.X_WB.position;
+  body.place_sum += dt * (begin + dt * (0.5 * path.velocity + dt / 6.0 * path.acceleration));
+}
+
 void PathLifts::begin(std::size_t bodies) {
   together_.part(static_cast<int>(bodies));
   accounts_.resize(bodies);

@@ -22,6 +22,9 @@ namespace carom {
 /// path's at that time.
 double liftOfPath(const Body& body, const Velocity& velocity, const Vec3& position_m, double time_s);
 
+/// Adds to the body's accounts, its lift and the sum of its places, what its path was until then.
+void countPath(Body& body, const Velocity& velocity, const Vec3& position_m, double time_s);
+
 class PathLifts {
  public:
   /// Nobody has been led in this substep.

@@ -103,5 +103,30 @@ TEST(RestingIslands, LookAtNoRowOfWhatMoves) {
   EXPECT_EQ(most.contact_points, 80);
 }
 
+// Pressed together by loads that cancel, with or without a weight that a force bears; and one alone.
+TEST(RestingIslands, WhatNothingHoldsFliesOnHoweverSlowly) {
+  for (const double weight_mps2 : {0.0, 9.81}) {
+    World world({.step_s = 1.0 / 60, .gravity = {0.0, 0.0, -weight_mps2}});
+    const int box = world.addSolid(Solid::box({1.0, 1.0, 1.0}));
+    const Vec3 velocity(0.0, 1e-4, 0.0);
+    for (const double force : {1.0, -1.0, 0.0}) {
+      BodyDescription body;
+      body.solid = box;
+      body.X_WB.position = force == 0.0 ? Vec3(0.0, 0.0, 5.0) : Vec3(-0.5005 * force, 0.0, 0.0);
+      body.linear_velocity = velocity;
+      body.mass_kg = 10.0;
+      body.load.force_W = {force, 0.0, 10.0 * weight_mps2};
+      world.addBody(body);
+    }
+    ASSERT_TRUE(world.start().empty());
+    for (int step = 0; step < 180; ++step) world.step();
+    for (const BodyState& state : world.states()) {
+      EXPECT_NE(state.mode, Mode::kResting);
+      EXPECT_NEAR(state.linear_velocity.y(), velocity.y(), 1e-12);
+      EXPECT_NEAR(state.X_WB.position.y(), 3.0 * velocity.y(), 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom

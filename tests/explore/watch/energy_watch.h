@@ -15,8 +15,8 @@ namespace carom::explore {
 // in the last place are above what that adds up to.
 constexpr Real kRounding = 0x1p-40L;
 // The gap that lasting contact is held at, per metre of width and at most for a metre (DESIGN, the collision
-// window): where a body starts nearer, opening the gap lifts it by so much. Of a tower the gaps below a body
-// add up.
+// window): where a body starts nearer, opening the gap lifts it by so much, against its weight or what else
+// presses it there. Of a tower the gaps below a body add up; a torque presses with an arm of half a width.
 constexpr double kLift = 1.1e-3;
 
 inline double smallestWidth(const Solid& solid) {
@@ -35,13 +35,16 @@ class EnergyWatch {
   EnergyWatch(const World& world, std::span<const OwnBody> bodies, const Mechanics& start)
       : level_J_(start.total()), last_(start) {
     const Real g = world.settings().gravity.cast<Real>().norm();
-    Real gaps = 0, weight = 0, fall = 0;
+    Real gaps = 0, push = 0, turn = 0, fall = 0;
     for (const OwnBody& body : bodies) {
-      gaps += Real{kLift} * Real{smallestWidth(solidOf(world, body.index))};
-      weight += body.mass * g;
+      const AppliedLoad& load = world.bodies()[static_cast<std::size_t>(body.index)].load;
+      const Real width = smallestWidth(solidOf(world, body.index));
+      gaps += Real{kLift} * width;
+      push += body.mass * g + load.force_W.cast<Real>().norm() + load.force_B.cast<Real>().norm();
+      turn += 2 / width * (load.torque_W.cast<Real>().norm() + load.torque_B.cast<Real>().norm());
       fall += body.mass * g * body.reach_m;
     }
-    lifted_J_ = weight * gaps;
+    lifted_J_ = (push + turn) * gaps;
     scale_J_ = start.kinetic_J + fall;
   }
 

@@ -139,6 +139,7 @@ double collisionSpeedOfABall(double restitution, bool supported) {
   bodies[0].material.restitution = 0.0;
   bodies[1].material.restitution = restitution;
   bodies[1].supported = supported;
+  bodies[1].pull = pullOf({}, settings.gravity, bodies[1].inertia, ball.radius());
   bodies[0].X_WB.position = bodies[0].path.X_WB.position = Vec3(0, 0, -0.5);
   bodies[1].X_WB.position = bodies[1].path.X_WB.position = Vec3(0, 0, 5.01e-3);
   const std::vector<Shape> shapes{{0, &ground.parts()[0], ground.radius(), 1e300},

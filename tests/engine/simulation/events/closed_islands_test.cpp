@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -55,7 +56,7 @@ void meet(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& pai
   for (const auto& [a, b] : pairs) closed.meet(a, b, bodies);
   closed.measure(bodies, planner);
   for (std::size_t i = 0; i < led.size(); ++i) bodies[i].X_WB.position += led[i] / bodies[i].inertia.mass_kg;
-  closed.restore(bodies);
+  closed.restore(bodies, planner);
 }
 
 TEST(ClosedIslands, LedBodiesKeepTheirMomenta_AndGainNoEnergy) {
@@ -108,6 +109,84 @@ TEST(ClosedIslands, WhatTurnsAsOneHasNoEnergyToBeLedTogetherBy) {
   const Vec3 inward = 1e-3 * (bodies[1].X_WB.position - bodies[0].X_WB.position);
   meet(led, {{0, 1}}, {inward, -inward});
   EXPECT_LE(sumsOf(led).energy_J, (1.0 + 1e-14) * sumsOf(bodies).energy_J);
+}
+
+double massOf(const std::vector<Body>& bodies) {
+  double mass = 0.0;
+  for (const Body& body : bodies) mass += body.inertia.mass_kg;
+  return mass;
+}
+
+Vec3 centerOf(const std::vector<Body>& bodies) {
+  Vec3 center = Vec3::Zero();
+  for (const Body& body : bodies) center += body.inertia.mass_kg / massOf(bodies) * body.X_WB.position;
+  return center;
+}
+
+// About the common centre of mass.
+Vec3 turningOf(const std::vector<Body>& bodies) {
+  const Sums sums = sumsOf(bodies);
+  return sums.angular - centerOf(bodies).cross(sums.momentum);
+}
+
+// All go straight through the step, though not as their velocities say; loads push them along lines beside
+// each other, not all of them balanced.
+TEST(ClosedIslands, LoadsGiveTheirMomentOnThePathsThatBodiesTook) {
+  WorldSettings settings;
+  settings.step_s = 0.01;
+  const std::vector<AppliedLoad> loads{{.force_W = {40.0, 0.0, 5.0}, .torque_W = {0.0, 0.0, 3.0}},
+                                       {.force_W = {-30.0, 0.0, -5.0}},
+                                       {.torque_W = {0.0, 0.5, -3.0}}};
+  const std::vector<Vec3> ways{{0.002, 0.03, 0.01}, {-0.001, 0.05, 0.01}, {0.0, 0.02, 0.012}};
+  FlightPlanner planner(settings);
+  for (const AppliedLoad& load : loads) planner.add(load, std::nullopt);
+  std::vector<Body> bodies = threeBodies();
+  ClosedIslands closed;
+  closed.begin(bodies.size());
+  closed.meet(0, 1, bodies);
+  closed.meet(1, 2, bodies);
+  closed.measure(bodies, planner);
+  const Vec3 before = turningOf(bodies), begin = centerOf(bodies);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].place_sum = 0.5 * settings.step_s * ways[i];
+    bodies[i].load_work_J = 1.0;  // enough for what they turn faster by
+    bodies[i].X_WB.position += ways[i];
+    bodies[i].velocity.linear += settings.step_s / bodies[i].inertia.mass_kg * loads[i].force_W;
+  }
+  const Vec3 momentum = sumsOf(bodies).momentum, middle = 0.5 * (begin + centerOf(bodies));
+  Vec3 given = Vec3::Zero();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Vec3 r = bodies[i].X_WB.position - 0.5 * ways[i] - middle;
+    given += settings.step_s * (r.cross(loads[i].force_W) + loads[i].torque_W);
+  }
+  closed.restore(bodies, planner);
+  EXPECT_LE((sumsOf(bodies).momentum - momentum).norm(), 1e-13 * momentum.norm());
+  EXPECT_LE((turningOf(bodies) - before - given).norm(), 1e-11 * before.norm());
+}
+
+// What nothing gave them is taken from what they move beside their rotation, to the joule, and nothing that
+// they have lost is given back.
+TEST(ClosedIslands, HaveTheEnergyThatTheyBeganWithAtMost) {
+  for (const double kick_mps : {0.3, -0.2}) {
+    FlightPlanner planner{WorldSettings{}};
+    std::vector<Body> bodies = threeBodies();
+    bodies.resize(2);
+    for (std::size_t i = 0; i < bodies.size(); ++i) planner.add({}, std::nullopt);
+    ClosedIslands closed;
+    closed.begin(bodies.size());
+    closed.meet(0, 1, bodies);
+    closed.measure(bodies, planner);
+    const Sums before = sumsOf(bodies);
+    // Along the line between the two, at which they part with 0.3 m/s.
+    bodies[0].velocity.linear.x() -= 3.0 * kick_mps;
+    bodies[1].velocity.linear.x() += kick_mps;
+    const double kicked_J = sumsOf(bodies).energy_J;
+    closed.restore(bodies, planner);
+    const Sums after = sumsOf(bodies);
+    EXPECT_NEAR(after.energy_J, std::min(before.energy_J, kicked_J), 1e-13 * before.energy_J) << kick_mps;
+    EXPECT_LE((after.momentum - before.momentum).norm(), 1e-14 * before.momentum.norm());
+    EXPECT_LE((after.angular - before.angular).norm(), 1e-14 * before.angular.norm());
+  }
 }
 
 }  // namespace
