@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kSameTurn = 1e-3;  // rad: written numbers mean one orientation, but for rounding
 constexpr double kLongestTime_s = 1e6;
+// As long as the shortest step: the legs of a path that repeats are gone through in each step, however many.
+constexpr double kShortestLeg_s = 1e-5;
 constexpr double kLargestMass_kg = 1e21;
 constexpr double kLargestLoad = 1e12;  // N and N m
 // Masses come from densities and volumes of any size: what is accepted of them is said where both are known.
@@ -41,9 +43,9 @@ double peakOverMean(Interpolation interpolation) {
 void requireSpeeds(const Json& keyframes, const Body& body) {
   for (std::size_t k = 1; k < body.keyframes.size(); ++k) {
     const Keyframe &from = body.keyframes[k - 1], &to = body.keyframes[k];
-    const double peak_per_s = peakOverMean(body.interpolation) / (to.time_s - from.time_s);
+    const double peak = peakOverMean(body.interpolation);
     const auto require = [&](double way, const char* unit) {
-      const double speed = way * peak_per_s;
+      const double speed = way * peak / (to.time_s - from.time_s);
       if (!(speed <= kSpeed.high))
         keyframes.items()[k].fail("takes " + plainNumber(speed) + unit + " from the keyframe before, " +
                                   plainNumber(to.time_s - from.time_s) + " s earlier; accepted: at most " +
@@ -56,6 +58,18 @@ void requireSpeeds(const Json& keyframes, const Body& body) {
 
 bool isSamePose(const Pose& a, const Pose& b) {
   return a.position == b.position && a.rotation.angularDistance(b.rotation) < kSameTurn;
+}
+
+void requireRound(const Json& repeats, const std::vector<Keyframe>& keyframes) {
+  const Keyframe &first = keyframes.front(), &last = keyframes.back();
+  if (!isSamePose(first.X_WB, last.X_WB))
+    repeats.fail("the last keyframe is not where the first is; accepted: a path that ends as it begins");
+  const double round_s = last.time_s - first.time_s;
+  const double shortest_s = kShortestLeg_s * static_cast<double>(keyframes.size() - 1);
+  if (round_s < shortest_s)
+    repeats.fail("the path takes " + plainNumber(round_s) + " s; accepted: at least " +
+                 plainNumber(shortest_s) + " s, " + plainNumber(kShortestLeg_s) +
+                 " s from each keyframe to the next");
 }
 
 void readKinematic(const Json& json, Body& body) {
@@ -75,8 +89,7 @@ void readKinematic(const Json& json, Body& body) {
   requireSpeeds(json.at("keyframes"), body);
   if (const Json* repeats = json.find("repeats")) {
     body.path_repeats = repeats->asBoolean();
-    if (body.path_repeats && !isSamePose(body.keyframes.front().X_WB, body.keyframes.back().X_WB))
-      repeats->fail("the last keyframe is not where the first is; accepted: a path that ends as it begins");
+    if (body.path_repeats) requireRound(*repeats, body.keyframes);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "engine/environment/fluid.h"
 #include "engine/environment/rounded_cut.h"
 #include "engine/environment/solid_surface.h"
+#include "engine/motion/axis_locks.h"
 #include "engine/motion/rigid_body.h"
 
 namespace carom {
@@ -32,6 +33,7 @@ struct EnvironmentBody {
   const Inertia* inertia = nullptr;
   std::optional<double> drag_coefficient;  ///< In place of the standard ones.
   const AppliedLoad* load = nullptr;       ///< What else acts on it.
+  const AxisLocks* locks = nullptr;        ///< What it cannot do.
 };
 
 struct BodyForces {

@@ -85,6 +85,27 @@ double implicitShare(const Mat6& linear, const Mat6& mass, double dt_s) {
   return stiffness > 2.0 ? 1.0 - 1.0 / stiffness : 0.5;
 }
 
+// Of a velocity or wrench in the body's frame, what its locks let it follow.
+Mat6 freePart(const AxisLocks& locks, const Quat& R_WB) {
+  const Mat3 R = R_WB.toRotationMatrix();
+  Mat6 part = Mat6::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    part.block<3, 1>(0, i) = R.transpose() * locks.movingPart(R.col(i));
+    part.block<3, 1>(3, 3 + i) = R.transpose() * locks.turningPart(R.col(i));
+  }
+  return part;
+}
+
+// Drag ties all directions together: had the locked ones their share of it, the free ones would be dragged as
+// if the body gave way there.
+void keepFreePart(const Mat6& part, BodyForces& forces) {
+  forces.load = part * forces.load;
+  for (Mat6* matrix : {&forces.added_mass, &forces.quadratic, &forces.linear})
+    *matrix = part * *matrix * part;
+  forces.quadratic_stream = part * forces.quadratic_stream;
+  forces.linear_stream = part * forces.linear_stream;
+}
+
 void kick(const PushedBody& pushed, double t_s, double dt_s, ForceScratch& scratch, State& state) {
   const Inertia& inertia = *pushed.body.inertia;
   const Quat& R_WB = state.X_WB.rotation;
@@ -94,6 +115,8 @@ void kick(const PushedBody& pushed, double t_s, double dt_s, ForceScratch& scrat
   BodyForces forces = bodyForces(pushed.environment, pushed.body, state.X_WB, v, t_s, scratch);
   forces.load.head<3>() += R_WB.conjugate() * pushed.contacts.force_N;
   forces.load.tail<3>() += R_WB.conjugate() * pushed.contacts.torque_Nm;
+  const AxisLocks* locks = pushed.body.locks;
+  if (locks != nullptr && locks->any()) keepFreePart(freePart(*locks, R_WB), forces);
   Vec6 momentum;  // gained
   if (forces.quadratic.isZero(0.0) && forces.linear.isZero(0.0) && forces.added_mass.isZero(0.0)) {
     momentum = dt_s * forces.load;

@@ -38,7 +38,7 @@ inline constexpr double kFineStep = 1.0 / 240.0;
 /// ... nor h^2 a / r of a substep h above this, for a body of radius r that is pushed with the acceleration
 /// a: a rod that tips over misses its energy by 0.07 of that, whatever its size.
 inline constexpr double kFineFall = 2.0e-3;
-/// Pairs that are awake, times substeps: where this is exceeded, the step has fewer substeps.
+/// Pairs of bodies that are awake, times substeps: where this is exceeded, the step has fewer substeps.
 inline constexpr int kFinePairs = 300;
 
 // Contact solver. Residuals are relative to the speed that gravity, or a load, adds in a step. Small islands

@@ -183,5 +183,55 @@ TEST(WheelOnAnAxle, SpinsOnForEver) {
       1e-9);
 }
 
+// A plate that can only go up and down gives way to drag along that alone, however it is tilted: what falls
+// as fast as the square of its speed across each windward face holds it up.
+TEST(TiltedPlateOnAnUprightRail, FallsAtItsTerminalSpeedAtEveryStep) {
+  const Vec3 size(0.5, 0.4, 0.002);
+  for (const double degrees : {20.0, 45.0, 60.0}) {
+    const double across = std::cos(radians(degrees)), along = std::sin(radians(degrees));
+    const double area = size.y() * (size.x() * std::pow(across, 3.0) + size.z() * std::pow(along, 3.0));
+    const double v_t = std::sqrt(2.0 * 300.0 * size.prod() * kGravity / (1.2 * 1.05 * area));
+    for (const double rate_hz : {10.0, 30.0, 240.0}) {
+      WorldSettings settings{1.0 / rate_hz};
+      settings.air = {1.2, Vec3::Zero(), 0.0};
+      World world(settings);
+      Locked plate;
+      plate.solid = Solid::box(size);
+      plate.X_WB.rotation = oracle::turned(Vec3::UnitY(), radians(degrees));
+      plate.locks = {Vec3::UnitZ(), Turning::kLocked, Vec3::UnitZ()};
+      plate.material.density_kgpm3 = 300.0;
+      const int body = addLocked(world, plate);
+      ASSERT_TRUE(world.start().empty());
+      run(world, 20.0 * v_t / kGravity);
+      EXPECT_NEAR(-stateOf(world, body).linear_velocity.z() / v_t, 1.0, 1e-9)
+          << degrees << " degrees at " << rate_hz << " Hz";
+    }
+  }
+}
+
+// A rod whose middle is held under water that is as thick as honey, its upper end in the air: it sinks onto
+// its side, as it floats there. Were it dragged as if it rose, the drag would turn it upright.
+TEST(RodHeldAtItsMiddleInThickWater, TurnsOntoItsSide) {
+  for (const double rate_hz : {60.0, 240.0, 2400.0}) {
+    WorldSettings settings{1.0 / rate_hz};
+    Fluid honey;
+    honey.max.z() = 0.0;
+    honey.linear_drag_mps = 10.0;
+    settings.fluids.push_back(honey);
+    World world(settings);
+    Locked rod;
+    rod.solid = Solid::capsule(0.1, 0.8);
+    rod.X_WB = {oracle::turned(Vec3::UnitY(), radians(20.0)), Vec3(0.0, 0.0, -0.3)};
+    rod.locks = {Vec3(1.0, 1.0, 0.0), Turning::kFree, Vec3::UnitZ()};
+    rod.material.density_kgpm3 = 20.0;
+    const int body = addLocked(world, rod);
+    ASSERT_TRUE(world.start().empty());
+    const auto upright = [&] { return std::abs((stateOf(world, body).X_WB.rotation * Vec3::UnitZ()).z()); };
+    const double before = upright();
+    run(world, 0.5);
+    EXPECT_LT(upright(), before) << rate_hz << " Hz";
+  }
+}
+
 }  // namespace
 }  // namespace carom::physics

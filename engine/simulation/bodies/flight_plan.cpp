@@ -53,7 +53,7 @@ void FlightPlanner::add(const AppliedLoad& load, std::optional<PrescribedPath> p
 
 EnvironmentBody FlightPlanner::environmentBody(int index, const Body& body) const {
   return {&surfaces_[at(solid_of_[at(index)])], &body.inertia, body.material.drag_coefficient,
-          &loads_[at(index)]};
+          &loads_[at(index)], &body.locks};
 }
 
 // Whether more than even acceleration acts on the body on its way.

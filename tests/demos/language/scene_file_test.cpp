@@ -201,6 +201,11 @@ const Refusal kRefusals[] = {
                       "\"position\": [1, 0, 0] } ], \"repeats\": true }"),
      ":3: bodies[0].kinematic.repeats: the last keyframe is not where the first is; accepted: a path that "
      "ends as it begins"},
+    {"RepeatsWithoutEnd",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 0 }, { \"time\": 1e-9 }, { "
+                      "\"time\": 2e-9 } ], \"repeats\": true }"),
+     ":3: bodies[0].kinematic.repeats: the path takes 2e-09 s; accepted: at least 2e-05 s, 1e-05 s from "
+     "each keyframe to the next"},
     {"NegativeDragCoefficient", bodyScene(kBox + ", \"dragCoefficient\": -1"),
      ":3: bodies[0].dragCoefficient: -1 is out of range; accepted: 0 to 1000"},
     {"MisspeltFluidKey", fluidScene(", \"level\": 0, \"densty\": 1000"),

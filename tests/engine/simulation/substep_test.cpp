@@ -100,6 +100,21 @@ TEST(SubstepCount, FallsInCrowds) {
   }
 }
 
+// A slab of 200 cubes has as many pairs with the floor that it slides over.
+TEST(SubstepCount, OfABodyOfManyPartsIsThatOfABodyOfOne) {
+  std::vector<ConvexPart> cubes;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 10; ++y)
+      cubes.push_back({boxPolyhedron(Vec3::Constant(0.1)).translated({0.1 * x, 0.1 * y, 0.0}), 0.0});
+  for (const Solid& slab : {Solid::box(Vec3(2.0, 1.0, 0.1)), Solid(cubes)}) {
+    Floor f(4);
+    f.add(slab, {Quat::Identity(), Vec3(0, 0, 0.0505)}, Vec3(1, 0, 0));
+    ASSERT_TRUE(f.world.start().empty());
+    f.world.step();
+    EXPECT_EQ(f.substeps(), 4) << slab.parts().size() << " parts";
+  }
+}
+
 // Boxes come to lie on each other and are woken by a late one: the loads that are kept from steps of one
 // length start steps of another.
 TEST(SubstepCount, MayChangeAtAnyTimeWithoutAJerk) {
