@@ -60,6 +60,12 @@ Eigen::Index sweepAxis(std::span<const Proxy> proxies);
 /// All overlapping pairs in ascending order; throws TooManyPairs, at the latest when `most` have been found.
 /// Cost O(n log n + overlaps along the sweep axis).
 std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_t most = kMostPairs);
+
+/// The pairs, ascending, of one of `a` and one of `b` whose bounds overlap, each by its place. No more
+/// than `most`. Cost O(a + b + those of each that reach into the bounds of the others).
+void overlapsBetween(std::span<const Bounds> a, std::span<const Bounds> b, std::size_t most,
+                     std::vector<IndexPair>& found);
+
 inline bool canPair(const Proxy& p, const Proxy& q) {
   return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
 }

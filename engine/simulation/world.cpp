@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "engine/foundation/contract.h"
 #include "engine/foundation/index.h"
@@ -55,8 +54,7 @@ struct World::Impl {
   StepView* view = nullptr;  ///< Who is told of the step, if anybody.
   StepPaths paths;
   bool keeps_paths = false;
-  int step_of_paths = 0;      ///< How many steps had been made when they were kept last; 0: never.
-  std::vector<int> met_last;  ///< Scratch, of each body: who met it last.
+  int step_of_paths = 0;  ///< How many steps had been made when they were kept last; 0: never.
   int steps = 0;
   int dynamic_bodies = 0;
   std::vector<int> kinematic_bodies;
@@ -320,15 +318,13 @@ int World::Impl::substepsWanted() {
   const std::span<const int> list = active.list();
   if (std::none_of(list.begin(), list.end(), [&](int i) { return stirs(bodies[at(i)]); })) return 1;
   double length_s = tolerance::kFineStep;
-  // Of bodies, whose shapes follow each other: what has many parts turns about its contacts as one does.
+  // Pairs of bodies: what has many parts turns about its contacts as what has one does.
   int awake = 0;
-  met_last.assign(bodies.size(), -1);
-  for (const int place : table.candidates()) {
-    const ShapePair& pair = table.pairs()[at(place)];
+  for (const int place : table.activeBodyPairs()) {
+    const BodyPair& pair = table.bodyPairs()[at(place)];
     const Body& a = bodies[at(pair.body_a)];
     const Body& b = bodies[at(pair.body_b)];
-    if (!a.moves() && !b.moves()) continue;
-    if (std::exchange(met_last[at(pair.body_b)], pair.body_a) == pair.body_a) continue;
+    if (pair.candidates() == 0 || (!a.moves() && !b.moves())) continue;
     if (2 * ++awake > tolerance::kFinePairs) return 1;  // a crowd need not be counted
     for (const Body* body : {&a, &b})
       if (stirs(*body)) length_s = std::min(length_s, fineStep(*body));

@@ -16,10 +16,12 @@ MassProperties partMass(const ConvexPart& part) {
   return roundedMass(part.core, part.radius_m);
 }
 
-double extentAlong(const std::vector<ConvexPart>& parts, const Vec3& direction) {
+// Or some of it that is no less than `enough_m`: with every part there is more of it.
+double extentAlong(const std::vector<ConvexPart>& parts, const Vec3& direction, double enough_m) {
   double high = -std::numeric_limits<double>::infinity();
   double low = std::numeric_limits<double>::infinity();
   for (const ConvexPart& part : parts) {
+    if (high - low >= enough_m) break;
     high = std::max(high, dot(direction, part.core.vertex(part.core.support(direction))) + part.radius_m);
     low = std::min(low, dot(direction, part.core.vertex(part.core.support(-direction))) - part.radius_m);
   }
@@ -30,10 +32,10 @@ double widthOf(const std::vector<ConvexPart>& parts) {
   if (parts.size() == 1) return parts.front().width();
   double width = std::numeric_limits<double>::infinity();
   for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())})
-    width = std::min(width, extentAlong(parts, axis));
+    width = std::min(width, extentAlong(parts, axis, width));
   for (const ConvexPart& part : parts)
     for (int f = 0; f < part.core.faceCount(); ++f)
-      width = std::min(width, extentAlong(parts, part.core.plane(f).normal));
+      width = std::min(width, extentAlong(parts, part.core.plane(f).normal, width));
   return width;
 }
 

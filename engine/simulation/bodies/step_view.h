@@ -32,7 +32,7 @@ struct CandidateView {
 
 struct SweptView {
   int body = -1;
-  Bounds bounds;  ///< World, metres: what the part may touch in the step, with the room for its contacts.
+  Bounds bounds;  ///< World, metres: what the body may touch in the step, with the room for its contacts.
 };
 
 struct StepView {
@@ -42,7 +42,7 @@ struct StepView {
   std::vector<ContactView> collisions;    ///< Those of times of impact, oldest first; grows until whoever
                                           ///< watches takes them out.
   std::vector<CandidateView> candidates;  ///< One a pair of parts, by bodies.
-  std::vector<SweptView> swept;           ///< One a part, by bodies.
+  std::vector<SweptView> swept;           ///< One a body.
 };
 
 }  // namespace carom

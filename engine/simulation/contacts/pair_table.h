@@ -12,11 +12,12 @@
 
 #include "engine/broad_phase/pair_finder.h"
 #include "engine/contact/contact_manifold.h"
-#include "engine/contact/separating_axis.h"
 #include "engine/contact/time_of_impact.h"
 #include "engine/foundation/crew.h"
 #include "engine/simulation/bodies/body.h"
+#include "engine/simulation/bodies/body_bounds.h"
 #include "engine/simulation/bodies/phase_clock.h"
+#include "engine/simulation/contacts/body_pair.h"
 
 namespace carom {
 
@@ -43,31 +44,22 @@ struct Landing {
   Velocity b;
 };
 
-/// Keeps its place in the table as long as the shapes are candidates.
-struct ShapePair {
+/// Two shapes that could come near each other within the step. Keeps its place in the table as long as they
+/// could.
+struct ShapePair : MeetingTerms {
   IndexPair shapes;
   std::uint64_t rank = 0;  ///< Pairs come in the order of their shapes, those added within a step after them.
   int body_a = -1;
   int body_b = -1;
+  int of_bodies = -1;  ///< The place of the pair of its bodies.
   bool active = false;
-  bool near = false;              ///< Within this step its shapes could come near each other.
-  bool lands = false;             ///< Its contact rows of this step are made of its landing.
-  SeparatingAxis apart;           ///< If it is not near: why.
-  std::array<int, 2> apart_at{};  ///< Its places among what is apart of body_a and body_b.
-  CollisionWindow window;
-  double collision_speed_mps = 0.0;  ///< Slower approaches are lasting contact; set for every step.
-  double restitution = 0.0;
+  bool lands = false;  ///< Its contact rows of this step are made of its landing.
   double scale = 1.0;  ///< Of the table's impulses, when it was active last.
   FeaturePair tracked;
-  ClosestFeatures closest;                    ///< At the end of the last step, if it is near.
+  ClosestFeatures closest;                    ///< At the end of the last step.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 
   bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
-  /// No slow point higher than this can come to the rest gap within the step: where faces are cut off at this
-  /// height, the cut holds nothing, and a corner that comes down slowly is held as the corner that it is.
-  double lastingHeight(double step_s) const { return window.ceiling + collision_speed_mps * step_s; }
-  /// What stays higher has neither contacts nor times of impact within the step.
-  double contactHeight(double step_s) const { return std::max(window.manifold, lastingHeight(step_s)); }
   /// Whether a force of its contacts acts.
   bool presses() const {
     return std::ranges::any_of(remembered,
@@ -100,23 +92,25 @@ struct PairedWorld {
   Crew& crew;
 };
 
-/// Of a shape from its body's centre of mass, in the axes of the world.
-struct TurnedBounds {
-  Bounds bounds;
-  Quat R_WB = Quat::Identity();  ///< The orientation that they were made for.
+/// Shapes that the table keeps in view, near or not.
+struct Candidate {
+  IndexPair shapes;
+  int body_a = -1;
+  int body_b = -1;
+  double gap_m = 0.0;
 };
 
 class PairTable {
  public:
-  /// The bounds that each shape of the active bodies (ascending) sweeps from its path's start to `end_s`,
-  /// with a margin of the collision window. All bodies must be active the first time.
+  /// The bounds that each of the active bodies (ascending) sweeps from its path's start to `end_s`, with a
+  /// margin of the collision window. All bodies must be active the first time.
   void updateBounds(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,
                     std::span<const int> active, double end_s, Crew& crew);
-  /// Makes the pairs of active bodies those whose bounds overlap, keeping what was remembered, and tells
-  /// those that stay apart on the planned paths from those that could come near: these are queried at the
-  /// bodies' poses of the last finished step. The pairs of others stay as they are.
+  /// Pairs active bodies whose bounds overlap, keeping what was remembered, and tells which of their shapes
+  /// could come near each other on the planned paths: these are queried at the bodies' poses of the last
+  /// finished step. The pairs of others stay as they are.
   void collect(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
-  /// Pairs that the paths of some bodies could meet and that are not in the table yet are added, and those
+  /// Pairs that the paths of some bodies could meet and that are not in the table yet are added, and shapes
   /// that were apart and could come near on them are near from now on, queried at `time_s`.
   void extend(std::span<const int> some, double time_s, const PairedWorld& world, StepCounters& counters);
   /// The pairs of a body that rested are active from now on, until the next `collect`.
@@ -130,7 +124,7 @@ class PairTable {
   /// Queries the closest features of what is near again where a body moved.
   void requery(const PairedWorld& world, StepCounters& counters);
 
-  /// By place; some places may be free.
+  /// What is near, by place; some places may be free.
   std::vector<ShapePair>& pairs() { return pairs_; }
   const std::vector<ShapePair>& pairs() const { return pairs_; }
   /// Of a pair that lands.
@@ -143,74 +137,108 @@ class PairTable {
   /// The places of the pairs that the step looks at: those with an active body that could come near each
   /// other. In their order after `collect`.
   const std::vector<int>& active() const { return near_; }
-  /// The places of all pairs with an active body whose bounds overlap, in their order after `collect`.
-  const std::vector<int>& candidates() const { return active_; }
   /// The places of all pairs, in their order. Cost O(pairs).
   std::vector<int> all() const;
-  /// Of all pairs, m; +infinity when there is none. Cost O(active), and where one that rested with the
+  /// Of bodies, by place; some places may be free.
+  const std::vector<BodyPair>& bodyPairs() const { return body_pairs_; }
+  /// The places of those with an active body.
+  const std::vector<int>& activeBodyPairs() const { return active_pairs_; }
+  /// Ascending by shapes. Cost O(pairs), with a query for each that is apart.
+  std::vector<Candidate> candidates(const std::vector<Body>& bodies, const std::vector<Shape>& shapes) const;
+  /// Of all candidates, m; +infinity when there is none. Cost O(active), and where one that rested with the
   /// smallest gap has woken, O(pairs).
   double smallestGap(const std::vector<Body>& bodies, const std::vector<Shape>& shapes) const;
-  /// Of a pair, m, apart or not.
-  double gapOf(const ShapePair& pair, const std::vector<Body>& bodies,
-               const std::vector<Shape>& shapes) const;
   std::size_t count() const { return pairs_.size() - free_.size(); }
   /// By what the impulses that a pair remembers are to be multiplied.
   double impulseScale(const ShapePair& pair) const { return pair.active ? 1.0 : scale_ / pair.scale; }
-  /// One a shape: what it was paired by.
+  /// One a body: what it was paired by.
   const std::vector<Proxy>& proxies() const { return proxies_; }
-  /// The places of the pairs of a body that is not static, in their order, without those that are apart.
+  /// The places of the pairs of a body that is not static, in their order.
   const std::vector<int>& pairsOf(int body) const { return of_body_[static_cast<std::size_t>(body)]; }
 
  private:
-  Bounds boundsAt(int shape, const Pose& X_WB, const std::vector<Shape>& shapes);
-  ShapePair makePair(IndexPair shapes_of_pair, const PairedWorld& world) const;
-  SeparatingAxis axisOfBounds(const ShapePair& pair, const std::vector<Body>& bodies) const;
-  void tellApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
-  template <typename Wanted>
-  void queryWhere(const Wanted& wanted, std::span<const int> places, const PairedWorld& world,
-                  StepCounters& counters);
-  void boundPaths(const std::vector<Body>& bodies, std::span<const int> active, double end_s);
-  double leastGapOf(const ShapePair& pair, const std::vector<Shape>& shapes) const;
-  bool staysApart(const ShapePair& pair, const PairedWorld& world) const;
-  bool willStayApart(ShapePair& pair, bool is_queried, const PairedWorld& world) const;
-  void enlist(int place, const std::vector<Body>& bodies);
-  void unlist(int place, const std::vector<Body>& bodies);
-  void setNear(int place, bool near, const std::vector<Body>& bodies);
-  void comeNear(int place, double time_s, const PairedWorld& world, StepCounters& counters);
-  void pairGrown(int body, double time_s, const PairedWorld& world, StepCounters& counters);
+  /// What is apart and was asked for its closest features.
+  struct Asked {
+    int of_bodies = -1;
+    std::size_t index = 0;
+    ClosestFeatures closest;
+  };
+  /// Of one thread.
+  struct ListScratch {
+    std::vector<int> shapes_a, shapes_b;
+    std::vector<Bounds> a, b;
+    std::vector<IndexPair> found, near;
+    std::vector<ApartPieces> apart;
+  };
+
+  BodyPair& bodyPairAt(int place) { return body_pairs_[static_cast<std::size_t>(place)]; }
+  const BodyPair& bodyPairAt(int place) const { return body_pairs_[static_cast<std::size_t>(place)]; }
   ShapePair& pairAt(int place) { return pairs_[static_cast<std::size_t>(place)]; }
   const ShapePair& pairAt(int place) const { return pairs_[static_cast<std::size_t>(place)]; }
+  const PathBound& pathOf(int body) const { return path_bounds_[static_cast<std::size_t>(body)]; }
   bool isBefore(int place, int other) const { return pairAt(place).rank < pairAt(other).rank; }
-  int add(ShapePair pair, const std::vector<Body>& bodies);
-  void remove(int place, const std::vector<Body>& bodies);
-  void restPairs(const PairedWorld& world, StepCounters& counters);
+  void boundPaths(const std::vector<Body>& bodies, std::span<const int> active, double end_s);
+
+  int addBodyPair(IndexPair bodies_of_pair, const PairedWorld& world);
+  void removeBodyPair(int place, const std::vector<Body>& bodies);
+  void pairBodies(std::span<const IndexPair> wanted, const PairedWorld& world);
+  void restPairs(const PairedWorld& world);
   void takeInExtended(const std::vector<Body>& bodies);
 
-  std::vector<int> first_shape_;  ///< Of each body, and the end.
+  RelativeMotion motionOf(const BodyPair& pair, const RelativePose& since) const;
+  bool staysListed(const BodyPair& pair, double height_m) const;
+  bool keepsRoom(const BodyPair& pair, double height_m) const;
+  SeparatingAxis axisOfBounds(const IndexPair& of, const std::vector<Shape>& shapes) const;
+  GapBound boundOf(const ApartPieces& apart, const std::vector<Shape>& shapes) const;
+  void list(BodyPair& pair, bool keeps_all, const PairedWorld& world, ListScratch& scratch);
+  void takeListed(BodyPair& pair, bool keeps_all, const PairedWorld& world, ListScratch& scratch);
+  void lookAt(BodyPair& pair, double height_m, const PairedWorld& world);
+  std::size_t fewBodyPairs() const;
+  void lookAtAll(const PairedWorld& world);
+  void measure(BodyPair& pair);
+  bool standsOff(ApartPieces& apart, const ClosestFeatures& closest, const BodyPair& pair,
+                 const PairedWorld& world) const;
+  void tellApart(const PairedWorld& world);
+  void askApart(const PairedWorld& world, StepCounters& counters, PhaseClock* clock);
+  void countCandidates(StepCounters& counters);
+
+  int makeNear(int of_bodies, std::size_t index, const ClosestFeatures& closest, const PairedWorld& world);
+  void add(ShapePair pair, int place, const std::vector<Body>& bodies);
+  void remove(int place, const std::vector<Body>& bodies);
+  bool meetsOthers(const BodyPair& pair, const PairedWorld& world) const;
+  void pairGrown(int body, double time_s, const PairedWorld& world);
+  void comeNear(int of_bodies, double time_s, const PairedWorld& world, StepCounters& counters);
+
   std::vector<int> active_bodies_;
-  std::vector<int> active_shapes_;
-  double end_s_ = 0.0;                       ///< Of the paths that bounds were made for.
-  std::vector<TurnedBounds> turned_bounds_;  ///< Of the shapes.
+  double end_s_ = 0.0;  ///< Of the paths that bounds were made for.
+  BodyBounds bounds_;
+  // Of the bodies: ...
   std::vector<Proxy> proxies_;
-  std::vector<Bounds> starts_;          ///< Of the shapes, where the paths start that they were paired by.
-  std::vector<PathBound> path_bounds_;  ///< Of the bodies.
+  std::vector<Bounds> starts_;  ///< ... where the paths start that they were paired by, ...
+  std::vector<PathBound> path_bounds_;
+  std::vector<std::vector<int>> of_body_;        ///< ... their pairs of shapes, ...
+  std::vector<std::vector<int>> pairs_of_body_;  ///< ... and of bodies.
   long extension_ = 0;
   std::vector<long> extended_in_, bounded_in_;  ///< In which each body was, and its path bounded, last.
   PairFinder finder_;
+  std::vector<BodyPair> body_pairs_;
+  std::vector<int> free_body_pairs_;  ///< Places.
+  std::vector<int> active_pairs_;     ///< Of bodies; ascending after `collect`.
   std::vector<ShapePair> pairs_;
-  std::vector<Landing> landings_;                ///< One a pair: few land, and all pairs are gone through.
-  std::vector<int> free_;                        ///< Places.
-  std::vector<int> active_;                      ///< Ascending by shapes after `collect`.
-  std::vector<int> near_;                        ///< Of these, those that are near, in the same order.
-  std::vector<int> extended_;                    ///< Places of the pairs added since.
+  std::vector<Landing> landings_;  ///< One a pair: few land, and all pairs are gone through.
+  std::vector<int> free_;          ///< Places.
+  std::vector<int> near_;          ///< Those that are active, ascending by shapes after `collect`.
+  std::vector<int> extended_;      ///< Places of the pairs added since.
+  std::size_t resting_candidates_ = 0;
+  std::size_t listed_ = 0;                       ///< Candidates of active pairs.
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
-  std::vector<std::vector<int>> of_body_;        ///< Near ones.
-  std::vector<std::vector<int>> apart_of_body_;  ///< In no order.
   // Scratch.
-  std::vector<int> collected_, extended_bodies_, grown_, asked_, met_;
-  std::vector<IndexPair> partners_, known_;
+  std::vector<int> collected_, extended_bodies_, grown_, paired_, met_;
+  std::vector<IndexPair> partners_;
+  std::vector<Asked> asked_;
   std::vector<char> stays_apart_, meets_;
+  ListScratch scratch_;
 };
 
 }  // namespace carom

@@ -66,11 +66,8 @@ void recordCollision(const std::vector<Body>& bodies, const ContactCluster& clus
 
 void recordPairs(const RecordedWorld& world, StepView& view) {
   view.candidates.clear();
-  for (const int place : world.table.all()) {
-    const ShapePair& pair = world.table.pairs()[at(place)];
-    view.candidates.push_back(
-        {pair.body_a, pair.body_b, world.table.gapOf(pair, world.bodies, world.shapes)});
-  }
+  for (const Candidate& pair : world.table.candidates(world.bodies, world.shapes))
+    view.candidates.push_back({pair.body_a, pair.body_b, pair.gap_m});
   std::stable_sort(view.candidates.begin(), view.candidates.end(),
                    [](const CandidateView& x, const CandidateView& y) {
                      return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);

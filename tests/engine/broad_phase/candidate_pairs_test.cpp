@@ -111,6 +111,31 @@ TEST(CandidatePairs, MoreThanCanBeKeptAreRefusedBeforeTheyAreCollected) {
   EXPECT_EQ(candidatePairs(proxies).size(), 1414u * 1413u / 2u);
 }
 
+TEST(OverlapsBetween, AreThoseThatComparingEverythingFinds_NoMoreThanAsked) {
+  Random random(50);
+  for (int c = 0; c < 200; ++c) {
+    const auto someBounds = [&](const Vec3& from) {
+      std::vector<Bounds> bounds;
+      for (int i = random.integer(0, 30); i > 0; --i) {
+        const Vec3 low = from + random.uniform(0.0, 3.0) * random.direction();
+        bounds.push_back({low, low + Vec3::Constant(random.uniform(0.1, 1.0))});
+      }
+      return bounds;
+    };
+    const std::vector<Bounds> a = someBounds(Vec3::Zero()),
+                              b = someBounds(random.uniform(0.0, 6.0) * Vec3::UnitX());
+    std::vector<IndexPair> expected, found;
+    for (int i = 0; i < static_cast<int>(a.size()); ++i)
+      for (int j = 0; j < static_cast<int>(b.size()); ++j)
+        if (a[static_cast<std::size_t>(i)].overlaps(b[static_cast<std::size_t>(j)]))
+          expected.push_back({i, j});
+    overlapsBetween(a, b, 1000, found);
+    ASSERT_EQ(found, expected) << c;
+    overlapsBetween(a, b, 3, found);
+    ASSERT_EQ(found.size(), std::min<std::size_t>(3, expected.size())) << c;
+  }
+}
+
 TEST(Bounds, ContainThemselvesAndWhatLiesWithin) {
   const Bounds outer{Vec3(-1, -2, -3), Vec3(1, 2, 3)};
   EXPECT_TRUE(outer.contains(outer));
