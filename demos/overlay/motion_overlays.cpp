@@ -26,19 +26,6 @@ void paintBox(OverlayPainter& painter, const Bounds& bounds, const Stroke& strok
       if ((bits & bit) == 0) painter.line(corner(bits), corner(bits | bit), stroke);
 }
 
-// All parts of a body together.
-Bounds sweptByBody(const StepView& step, int body) {
-  Bounds bounds;
-  bool first = true;
-  for (const SweptView& swept : step.swept) {
-    if (swept.body != body) continue;
-    bounds.low = first ? swept.bounds.low : bounds.low.cwiseMin(swept.bounds.low);
-    bounds.high = first ? swept.bounds.high : bounds.high.cwiseMax(swept.bounds.high);
-    first = false;
-  }
-  return bounds;
-}
-
 void paintVector(OverlayPainter& painter, const Vec3& from_W, const Vec3& along_W, double most_m,
                  const Stroke& stroke) {
   const double length = along_W.norm();
@@ -49,16 +36,20 @@ void paintVector(OverlayPainter& painter, const Vec3& from_W, const Vec3& along_
 
 void paintBounds(OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen) {
   if (frame.step == nullptr) return;
-  for (const SweptView& swept : frame.step->swept)
-    if (!frame.isStatic(swept.body) && frame.focus.has(swept.body))
-      paintBox(painter, swept.bounds, {{overlay_color::kSky, 0.9}, pen.thin_px});
+  const std::vector<Bounds>& swept = frame.step->swept;
+  for (std::size_t i = 0; i < swept.size(); ++i) {
+    const int body = static_cast<int>(i);
+    if (!frame.isStatic(body) && frame.focus.has(body))
+      paintBox(painter, swept[i], {{overlay_color::kSky, 0.9}, pen.thin_px});
+  }
 }
 
 void paintCandidates(OverlayPainter& painter, const OverlayFrame& frame, const Pen& pen) {
   if (frame.step == nullptr) return;
   for (const CandidateView& pair : frame.step->candidates) {
     if (!frame.focus.hasPair(pair.body_a, pair.body_b)) continue;
-    const Bounds a = sweptByBody(*frame.step, pair.body_a), b = sweptByBody(*frame.step, pair.body_b);
+    const Bounds& a = frame.step->swept[static_cast<std::size_t>(pair.body_a)];
+    const Bounds& b = frame.step->swept[static_cast<std::size_t>(pair.body_b)];
     const Vec3 meeting = 0.5 * (a.low.cwiseMax(b.low) + a.high.cwiseMin(b.high));
     const double radius = frame.pairRadius(pair.body_a, pair.body_b);
     painter.setLift(2.0 * radius);

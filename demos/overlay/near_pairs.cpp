@@ -5,6 +5,7 @@
 
 #include "demos/format/nearest_name.h"
 #include "demos/system/exit_code.h"
+#include "engine/broad_phase/bounds_tree.h"
 
 namespace carom::demos {
 namespace {
@@ -16,6 +17,7 @@ struct PlacedPart {
   int body = -1;
   const ConvexPart* part = nullptr;
   double width_m = 0.0;  // of the body, as the collision window takes it
+  bool moves = true;
 };
 
 Bounds boundsOf(const ConvexPart& part, const Pose& X_WB, double margin) {
@@ -29,6 +31,31 @@ Bounds boundsOf(const ConvexPart& part, const Pose& X_WB, double margin) {
   bounds.low.array() -= part.radius_m + margin;
   bounds.high.array() += part.radius_m + margin;
   return bounds;
+}
+
+// Parts of different bodies of which one moves, by bounds; ascending.
+std::vector<IndexPair> candidatesWithin(double reach, std::span<const PlacedPart> parts,
+                                        std::span<const BodyState> states) {
+  std::vector<Bounds> bounds;
+  for (const PlacedPart& p : parts)
+    bounds.push_back(boundsOf(*p.part, states[static_cast<std::size_t>(p.body)].X_WB, 0.5 * reach));
+  BoundsTree tree;
+  tree.build(bounds);
+  std::vector<IndexPair> candidates;
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+    const PlacedPart& part = parts[static_cast<std::size_t>(i)];
+    if (!part.moves) continue;
+    tree.find(bounds[static_cast<std::size_t>(i)], found);
+    for (const int j : found) {
+      const PlacedPart& other = parts[static_cast<std::size_t>(j)];
+      if (other.body == part.body || (other.moves && j < i)) continue;  // once
+      if (candidates.size() >= kMostPairs) throw TooManyPairs();
+      candidates.push_back({std::min(i, j), std::max(i, j)});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
 }
 
 NearPair asked(const PlacedPart& a, const PlacedPart& b, std::span<const BodyState> states) {
@@ -77,16 +104,13 @@ std::vector<NearPair> nearPairs(const World& world, std::span<const BodyState> s
     const Solid& solid = world.solids()[static_cast<std::size_t>(body.solid)];
     if (!body.is_static) smallest = std::min(smallest, solid.radius());
     const double width = body.is_static ? std::numeric_limits<double>::infinity() : solid.width();
-    for (const ConvexPart& part : solid.parts()) parts.push_back({static_cast<int>(i), &part, width});
+    for (const ConvexPart& part : solid.parts())
+      parts.push_back({static_cast<int>(i), &part, width, !body.is_static});
   }
   std::vector<NearPair> pairs;
   double reach = kNearOverRadius * smallest;
   for (int i = 0; i < kDoublings && pairs.empty() && smallest < 1e300; ++i, reach *= 2.0) {
-    std::vector<Proxy> proxies;
-    for (const PlacedPart& p : parts)
-      proxies.push_back({boundsOf(*p.part, states[static_cast<std::size_t>(p.body)].X_WB, 0.5 * reach),
-                         p.body, !world.bodies()[static_cast<std::size_t>(p.body)].is_static});
-    for (const IndexPair& candidate : candidatePairs(proxies)) {
+    for (const IndexPair& candidate : candidatesWithin(reach, parts, states)) {
       const PlacedPart& a = parts[static_cast<std::size_t>(candidate.a)];
       const PlacedPart& b = parts[static_cast<std::size_t>(candidate.b)];
       if (!focus.hasPair(a.body, b.body)) continue;

@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kWorn = 2.0;  // times the surface that was built: queries cost in proportion to it
 
-Bounds together(const Bounds& a, const Bounds& b) {
-  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
-}
-
 // Half the surface: what a random query meets is in proportion.
 double surface(const Bounds& bounds) {
   const Vec3 size = bounds.high - bounds.low;

@@ -1,7 +1,6 @@
 #pragma once
-// Candidate pairs: axis-aligned bounds that overlap, found by sorting along one axis and sweeping. Worlds
-// that go on from step to step have pair_finder.h. Tested in
-// tests/engine/broad_phase/candidate_pairs_test.cpp.
+// What candidate pairs are found by: axis-aligned bounds that overlap. Those of many things, from step to
+// step, are found by pair_finder.h. Tested in tests/engine/broad_phase/candidate_pairs_test.cpp.
 
 #include <span>
 #include <vector>
@@ -31,12 +30,20 @@ inline Bounds widened(Bounds bounds, double margin) {
   return bounds;
 }
 
-/// One thing to pair: things of one group never pair with each other, nor do two that don't move.
+/// The bounds of both.
+inline Bounds together(const Bounds& a, const Bounds& b) {
+  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+}
+
+/// One thing to pair: two that don't move never pair.
 struct Proxy {
   Bounds bounds;
-  int group = 0;
   bool moves = true;
 };
+
+inline bool canPair(const Proxy& p, const Proxy& q) {
+  return (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
+}
 
 struct IndexPair {
   int a = -1;
@@ -54,20 +61,9 @@ class TooManyPairs : public InputError {
   TooManyPairs();
 };
 
-/// The axis along which the proxies' centres are spread most: it separates best.
-Eigen::Index sweepAxis(std::span<const Proxy> proxies);
-
-/// All overlapping pairs in ascending order; throws TooManyPairs, at the latest when `most` have been found.
-/// Cost O(n log n + overlaps along the sweep axis).
-std::vector<IndexPair> candidatePairs(std::span<const Proxy> proxies, std::size_t most = kMostPairs);
-
 /// The pairs, ascending, of one of `a` and one of `b` whose bounds overlap, each by its place. No more
 /// than `most`. Cost O(a + b + those of each that reach into the bounds of the others).
 void overlapsBetween(std::span<const Bounds> a, std::span<const Bounds> b, std::size_t most,
                      std::vector<IndexPair>& found);
-
-inline bool canPair(const Proxy& p, const Proxy& q) {
-  return p.group != q.group && (p.moves || q.moves) && p.bounds.overlaps(q.bounds);
-}
 
 }  // namespace carom

@@ -92,10 +92,7 @@ void BodyBounds::join(int body) {
   if (shapesOf(body) == 0) return;
   Bounds& whole = of_body_[at(body)];
   whole = of_shape_[at(firstShape(body))];
-  for (int i = firstShape(body) + 1; i < endShape(body); ++i) {
-    whole.low = whole.low.cwiseMin(of_shape_[at(i)].low);
-    whole.high = whole.high.cwiseMax(of_shape_[at(i)].high);
-  }
+  for (int i = firstShape(body) + 1; i < endShape(body); ++i) whole = together(whole, of_shape_[at(i)]);
 }
 
 void BodyBounds::follow(const std::vector<Body>& bodies, const std::vector<Shape>& shapes,

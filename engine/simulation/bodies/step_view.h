@@ -30,11 +30,6 @@ struct CandidateView {
   double gap_m = 0.0;  ///< At the end of the step.
 };
 
-struct SweptView {
-  int body = -1;
-  Bounds bounds;  ///< World, metres: what the body may touch in the step, with the room for its contacts.
-};
-
 struct StepView {
   double begin_s = 0.0;              ///< World time at which the last substep began.
   std::vector<ContactView> lasting;  ///< Lasting contacts of the last substep, those of resting bodies with
@@ -42,7 +37,8 @@ struct StepView {
   std::vector<ContactView> collisions;    ///< Those of times of impact, oldest first; grows until whoever
                                           ///< watches takes them out.
   std::vector<CandidateView> candidates;  ///< One a pair of parts, by bodies.
-  std::vector<SweptView> swept;           ///< One a body.
+  std::vector<Bounds> swept;              ///< One a body, world, metres: what it may touch in the step, with
+                                          ///< the room for its contacts.
 };
 
 }  // namespace carom

@@ -86,7 +86,6 @@ void PairTable::updateBounds(const std::vector<Body>& bodies, const std::vector<
       const Body& body = bodies[at(i)];
       starts_[at(i)] = bounds_.ofBody(i, body.path.X_WB);
       const Bounds swept = sweptBounds(starts_[at(i)], bounds_.reach(i), body.path, end_s);
-      proxies_[at(i)].group = i;
       proxies_[at(i)].bounds = widened(swept, pairingMargin(shapes[at(bounds_.firstShape(i))]));
       proxies_[at(i)].moves = !body.is_static;  // resting bodies stay paired, so that contacts are remembered
     }
@@ -513,16 +512,15 @@ void PairTable::pairGrown(int body, double time_s, const PairedWorld& world) {
   Proxy& proxy = proxies_[at(body)];
   if (proxy.bounds.contains(swept)) return;
   const Bounds onwards = widened(swept, pairingMargin(world.shapes[at(bounds_.firstShape(body))]));
-  proxy.bounds = {proxy.bounds.low.cwiseMin(onwards.low), proxy.bounds.high.cwiseMax(onwards.high)};
+  proxy.bounds = together(proxy.bounds, onwards);
   finder_.grow(body, onwards);
-  grown_.assign(1, body);
-  finder_.findPartners(proxies_, grown_, partners_);
+  finder_.findPartners(proxies_, body, partners_);
   paired_.clear();
   for (const int place : pairs_of_body_[at(body)]) paired_.push_back(bodyPairAt(place).other(body));
   std::sort(paired_.begin(), paired_.end());
-  for (const IndexPair& with : partners_) {
-    if (std::binary_search(paired_.begin(), paired_.end(), with.b)) continue;
-    const int place = addBodyPair({std::min(with.a, with.b), std::max(with.a, with.b)}, world);
+  for (const int other : partners_) {
+    if (std::binary_search(paired_.begin(), paired_.end(), other)) continue;
+    const int place = addBodyPair({std::min(body, other), std::max(body, other)}, world);
     BodyPair& added = bodyPairAt(place);
     added.added = true;
     added.collision_speed_mps = collisionSpeed(added, world.bodies, world.settings.step_s);
@@ -644,7 +642,7 @@ std::vector<Candidate> PairTable::candidates(const std::vector<Body>& bodies,
 
 std::vector<int> PairTable::all() const {
   std::vector<int> places;
-  places.reserve(count());
+  places.reserve(pairs_.size() - free_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (!pairs_[i].isFree()) places.push_back(static_cast<int>(i));
   std::sort(places.begin(), places.end(), [this](int p, int q) { return isBefore(p, q); });

@@ -148,7 +148,6 @@ class PairTable {
   /// Of all candidates, m; +infinity when there is none. Cost O(active), and where one that rested with the
   /// smallest gap has woken, O(pairs).
   double smallestGap(const std::vector<Body>& bodies, const std::vector<Shape>& shapes) const;
-  std::size_t count() const { return pairs_.size() - free_.size(); }
   /// By what the impulses that a pair remembers are to be multiplied.
   double impulseScale(const ShapePair& pair) const { return pair.active ? 1.0 : scale_ / pair.scale; }
   /// One a body: what it was paired by.
@@ -234,8 +233,7 @@ class PairTable {
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
   // Scratch.
-  std::vector<int> collected_, extended_bodies_, grown_, paired_, met_;
-  std::vector<IndexPair> partners_;
+  std::vector<int> collected_, extended_bodies_, partners_, paired_, met_;
   std::vector<Asked> asked_;
   std::vector<char> stays_apart_, meets_;
   ListScratch scratch_;

@@ -73,7 +73,7 @@ void recordPairs(const RecordedWorld& world, StepView& view) {
                      return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
                    });
   view.swept.clear();
-  for (const Proxy& proxy : world.table.proxies()) view.swept.push_back({proxy.group, proxy.bounds});
+  for (const Proxy& proxy : world.table.proxies()) view.swept.push_back(proxy.bounds);
 }
 
 }  // namespace carom

@@ -44,7 +44,7 @@ class EnergyWatch {
       turn += 2 / width * (load.torque_W.cast<Real>().norm() + load.torque_B.cast<Real>().norm());
       fall += body.mass * g * body.reach_m;
     }
-    lifted_J_ = (push + turn) * gaps;
+    lifted_J_ = world.bodies().size() > 1 ? (push + turn) * gaps : Real{0};  // one has nobody to lie on
     scale_J_ = start.kinetic_J + fall;
   }
 

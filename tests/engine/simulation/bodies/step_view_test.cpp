@@ -174,19 +174,18 @@ TEST(StepView, SweptBoundsHoldTheBodyThroughoutTheStepAndCandidatesAreThoseThatM
   World world = pile();
   StepView view;
   world.watch(&view);
-  EXPECT_FALSE(view.swept.empty()) << "those of the start";
+  EXPECT_EQ(view.swept.size(), world.bodies().size()) << "those of the start";
   for (int i = 0; i < 120; ++i) {
     const std::vector<BodyState> before(world.states().begin(), world.states().end());
     world.step();
-    for (const SweptView& swept : view.swept)
+    for (std::size_t body = 0; body < view.swept.size(); ++body)
       for (const std::span<const BodyState> states : {std::span<const BodyState>(before), world.states()}) {
-        const auto body = static_cast<std::size_t>(swept.body);
         const Solid& solid = world.solids()[static_cast<std::size_t>(world.bodies()[body].solid)];
         for (const Vec3& v : solid.parts()[0].core.vertices()) {
           const Vec3 p_W = states[body].X_WB * v;
-          ASSERT_TRUE((p_W.array() >= swept.bounds.low.array()).all() &&
-                      (p_W.array() <= swept.bounds.high.array()).all())
-              << i << " body " << swept.body;
+          ASSERT_TRUE((p_W.array() >= view.swept[body].low.array()).all() &&
+                      (p_W.array() <= view.swept[body].high.array()).all())
+              << i << " body " << body;
         }
       }
     ASSERT_EQ(view.candidates.size(), static_cast<std::size_t>(world.audit().last_step.candidate_pairs)) << i;
