@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "demos/command/stepless_scene.h"
 #include "demos/asset/asset_path.h"
 #include "demos/asset/mesh_solid.h"
 #include "demos/format/content_hash.h"
@@ -38,6 +39,7 @@ void checkScene(const SceneChoice& choice) {
   const Scene scene = checkedScene(choice);
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
   const SceneWorld made = checkedWorld(scene, choice);
+  requireAStep(choice, scene);
   int moving = 0, kinematic = 0;
   for (const BodyDescription& body : made.world.bodies()) {
     moving += body.is_static ? 0 : 1;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "demos/command/stepless_scene.h"
 #include "demos/format/content_hash.h"
 #include "demos/format/progress.h"
 #include "demos/language/scene_values.h"
@@ -47,14 +48,6 @@ RecordingHeader recordingHeader(const SimulateOptions& options, const Scene& sce
   header.bodies = static_cast<int>(made.names.size());
   header.frames = FrameClock({options.fps, scene.rate_hz}).frameCount(scene.duration_s);
   return header;
-}
-
-/// The scene's own duration is its file's fault.
-[[noreturn]] void refuseStepless(const SceneChoice& choice, const Scene& scene) {
-  const std::string what = "the duration of " + plainNumber(scene.duration_s) + " s holds no step at " +
-                           plainNumber(scene.rate_hz) + " a second; accepted: at least half a step";
-  if (choice.duration_s) throw UsageError(what);
-  throw InputError(scene.file.string() + ": " + what);
 }
 
 /// What there is to write of each frame.
@@ -110,7 +103,7 @@ ExitCode simulate(const SimulateOptions& options) {
   if (has_frames && frames < 1)
     throw UsageError("the duration of " + plainNumber(scene.duration_s) + " s holds no frame at " +
                      plainNumber(options.fps) + " fps to write");
-  if (steps < 1) refuseStepless(options.choice, scene);
+  requireAStep(options.choice, scene);
 
   catchInterrupts();
   TrajectoryFiles trajectory(options.trajectory, made.names, frames);

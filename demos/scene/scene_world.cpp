@@ -177,6 +177,14 @@ void addBodies(SceneWorld& made, const Scene& scene, std::size_t index, const Me
   }
 }
 
+// Whether one of the two may not move along some axes.
+bool onRails(const SceneWorld& made, const Overlap& pair) {
+  const auto isLocked = [&](int body) {
+    return made.world.bodies()[static_cast<std::size_t>(body)].locks.free_axes != Vec3::Ones();
+  };
+  return isLocked(pair.body_a) || isLocked(pair.body_b);
+}
+
 // What two bodies do, by how much and where.
 std::string describeOverlap(const SceneWorld& made, const Overlap& pair, const char* when) {
   std::ostringstream text;
@@ -185,7 +193,7 @@ std::string describeOverlap(const SceneWorld& made, const Overlap& pair, const c
   if (pair.depth_m > 0.0)
     text << "overlap" << when << " by " << pair.depth_m << " m";
   else
-    text << "touch" << when << " and have no room to part";
+    text << "touch" << when << " and have no room to part" << (onRails(made, pair) ? " along free axes" : "");
   const auto nanometres = [](double x) { return std::round(x * 1e9) * 1e-9 + 0.0; };  // and no -0
   text << " at (" << nanometres(pair.p_W.x()) << ", " << nanometres(pair.p_W.y()) << ", "
        << nanometres(pair.p_W.z()) << ")";
@@ -217,7 +225,11 @@ std::vector<Overlap> startedWith(SceneWorld& made, const Scene& scene) {
   if (overlaps.size() > 1)
     message << " (the deepest of " << overlaps.size() << " pairs; carom check lists them all)";
   // Those that only touch have no room to be moved apart by the rest gap.
-  message << (overlaps.front().depth_m > 0.0 ? "; accepted: apart, or just touching" : "; accepted: apart");
+  message << "; accepted: apart";
+  if (overlaps.front().depth_m > 0.0)
+    message << ", or just touching";
+  else if (onRails(made, overlaps.front()))
+    message << ", or an axis not locked that parts them";
   std::vector<std::string> pairs;
   for (const Overlap& pair : overlaps) pairs.push_back(describeOverlap(made, pair, ""));
   throw OverlapsAtStart(message.str(), std::move(pairs));

@@ -1,10 +1,10 @@
-// The dual is min 1/2 f.(J J^T + c) f - opening.f over f >= 0, where row k of J takes displacements to the
-// opening of row k. It is solved by "modified proportioning with reduced gradient projections" (Z. Dostal,
-// J. Schoeberl, Minimizing quadratic functions subject to bound constraints with the rate of convergence and
-// finite termination, Comput. Optim. Appl. 30, 2005): conjugate gradients among the forces that are not zero,
-// a projected step where some of them would pull, and a steepest step among those that are zero where these
-// miss most. Every operation treats all rows alike, so that a mirror image has the mirror image's
-// displacements to rounding.
+// The dual is min 1/2 f.(J P J^T + c) f - opening.f over f >= 0, where row k of J takes displacements to the
+// opening of row k, and P takes from them what is along axes that are not free. It is solved by "modified
+// proportioning with reduced gradient projections" (Z. Dostal, J. Schoeberl, Minimizing quadratic functions
+// subject to bound constraints with the rate of convergence and finite termination, Comput. Optim. Appl. 30,
+// 2005): conjugate gradients among the forces that are not zero, a projected step where some of them would
+// pull, and a steepest step among those that are zero where these miss most. Every operation treats all rows
+// alike, so that a mirror image has the mirror image's displacements to rounding.
 
 #include "engine/foundation/index.h"
 #include "engine/simulation/least_displacements.h"
@@ -42,10 +42,11 @@ void follow(const Forces& direction, double length, Forces& force) {
 
 class Dual {
  public:
-  Dual(std::span<const Opening> openings, int bodies, double compliance)
+  Dual(std::span<const Opening> openings, std::span<const Vec3> free_axes, double compliance)
       : openings_(openings),
+        free_axes_(free_axes),
         compliance_(compliance),
-        moved_(at(bodies)),
+        moved_(free_axes.size()),
         force_(openings.size()),
         gradient_(openings.size()) {
     for (std::size_t k = 0; k < openings.size(); ++k) {
@@ -78,6 +79,7 @@ class Dual {
   double greatestMissing() const;
 
   std::span<const Opening> openings_;
+  std::span<const Vec3> free_axes_;
   double compliance_;
   std::vector<Vec3> moved_;
   Forces force_, gradient_, product_;
@@ -91,7 +93,8 @@ class Dual {
   int products_ = 0;
 };
 
-// A bound: J^T J has on its diagonal how many rows a body has, and as much again beside it at most.
+// A bound: J^T J has on its diagonal how many rows a body has, and as much again beside it at most; P makes
+// it no larger.
 double Dual::largestEigenvalue() const {
   std::vector<int> rows(moved_.size());
   int most = 1;
@@ -109,6 +112,7 @@ void Dual::pushBodies(const Forces& force) {
     if (openings_[k].a >= 0) moved_[at(openings_[k].a)] -= push;
     if (openings_[k].b >= 0) moved_[at(openings_[k].b)] += push;
   }
+  for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = moved_[i].cwiseProduct(free_axes_[i]);
 }
 
 void Dual::multiply(const Forces& force, Forces& result) {
@@ -229,10 +233,10 @@ void Dual::solve() {
 
 }  // namespace
 
-LeastDisplacements leastDisplacements(std::span<const Opening> openings, int bodies) {
-  Dual stiff(openings, bodies, kStiff);
+LeastDisplacements leastDisplacements(std::span<const Opening> openings, std::span<const Vec3> free_axes) {
+  Dual stiff(openings, free_axes, kStiff);
   stiff.solve();
-  Dual soft(openings, bodies, kSoft);
+  Dual soft(openings, free_axes, kSoft);
   const bool done = stiff.isSolved() && stiff.hasRoom();
   if (!done) soft.solve();
   Dual& dual = done ? stiff : soft;

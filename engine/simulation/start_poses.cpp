@@ -19,6 +19,9 @@ constexpr double kOverlap = 1e-9;
 constexpr double kPlaceRounding = 8.0 * std::numeric_limits<double>::epsilon();
 // Of the rest gap: how much farther apart two parts are asked for their normal, far above rounding.
 constexpr double kApart = 1e-2;
+// A gap is not opened where even the free axes of its bodies lead only by this sine or less out of its plane:
+// to open it they would have to be moved ten times as far and more.
+constexpr double kGlancingSine = 0.1;
 // Rounds after which the displacements are taken as they are. Each finds pairs that the last one's
 // displacements could meet, or less room than it had assumed.
 constexpr int kDisplacementRounds = 8;
@@ -88,6 +91,15 @@ struct OpeningPairs {
   std::vector<double> wanted_m;
 };
 
+// Whether axes that are locked hold the pair together, or neither of its bodies gives way at all.
+bool isHeld(const ShapePair& pair, const Vec3& n_W, const std::vector<Body>& bodies) {
+  double free_part = 0.0;
+  for (const int index : {pair.body_a, pair.body_b})
+    if (const Body& body = bodies[at(index)]; body.yields())
+      free_part += body.locks.movingPart(n_W).squaredNorm();
+  return free_part <= kGlancingSine * kGlancingSine;
+}
+
 double wantedGap(const ShapePair& pair, const SharedGaps& shared) {
   const auto found = shared.find(pair.shapes);
   const double wanted = found == shared.end() ? pair.window.rest : found->second;
@@ -96,14 +108,15 @@ double wantedGap(const ShapePair& pair, const SharedGaps& shared) {
 }
 
 // Parallel planes keep their parts apart however far bodies are moved, as long as these do not turn: the
-// openings are exact.
+// openings are exact. A short gap of a pair that is held is kept as it is.
 OpeningPairs openingPairs(const StartingBodies& start, const SharedGaps& shared) {
   OpeningPairs all;
   for (const int place : start.table.active()) {
     const ShapePair& pair = start.table.pairs()[at(place)];
     const auto giving = [&](int body) { return start.bodies[at(body)].yields() ? body : -1; };
     const PartingPlanes planes = partingPlanes(pair, start);
-    const double wanted_m = wantedGap(pair, shared);
+    double wanted_m = wantedGap(pair, shared);
+    if (isHeld(pair, planes.n_W, start.bodies)) wanted_m = std::min(wanted_m, planes.gap_m);
     all.openings.push_back({giving(pair.body_a), giving(pair.body_b), planes.n_W, wanted_m - planes.gap_m});
     all.shapes.push_back(pair.shapes);
     all.wanted_m.push_back(wanted_m);
@@ -169,10 +182,12 @@ bool pairOnTheWay(const StartingBodies& start, const std::vector<Vec3>& displace
 
 std::vector<Vec3> displacementsOf(const StartingBodies& start) {
   const int bodies = static_cast<int>(start.bodies.size());
+  std::vector<Vec3> free_axes;
+  for (const Body& body : start.bodies) free_axes.push_back(body.locks.free_axes);
   SharedGaps shared;
   for (int round = 0;; ++round) {
     const OpeningPairs pairs = openingPairs(start, shared);
-    LeastDisplacements least = leastDisplacements(pairs.openings, bodies);
+    LeastDisplacements least = leastDisplacements(pairs.openings, free_axes);
     if (round == kDisplacementRounds) return std::move(least.displacement_W);
     if (!pairOnTheWay(start, least.displacement_W) && !shareRoom(pairs, least, bodies, shared))
       return std::move(least.displacement_W);

@@ -1,8 +1,9 @@
 #pragma once
 // What a world makes of the poses it is given: bodies that overlap are reported; gaps that lasting contact
 // would have to open, down to bodies that touch, are opened to the rest gap by the least displacements that
-// do it (least_displacements.h), whatever the order of the bodies. What has its gaps is left as it is, to the
-// bit. Internal to the simulation floor. Tested in tests/engine/simulation/start_test.cpp.
+// do it (least_displacements.h), whatever the order of the bodies, along their free axes. What has its gaps
+// is left as it is, to the bit. Internal to the simulation floor. Tested in
+// tests/engine/simulation/start_test.cpp.
 
 #include <vector>
 
@@ -24,10 +25,10 @@ std::vector<Overlap> overlapsAtStart(const StartingBodies& start);
 
 /// For bodies without overlaps: whether some had to be moved. Then their paths are over, and the table holds
 /// the pairs that they could have met on the way, queried where they are now. Bodies that lack the room for
-/// rest gaps share what there is.
+/// rest gaps share what there is; where locked axes hold both of a pair its gap stays as it is.
 bool openTouching(const StartingBodies& start);
 
-/// The pairs of bodies that found no room, or no more than rounding.
+/// The pairs of bodies that found no room, or no more than rounding, or no free axis that parts them.
 std::vector<Overlap> stillTouching(const StartingBodies& start);
 
 }  // namespace carom

@@ -32,8 +32,8 @@ class World {
 
   /// Checks the starting poses; must be called once before the first step. All overlapping pairs of bodies,
   /// deepest first; when there are any the world must not be stepped. Where gaps are below those that lasting
-  /// contact holds (bodies that touch), bodies are moved, not turned, by as little as opens them; energies
-  /// and all that follows are those of the poses that `states` then has.
+  /// contact holds (bodies that touch), bodies are moved along their free axes, not turned, by as little as
+  /// opens them; energies and all that follows are those of the poses that `states` then has.
   std::vector<Overlap> start();
   /// Advances by exactly one step; tells `clock` of its phases, which changes no bit of the outcome. While
   /// few bodies are in contact and move, it is made in substeps: of 1/240 s at most, and shorter for small

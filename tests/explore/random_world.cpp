@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/explore/random_shapes.h"
+#include "tests/explore/worlds/coarse_worlds.h"
 #include "tests/explore/worlds/driven_heaps.h"
 #include "tests/explore/worlds/loaded_worlds.h"
 #include "tests/explore/worlds/moved_worlds.h"
@@ -378,6 +379,7 @@ class WorldMaker {
 }  // namespace
 
 ExploredWorld randomWorld(std::uint64_t seed) {
+  if (seed >= kCoarseWorlds) return coarseWorld(seed);
   if (seed >= kLoadedWorlds) return loadedWorld(seed);
   if (seed >= kDrivenHeaps) return drivenHeap(seed);
   return seed >= kMovedWorlds ? movedWorld(seed) : WorldMaker(seed).make();

@@ -1,6 +1,6 @@
 #pragma once
 // The worlds of the explorer: a seed makes one of some families, each a kind of situation that has gone wrong
-// somewhere before. Sizes from 1e-3 to 100 m, speeds to 1e4 m/s, any gravity, rates 30 to 1000. Nothing
+// somewhere before. Sizes from 1e-3 to 100 m, speeds to 1e4 m/s, any gravity, rates 10 to 1000. Nothing
 // overlaps at the start unless a family says so. Tested in tests/explore/random_world_test.cpp.
 
 #include <cstdint>
@@ -21,6 +21,8 @@ inline constexpr std::uint64_t kMovedWorlds = 1'000'000'000;
 inline constexpr std::uint64_t kDrivenHeaps = 2'000'000'000;
 /// And from here on of bodies that loads press together (loaded_worlds.h).
 inline constexpr std::uint64_t kLoadedWorlds = 3'000'000'000;
+/// And from here on of small bodies in coarse steps, or under a great weight (coarse_worlds.h).
+inline constexpr std::uint64_t kCoarseWorlds = 4'000'000'000;
 
 ExploredWorld randomWorld(std::uint64_t seed);
 

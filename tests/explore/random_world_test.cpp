@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "tests/explore/random_shapes.h"
 #include "tests/explore/scene_text.h"
 #include "tests/explore/trial/world_trial.h"
 
@@ -90,6 +91,36 @@ TEST(LoadedWorld, HasLoadsThatCancelOrNearlyDo) {
   }
   EXPECT_GT(floating, 50);
   EXPECT_GT(cancel, floating / 2);
+}
+
+TEST(CoarseWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kCoarseWorlds, 1);
+}
+
+// Half of them in long steps, half under a great weight; one body in six is hollow.
+TEST(CoarseWorld, HasLongStepsOrGreatWeightAndConcaveBodies) {
+  int long_steps = 0, bodies = 0, concave = 0;
+  for (std::uint64_t seed = kCoarseWorlds; seed < kCoarseWorlds + 300; ++seed) {
+    const demos::Scene scene = randomWorld(seed).scene;
+    const double g = scene.gravity.norm(), rate = scene.rate_hz;
+    const bool is_long = g < 10.0;
+    long_steps += is_long;
+    EXPECT_GE(rate, is_long ? 10.0 : 30.0) << seed;
+    EXPECT_LE(rate, is_long ? 30.0 : 240.0) << seed;
+    EXPECT_GE(g, is_long ? 9.81 : 29.0) << seed;
+    EXPECT_LE(g, 1000.0) << seed;
+    EXPECT_GE(stepsOf(scene), 10) << seed;
+    EXPECT_LE(stepsOf(scene), 40) << seed;
+    for (const demos::Body& body : scene.bodies) {
+      if (body.is_static) continue;
+      ++bodies;
+      const auto* hull = std::get_if<demos::HullShape>(&body.shape.form);
+      concave += hull != nullptr && !hull->as_hull;
+      EXPECT_LE(reachOf(body.shape), 0.3) << seed;
+    }
+  }
+  EXPECT_NEAR(long_steps, 150, 30);
+  EXPECT_NEAR(concave, bodies / 6, bodies / 15);
 }
 
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {

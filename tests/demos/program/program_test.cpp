@@ -133,9 +133,13 @@ TEST(Program, ASceneThatHoldsNoStepEndsWith3) {
                                       "\"name\": \"a\", \"shape\": "
                                       "{ \"box\": [1, 1, 1] } } ] }")
                                 .string();
-  const ProgramEnd end = runCarom({"simulate", scene});
-  EXPECT_EQ(end.code, 3);
-  expectOneLine(end, "short.json: the duration of 0.04 s holds no step at 10 a second");
+  for (const char* command : {"simulate", "check"}) {
+    const ProgramEnd end = runCarom({command, scene});
+    EXPECT_EQ(end.code, 3) << command;
+    EXPECT_EQ(end.out, "") << command;
+    expectOneLine(end, "short.json: the duration of 0.04 s holds no step at 10 a second");
+    EXPECT_EQ(runCarom({command, scene, "--set", "duration=0.05"}).code, 0) << command;
+  }
   EXPECT_EQ(runCarom({"simulate", scene, "--duration", "0.05"}).code, 0);
 }
 

@@ -79,6 +79,19 @@ TEST(SceneWorld, RefusesBodiesThatTouchAndHaveNoRoomToPart) {
             "deepest of 2 pairs; carom check lists them all); accepted: apart");
 }
 
+TEST(SceneWorld, RefusesASliderThatTouchesItsGuide) {
+  const std::string message = thrownMessage<InputError>([] {
+    worldOf(
+        "{ \"name\": \"guide\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "
+        "true },"
+        "{ \"name\": \"slider\", \"shape\": { \"sphere\": { \"radius\": 0.5 } }, \"position\": [1, -1, 0.5], "
+        "\"locked\": [\"y\", \"z\"] }");
+  });
+  EXPECT_EQ(message,
+            "s.json: \"guide\" and \"slider\" touch at the start and have no room to part along free axes at "
+            "(1, -1, 0); accepted: apart, or an axis not locked that parts them");
+}
+
 TEST(SceneWorld, AcceptsBodiesThatJustTouch) {
   const SceneWorld made = worldOf(
       "{ \"name\": \"floor\", \"shape\": { \"box\": [4, 4, 1] }, \"position\": [0, 0, -0.5], \"static\": "

@@ -21,9 +21,13 @@ double openedBy(const Opening& o, const std::vector<Vec3>& d) {
   return o.n_W.dot(moved(o.b) - moved(o.a));
 }
 
+std::vector<Vec3> allFree(int bodies) {
+  return std::vector<Vec3>(static_cast<std::size_t>(bodies), Vec3::Ones());
+}
+
 TEST(LeastDisplacements, TwoBodiesGiveWayByHalf) {
   const Vec3 n = Vec3(1, 2, 2) / 3.0;
-  const LeastDisplacements least = leastDisplacements(std::vector<Opening>{{0, 1, n, 0.3}}, 3);
+  const LeastDisplacements least = leastDisplacements(std::vector<Opening>{{0, 1, n, 0.3}}, allFree(3));
   EXPECT_LT((least.displacement_W[0] + 0.15 * n).norm(), 1e-7);
   EXPECT_LT((least.displacement_W[1] - 0.15 * n).norm(), 1e-7);
   EXPECT_EQ(least.displacement_W[2], Vec3::Zero());
@@ -32,7 +36,7 @@ TEST(LeastDisplacements, TwoBodiesGiveWayByHalf) {
 TEST(LeastDisplacements, ATowerOnWhatDoesNotGiveWay_IsLifted) {
   std::vector<Opening> openings;
   for (int i = 0; i < 50; ++i) openings.push_back({i - 1, i, Vec3::UnitZ(), 1.0});
-  const LeastDisplacements least = leastDisplacements(openings, 50);
+  const LeastDisplacements least = leastDisplacements(openings, allFree(50));
   EXPECT_LE(least.products, 2 * 50) << "conjugate gradients end after 50 of them, but for rounding";
   for (int i = 0; i < 50; ++i) {
     // Forces add up downwards to less than 50 * 51 / 2 openings each; the rows give way by 1e-7 of them.
@@ -53,7 +57,7 @@ TEST(LeastDisplacements, OfRandomOpenings_MeetTheConditionsOfTheMinimum) {
         const Vec3 between = places[static_cast<std::size_t>(j)] - places[static_cast<std::size_t>(i)];
         openings.push_back({i, j, between.normalized(), 1.0 - between.norm()});
       }
-    const LeastDisplacements least = leastDisplacements(openings, bodies);
+    const LeastDisplacements least = leastDisplacements(openings, allFree(bodies));
     double length = 0.0, share = 0.0;
     for (const Vec3& d : least.displacement_W) length += d.squaredNorm();
     for (const Opening& o : openings) {
@@ -83,16 +87,37 @@ TEST(LeastDisplacements, OfRandomOpenings_MeetTheConditionsOfTheMinimum) {
 }
 
 TEST(LeastDisplacements, AreNoneWhereNothingIsToOpen) {
-  const LeastDisplacements least =
-      leastDisplacements(std::vector<Opening>{{0, 1, Vec3::UnitX(), -0.1}, {1, 2, Vec3::UnitX(), 0.0}}, 3);
+  const LeastDisplacements least = leastDisplacements(
+      std::vector<Opening>{{0, 1, Vec3::UnitX(), -0.1}, {1, 2, Vec3::UnitX(), 0.0}}, allFree(3));
   for (const Vec3& d : least.displacement_W) EXPECT_EQ(d, Vec3::Zero());
   EXPECT_EQ(least.products, 0);
+}
+
+// The first may not be moved along x, the second only along x.
+TEST(LeastDisplacements, AreAlongFreeAxesOnly) {
+  const Vec3 n = Vec3(3, 4, 0) / 5.0;
+  const std::vector<Opening> opening{{0, 1, n, 0.5}};
+  const LeastDisplacements least =
+      leastDisplacements(opening, std::vector<Vec3>{Vec3(0, 1, 1), Vec3(1, 0, 0)});
+  // One force f pushes both along what is free of n: f (0.8^2 + 0.6^2) = 0.5.
+  EXPECT_EQ(least.displacement_W[0].x(), 0.0);
+  EXPECT_NEAR(least.displacement_W[0].y(), -0.4, 1e-6);
+  EXPECT_NEAR(least.displacement_W[1].x(), 0.3, 1e-6);
+  EXPECT_EQ(least.displacement_W[1].y(), 0.0);
+  EXPECT_LT(std::abs(least.missing_m[0]), 1e-6);
+}
+
+TEST(LeastDisplacements, WhereNoFreeAxisOpens_AllOfItIsMissing) {
+  const std::vector<Opening> opening{{-1, 0, Vec3::UnitZ(), 0.5}};
+  const LeastDisplacements least = leastDisplacements(opening, std::vector<Vec3>{Vec3(1, 1, 0)});
+  EXPECT_EQ(least.displacement_W[0], Vec3::Zero());
+  EXPECT_NEAR(least.missing_m[0], 0.5, 1e-9);
 }
 
 TEST(LeastDisplacements, OpeningsThatContradictEachOther_MissInEqualParts) {
   const std::vector<Opening> slot{
       {-1, 0, Vec3::UnitX(), 1.0}, {0, 1, Vec3::UnitX(), 1.0}, {1, -1, Vec3::UnitX(), 0.5}};
-  const LeastDisplacements least = leastDisplacements(slot, 2);
+  const LeastDisplacements least = leastDisplacements(slot, allFree(2));
   for (const double missing : least.missing_m) EXPECT_NEAR(missing, 2.5 / 3.0, 1e-5);
   EXPECT_NEAR(least.displacement_W[0].x(), 1.0 - 2.5 / 3.0, 1e-5);
 }
@@ -109,7 +134,7 @@ TEST(LeastDisplacements, OneBodyAmongManyThatDoNotGiveWay_MovesOutBetweenThem) {
     const Vec3 other = random.direction();
     openings.push_back({-1, 0, other, 0.3 * other.z() - random.uniform(0.01, 0.2)});
   }
-  const LeastDisplacements least = leastDisplacements(openings, 1);
+  const LeastDisplacements least = leastDisplacements(openings, allFree(1));
   EXPECT_LT((least.displacement_W[0] - Vec3(0, 0, 0.3)).norm(), 1e-6);
   EXPECT_LT(least.products, 500);
 }
@@ -125,7 +150,7 @@ TEST(LeastDisplacements, AmongPlanesMostOfWhichLetGo_TakeFewerThanTwoProductsEac
     const Vec3 n(std::sin(0.8) * std::cos(around), std::sin(0.8) * std::sin(around), std::cos(0.8));
     openings.push_back({-1, 0, n, 0.3 * n.z() - random.uniform(0.0, 0.01)});
   }
-  const LeastDisplacements least = leastDisplacements(openings, 1);
+  const LeastDisplacements least = leastDisplacements(openings, allFree(1));
   EXPECT_LT(least.products, 2 * kPlanes);
   int pressing = 0;
   for (const Opening& o : openings) {

@@ -334,6 +334,120 @@ TEST(StartOfTouchingBodies, AWallOf610BricksStartsQuietly) {
   for (const BodyState& state : world.states()) EXPECT_LT(state.linear_velocity.norm(), 1e-3);
 }
 
+/// A body that may not move along the axes of which `free_axes` has 0.
+struct OnRails {
+  Vec3 position;
+  Vec3 free_axes;
+  Vec3 size = Vec3(1, 1, 1);
+};
+
+class StartOnRails : public testing::Test {
+ protected:
+  void add(const OnRails& body, bool is_static = false) {
+    BodyDescription d;
+    d.solid = world_.addSolid(Solid::box(body.size));
+    d.X_WB.position = body.position;
+    d.locks.free_axes = body.free_axes;
+    d.is_static = is_static;
+    world_.addBody(d);
+  }
+  void addGuide(const Vec3& size, const Vec3& position) { add({position, Vec3::Ones(), size}, true); }
+  Vec3 moved(std::size_t body) const {
+    return world_.states()[body].X_WB.position - world_.bodies()[body].X_WB.position;
+  }
+  World world_{WorldSettings{}};
+};
+
+TEST_F(StartOnRails, OfATouchingPairOnlyTheFreeBodyGivesWay) {
+  add({Vec3(0, 0, 0), Vec3(0, 1, 1)});
+  add({Vec3(1, 0, 0), Vec3::Ones()});
+  ASSERT_TRUE(world_.start().empty());
+  EXPECT_EQ(moved(0), Vec3::Zero());
+  EXPECT_NEAR(moved(1).x(), 1e-3, 1e-8);
+  EXPECT_GT(oracle::smallestGap(world_).gap_m, kNearlyRest);
+}
+
+TEST_F(StartOnRails, ABallOnASlopeIsPushedAlongItsRailAlone) {
+  // It goes along x, farther than it would if it were free.
+  const Quat slope = oracle::turned(Vec3::UnitY(), -0.5);
+  BodyDescription wedge;
+  wedge.solid = world_.addSolid(Solid::box({4, 4, 1}));
+  wedge.X_WB = {slope, Vec3::Zero()};
+  wedge.is_static = true;
+  world_.addBody(wedge);
+  BodyDescription ball;
+  ball.solid = world_.addSolid(Solid::ball(0.5));
+  const Vec3 normal = slope * Vec3::UnitZ();
+  ball.X_WB.position = 1.0 * normal;
+  ball.locks.free_axes = Vec3(1, 0, 0);
+  world_.addBody(ball);
+  ASSERT_TRUE(world_.start().empty());
+  EXPECT_NEAR(moved(1).x(), 1e-3 / normal.x(), 1e-6);
+  EXPECT_EQ(moved(1).tail<2>(), Eigen::Vector2d::Zero());
+}
+
+TEST_F(StartOnRails, ThroughALockedBodyNothingIsPassedOn) {
+  add({Vec3(0, 0, 0), Vec3::Ones()});
+  add({Vec3(1, 0, 0), Vec3(0, 1, 1)});
+  add({Vec3(2, 0, 0), Vec3::Ones()});
+  ASSERT_TRUE(world_.start().empty());
+  EXPECT_NEAR(moved(0).x(), -1e-3, 1e-8);
+  EXPECT_EQ(moved(1), Vec3::Zero());
+  EXPECT_NEAR(moved(2).x(), 1e-3, 1e-8);
+}
+
+TEST_F(StartOnRails, ASliderThatTouchesItsGuideIsNamedWithIt) {
+  addGuide({4, 4, 1}, Vec3(0, 0, -0.5));
+  add({Vec3(0.5, 0, 0.5), Vec3(1, 0, 0)});
+  const std::vector<Overlap> touching = world_.start();
+  ASSERT_EQ(touching.size(), 1u);
+  EXPECT_EQ(touching[0].body_a + touching[0].body_b, 1);
+  EXPECT_EQ(touching[0].depth_m, 0.0);
+  EXPECT_NEAR(touching[0].p_W.z(), 0.0, 1e-12);
+  EXPECT_EQ(moved(1), Vec3::Zero());
+}
+
+// A way along which it would be parted by a hundredth of that is none.
+TEST_F(StartOnRails, ASliderIsNotShiftedFarAlongAGuideThatIsHardlyTilted) {
+  BodyDescription guide;
+  guide.solid = world_.addSolid(Solid::box({4, 4, 1}));
+  guide.X_WB.rotation = oracle::turned(Vec3::UnitY(), 0.01);
+  guide.is_static = true;
+  world_.addBody(guide);
+  BodyDescription ball;
+  ball.solid = world_.addSolid(Solid::ball(0.5));
+  ball.X_WB.position = guide.X_WB.rotation * Vec3(0, 0, 1);
+  ball.locks.free_axes = Vec3(1, 0, 0);
+  world_.addBody(ball);
+  EXPECT_EQ(world_.start().size(), 1u);
+  EXPECT_EQ(moved(1), Vec3::Zero());
+}
+
+TEST_F(StartOnRails, ASliderAHairOffItsGuideKeepsThatGapAndSlides) {
+  for (const double gap_m : {1e-4, 1e-6, 1e-8}) {
+    SCOPED_TRACE(gap_m);
+    world_ = World{WorldSettings{}};
+    addGuide({40, 4, 1}, Vec3(0, 0, -0.5));
+    BodyDescription slider;
+    slider.solid = world_.addSolid(Solid::box({1, 1, 1}));
+    slider.X_WB.position = Vec3(0, 0, 0.5 + gap_m);
+    slider.locks.free_axes = Vec3(1, 0, 0);
+    slider.locks.turning = AxisLocks::Turning::kLocked;
+    slider.linear_velocity = Vec3(1, 0, 0);
+    world_.addBody(slider);
+    add({Vec3(-1.5, 0, 0.5), Vec3::Ones()});
+    ASSERT_TRUE(world_.start().empty());
+    EXPECT_EQ(moved(1), Vec3::Zero());
+    EXPECT_NEAR(moved(2).z(), 1e-3, 1e-8) << "others have their gaps as ever";
+    for (int i = 0; i < 60; ++i) {
+      world_.step();
+      ASSERT_GT(world_.audit().smallest_gap_m, 0.0) << i;
+    }
+    EXPECT_EQ(moved(1).z(), 0.0);
+    EXPECT_GT(moved(1).x(), 0.0);
+  }
+}
+
 TEST_F(Start, IsNeededBeforeTheFirstStepAndOnlyOnce) {
   box({1, 1, 1}, Vec3::Zero());
   EXPECT_THROW(world_.step(), ContractViolation);

@@ -1,10 +1,7 @@
 #pragma once
 // Oracle: a kinematic body at constant velocity is where that takes it, unless it was stopped and is late; a
-// body with locked axes neither moves nor turns about them. Tested in
-// tests/explore/watch/moved_watch_test.cpp.
-
-#include <algorithm>
-#include <vector>
+// body with locked axes neither moves along nor turns about them, from the pose that its description gives
+// it: the start may not move it there either. Tested in tests/explore/watch/moved_watch_test.cpp.
 
 #include "engine/simulation/world.h"
 #include "tests/explore/finding.h"
@@ -13,8 +10,7 @@ namespace carom::explore {
 
 class MovedWatch {
  public:
-  explicit MovedWatch(const World& world)
-      : world_(world), start_(world.states().begin(), world.states().end()) {}
+  explicit MovedWatch(const World& world) : world_(world) {}
 
   /// `late_s` is the most that any kinematic body has been stopped for.
   void look(std::span<const BodyState> states, double late_s, int step, Findings& findings) const {
@@ -22,16 +18,16 @@ class MovedWatch {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const BodyDescription& body = world_.bodies()[i];
       if (body.is_kinematic && body.keyframes.empty() && late_s == 0.0) {
-        const Vec3 expected = start_[i].X_WB.position + time_s * body.linear_velocity;
+        const Vec3 expected = body.X_WB.position + time_s * body.linear_velocity;
         report("path", (states[i].X_WB.position - expected).norm(), expected.norm() + radius(i), step,
                findings);
       }
       if (!body.locks.any()) continue;
-      const Vec3 moved = states[i].X_WB.position - start_[i].X_WB.position;
-      report("locked", (moved - body.locks.movingPart(moved)).norm(),
-             start_[i].X_WB.position.norm() + radius(i), step, findings);
+      const Vec3 moved = states[i].X_WB.position - body.X_WB.position;
+      report("locked", (moved - body.locks.movingPart(moved)).norm(), body.X_WB.position.norm() + radius(i),
+             step, findings);
       if (body.locks.turning == AxisLocks::Turning::kFree) continue;
-      const Quat turned = states[i].X_WB.rotation * start_[i].X_WB.rotation.conjugate();
+      const Quat turned = states[i].X_WB.rotation * body.X_WB.rotation.conjugate();
       report("locked", (turned.vec() - body.locks.turningPart(turned.vec())).norm(), 1.0, step, findings);
     }
   }
@@ -48,7 +44,6 @@ class MovedWatch {
   }
 
   const World& world_;
-  std::vector<BodyState> start_;
 };
 
 }  // namespace carom::explore
