@@ -3,9 +3,9 @@
 
 #include <iostream>
 
-#include "demos/command/stepless_scene.h"
 #include "demos/asset/asset_path.h"
 #include "demos/asset/mesh_solid.h"
+#include "demos/command/stepless_scene.h"
 #include "demos/format/content_hash.h"
 #include "demos/language/scene_file.h"
 #include "demos/scene/scene_world.h"

@@ -191,11 +191,8 @@ void World::Impl::keepLastPieces() {
 
 // The state at the step's end, and the closest features there.
 void World::Impl::finishStep(PhaseClock* clock) {
-  for (const int i : active.list()) {
-    const double by_load_J = planner.workOfLoad(i, bodies[at(i)], substep.step_s);
-    counters.work_J += by_load_J;
-    bodies[at(i)].load_work_J += by_load_J;
-  }
+  for (const int i : active.list())
+    counters.work_J += planner.countWorkOfLoad(i, bodies[at(i)], substep.step_s);
   for (const LastingContacts::PairRows& of_pair : contacts.pair_rows) {
     const ShapePair& pair = table.pairs()[at(of_pair.pair)];
     event_memory.lifts.join(pair.body_a, pair.body_b, bodies);

@@ -47,9 +47,7 @@ class WorldMaker {
     world_.family = chosen->name;
     (this->*chosen->fill)();
     if (steps_ == 0) steps_ = random_.integer(40, 120);
-    world_.scene.duration_s = steps_ / world_.scene.rate_hz;
-    world_.scene.description = "explorer: " + world_.family;
-    return world_;
+    return world_.lasting(steps_);
   }
 
  private:

@@ -13,6 +13,13 @@ namespace carom::explore {
 struct ExploredWorld {
   std::string family;
   demos::Scene scene;  ///< Its duration is that of the run.
+
+  /// Told how long it goes on, at the rate that it has, and what it is.
+  ExploredWorld& lasting(int steps) {
+    scene.duration_s = steps / scene.rate_hz;
+    scene.description = "explorer: " + family;
+    return *this;
+  }
 };
 
 /// Seeds from here on make worlds of moved, locked and concave bodies (moved_worlds.h).

@@ -237,6 +237,12 @@ double FlightPlanner::workOfLoad(int index, const Body& body, double end_s) cons
   return dot(mean.force_W, way) + dot(mean.torque_W, turnedBy(body, step_s_, end_s));
 }
 
+double FlightPlanner::countWorkOfLoad(int index, Body& body, double end_s) const {
+  const double work_J = workOfLoad(index, body, end_s);
+  body.load_work_J += work_J;
+  return work_J;
+}
+
 bool FlightPlanner::restless(const Body& body) const {
   return std::any_of(environment_.fluids.begin(), environment_.fluids.end(), [&](const Fluid& fluid) {
     return !fluid.waves.empty() && reaches(fluid, body.X_WB.position, body.radius_m);

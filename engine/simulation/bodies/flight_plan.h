@@ -59,8 +59,8 @@ class FlightPlanner {
   /// What it takes energy to lead the body against, m/s^2: gravity, and its load as it is turned when the
   /// step begins, as far as it is free to follow them.
   Vec3 pull(int index, const Body& body) const;
-  /// What its load does to a body on its path up to `end_s`, J.
-  double workOfLoad(int index, const Body& body, double end_s) const;
+  /// What its load does to a body on its path up to `end_s`, J: also added to what it has done (load_work_J).
+  double countWorkOfLoad(int index, Body& body, double end_s) const;
   const AppliedLoad& load(int index) const { return loads_[static_cast<std::size_t>(index)]; }
   double step_s() const { return step_s_; }
   /// Whether gravity alone pushes the body.
@@ -74,6 +74,7 @@ class FlightPlanner {
 
  private:
   void planPath(int index, Body& body) const;
+  double workOfLoad(int index, const Body& body, double end_s) const;
   bool isTouched(int index, const Body& body, double rest_of_step_s) const;
   Vec3 accelerationBy(const Vec3& force_W, const Body& body) const;
   Vec3 parabolaOf(int index, const Body& body) const;

@@ -14,6 +14,8 @@
 
 namespace carom {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// What pairs of bodies, and of their shapes, meet by.
 struct MeetingTerms {
   CollisionWindow window;
@@ -41,13 +43,13 @@ struct ApartPieces {
 struct ListedFor {
   RelativePose since;
   RelativeMotion motion;
-  double gap_m = -std::numeric_limits<double>::infinity();
+  double gap_m = -kInfinity;
 };
 
 /// How near what is listed and apart was when the bodies lay so, m, at least.
 struct RoomLeft {
   RelativePose since;
-  double gap_m = -std::numeric_limits<double>::infinity();
+  double gap_m = -kInfinity;
 };
 
 /// Keeps its place in the table as long as the bodies are paired.
@@ -60,10 +62,9 @@ struct BodyPair : MeetingTerms {
   double margin_m = 0.0;    ///< How much more than contacts need is looked at.
   ListedFor listed;
   RoomLeft room;
-  double resting_gap_m =
-      std::numeric_limits<double>::infinity();  ///< Of what is apart, while it is not active.
-  std::vector<ApartPieces> apart;               ///< Ascending by shapes.
-  std::vector<int> near;                        ///< Places of the others.
+  double resting_gap_m = kInfinity;  ///< Of what is apart, while it is not active.
+  std::vector<ApartPieces> apart;    ///< Ascending by shapes.
+  std::vector<int> near;             ///< Places of the others.
 
   bool isFree() const { return body_a < 0; }
   std::size_t candidates() const { return apart.size() + near.size(); }

@@ -7,7 +7,7 @@
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/ordered_pass.h"
 #include "engine/simulation/contacts/carried_path.h"
-#include "engine/simulation/contacts/path_change.h"
+#include "engine/simulation/bodies/path_change.h"
 
 namespace carom {
 namespace {

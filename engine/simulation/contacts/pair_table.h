@@ -184,6 +184,8 @@ class PairTable {
   void restPairs(const PairedWorld& world);
   void takeInExtended(const std::vector<Body>& bodies);
 
+  static ClosestFeatures closestNow(const IndexPair& of, FeaturePair& tracked,
+                                    const std::vector<Body>& bodies, const std::vector<Shape>& shapes);
   RelativeMotion motionOf(const BodyPair& pair, const RelativePose& since) const;
   bool staysListed(const BodyPair& pair, double height_m) const;
   bool keepsRoom(const BodyPair& pair, double height_m) const;

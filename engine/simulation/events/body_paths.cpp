@@ -12,9 +12,7 @@ namespace carom {
 void BodyPaths::bring(int index, double time_s) {
   Body& body = bodies_[at(index)];
   if (body.path.start_s == time_s) return;
-  const double work_J = planner_.workOfLoad(index, body, time_s);
-  counters_.work_J += work_J;
-  body.load_work_J += work_J;
+  counters_.work_J += planner_.countWorkOfLoad(index, body, time_s);
   if (ended_ != nullptr) ended_->add(at(index), body, time_s);
   const Pose X_WB = body.path.at(time_s);
   const Velocity momentum_velocity = body.velocityAt(time_s, X_WB.rotation);

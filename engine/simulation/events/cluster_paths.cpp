@@ -2,7 +2,7 @@
 
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/principal_pivoting.h"
-#include "engine/simulation/contacts/path_change.h"
+#include "engine/simulation/bodies/path_change.h"
 #include "engine/simulation/events/contact_cluster.h"
 
 namespace carom {

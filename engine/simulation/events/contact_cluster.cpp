@@ -10,7 +10,7 @@
 #include "engine/response/sweeps/no_room.h"
 #include "engine/response/sweeps/principal_pivoting.h"
 #include "engine/simulation/contacts/internal_edges.h"
-#include "engine/simulation/contacts/path_change.h"
+#include "engine/simulation/bodies/path_change.h"
 
 namespace carom {
 namespace {

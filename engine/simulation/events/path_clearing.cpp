@@ -8,7 +8,7 @@
 #include "engine/foundation/tolerances.h"
 #include "engine/response/one_point/impulse.h"
 #include "engine/response/sweeps/principal_pivoting.h"
-#include "engine/simulation/contacts/path_change.h"
+#include "engine/simulation/bodies/path_change.h"
 
 namespace carom {
 namespace {

@@ -34,9 +34,7 @@ class CoarseMaker {
     else
       addScattered(count);
     if (oneIn(random_, 2)) hurlAll();
-    world_.scene.duration_s = length_s();
-    world_.scene.description = "explorer: " + world_.family;
-    return world_;
+    return world_.lasting(steps_);
   }
 
  private:

@@ -34,9 +34,7 @@ class HeapMaker {
     if (family == 0) press();
     if (family == 1) mix();
     if (family == 2) guide();
-    world_.scene.duration_s = steps_ / world_.scene.rate_hz;
-    world_.scene.description = "explorer: " + world_.family;
-    return world_;
+    return world_.lasting(steps_);
   }
 
  private:

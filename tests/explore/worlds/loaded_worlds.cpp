@@ -30,9 +30,7 @@ class LoadedMaker {
     if (surroundings == 0) lieOnAFloor();
     if (surroundings > 0) floatAbout();
     if (surroundings == 1) hover();
-    world_.scene.duration_s = length_s();
-    world_.scene.description = "explorer: " + world_.family;
-    return world_;
+    return world_.lasting(steps_);
   }
 
  private:

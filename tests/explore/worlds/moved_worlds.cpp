@@ -28,9 +28,7 @@ class MovedMaker {
     if (family == 0) fillMoved();
     if (family == 1) fillLocked();
     if (family == 2) fillConcave();
-    world_.scene.duration_s = steps_ / world_.scene.rate_hz;
-    world_.scene.description = "explorer: " + world_.family;
-    return world_;
+    return world_.lasting(steps_);
   }
 
  private:

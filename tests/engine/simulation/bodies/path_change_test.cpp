@@ -1,6 +1,6 @@
 // What counts as a path that solvers may lead a body along: against energies worked out by hand.
 
-#include "engine/simulation/contacts/path_change.h"
+#include "engine/simulation/bodies/path_change.h"
 
 #include <gtest/gtest.h>
 

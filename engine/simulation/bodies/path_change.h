@@ -1,7 +1,7 @@
 #pragma once
 // How far solvers may lead paths from where momenta would take them. What is wedged between others parts from
 // both when it is shot out sideways, at any speed; but standing still would have been nearer. Internal to the
-// simulation floor. Tested in tests/engine/simulation/contacts/path_change_test.cpp and by
+// simulation floor. Tested in tests/engine/simulation/bodies/path_change_test.cpp and by
 // tests/explore/cases (wedged-stack, raised-for-turning).
 
 #include <span>
