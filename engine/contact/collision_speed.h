@@ -39,7 +39,7 @@ inline double collisionSpeed(const Approach& approach) {
   if (e == 0.0) return given(gravity);
   if (approach.both_fall) return std::max(kFallingShare * (1.0 - e) * given(gravity), given(kLeastGravity));
   const double step_speed = gravity * step_s;
-  const double share = std::min((1.0 - e) / (1.0 - tolerance::kLively), 1.0);
+  const double share = std::min((1.0 - e) / (1.0 - tolerance::kNearlyElastic), 1.0);
   const double noticed = std::min(share * given(gravity), kNoticedBounce * step_speed / (2.0 * e));
   return std::max({noticed, kShortestBounce * step_speed, given(kLeastGravity)});
 }

@@ -90,9 +90,9 @@ inline constexpr int kPairEvents = 8;
 /// Events of a body up to which they are solved with all that the pair presses; then the body is frozen.
 inline constexpr int kEventsPerBody = 24;
 /// The restitution from which on events die out slowly.
-inline constexpr double kLively = 0.75;
+inline constexpr double kNearlyElastic = 0.75;
 /// How many times as many events a body has at that restitution.
-inline constexpr int kLivelyShare = 6;
+inline constexpr int kNearlyElasticShare = 6;
 /// Visits of contact rows for every body of the world; then impulses spread no further.
 inline constexpr long kVisitsPerBody = 8000;
 /// Poses that the searches for times of impact evaluate for every body of the world, a second's work for a

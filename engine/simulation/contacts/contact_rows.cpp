@@ -10,9 +10,9 @@
 namespace carom {
 namespace {
 
-constexpr double kTurningShare = 0.2;  // of the rest gap: an approach by turning that nobody notices
-constexpr double kLivelyGap = 0.4;     // of the rest gap: lively bodies lie still from here upwards
-constexpr double kTurningGap = 0.5;    // of the rest gap: ending with less asks for more
+constexpr double kTurningShare = 0.2;      // of the rest gap: an approach by turning that nobody notices
+constexpr double kTurningGap = 0.5;        // of the rest gap: ending with less asks for more
+constexpr double kNearlyElasticGap = 0.4;  // of the rest gap: the nearly elastic lie still from here upwards
 
 // Where across the gap a pair's rows have their points, -1 on A's surface to 1 on B's. One point for both, so
 // that an impulse turns them by opposite moments. What is round rolls by its radius: the point is on its
@@ -170,7 +170,8 @@ GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool press
     const double closing = (window.rest + band - gap_m) / dt_s;
     return {(presses ? tolerance::kGapGain : 1.0) * closing, closing};
   }
-  const double lowest = pair.restitution > tolerance::kLively ? kLivelyGap * window.rest : window.rest - band;
+  const double lowest =
+      pair.restitution > tolerance::kNearlyElastic ? kNearlyElasticGap * window.rest : window.rest - band;
   const double missing = lowest - gap_m;
   if (missing <= 0.0) return {};
   return {0.0, std::min(missing / dt_s, tolerance::kGapSpeed)};

@@ -360,7 +360,7 @@ class EventLoop {
   }
 
   static int shareOf(const ShapePair& pair) {
-    return pair.restitution > tolerance::kLively ? tolerance::kLivelyShare : 1;
+    return pair.restitution > tolerance::kNearlyElastic ? tolerance::kNearlyElasticShare : 1;
   }
 
   // The collision of the event that the cluster has been given.
