@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "engine/foundation/index.h"
+#include "engine/response/sweeps/shared_sweeps.h"
 
 namespace carom {
 namespace {
@@ -12,20 +13,17 @@ namespace {
 constexpr int kRoundsOfABody = 8;  // over the rows of one body, at most
 constexpr double kSettled = 1e-3;  // of what the first round changed: a round that changes less is the last
 
-// The end of a row that gives way to the other.
-struct UpperEnd {
-  double height = 0.0;
-  int body = -1;
-  std::size_t row = 0;
-  auto operator<=>(const UpperEnd&) const = default;
-};
+double heightOf(const ImpulseBody& body, const Vec3& up) {
+  return dot(up, body.center);
+}
 
+// The end of a row that gives way to the other: of two that move, the higher one.
 int upperBody(const ContactRow& row, std::span<const ImpulseBody> bodies, const Vec3& up) {
   const ImpulseBody& a = bodies[at(row.a)];
   const ImpulseBody& b = bodies[at(row.b)];
   if (b.inverse_mass == 0.0) return row.a;
   if (a.inverse_mass == 0.0) return row.b;
-  return dot(up, b.center - a.center) >= 0.0 ? row.b : row.a;
+  return std::pair(heightOf(b, up), row.b) > std::pair(heightOf(a, up), row.a) ? row.b : row.a;
 }
 
 // What one body, which alone moves, has of a row.
@@ -73,27 +71,97 @@ void settle(std::span<Bound> bounds, ImpulseBody& body) {
 
 }  // namespace
 
-void passUpwards(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies, const Vec3& up) {
-  if (up.isZero(0.0)) return;
-  std::vector<UpperEnd> ends;
-  ends.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int body = upperBody(rows[i], bodies, up);
-    if (bodies[at(body)].inverse_mass > 0.0) ends.push_back({dot(up, bodies[at(body)].center), body, i});
-  }
-  std::sort(ends.begin(), ends.end());
-  std::vector<Bound> bounds;
-  for (std::size_t first = 0, end = 0; first < ends.size(); first = end) {
-    const int body = ends[first].body;
-    bounds.clear();
-    for (; end < ends.size() && ends[end].body == body; ++end) {
-      const ContactRow& row = rows[ends[end].row];
-      const bool is_b = row.b == body;
-      const Vec3 other =
-          is_b ? bodies[at(row.a)].velocity.at(row.r_a) : bodies[at(row.b)].velocity.at(row.r_b);
-      bounds.push_back({&row, is_b, other});
+// The bodies that rows bear, from below, and the rows of each in their order.
+void UpwardPass::placeRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
+                           const Vec3& up, Scratch& scratch) {
+  for (const ContactRow& row : rows) scratch.place[at(row.a)] = scratch.place[at(row.b)] = -1;
+  upper_.clear();
+  for (const ContactRow& row : rows) {
+    const int body = upperBody(row, bodies, up);
+    upper_.push_back(bodies[at(body)].inverse_mass > 0.0 ? body : -1);
+    if (upper_.back() < 0) continue;
+    int& place = scratch.place[at(body)];
+    if (place < 0) {
+      place = static_cast<int>(borne_.size());
+      borne_.push_back({.body = body});
     }
-    settle(bounds, bodies[at(body)]);
+    ++borne_[at(place)].end;
+  }
+  std::sort(borne_.begin(), borne_.end(), [&](const Borne& x, const Borne& y) {
+    return std::pair(heightOf(bodies[at(x.body)], up), x.body) <
+           std::pair(heightOf(bodies[at(y.body)], up), y.body);
+  });
+  std::size_t placed = 0;
+  for (std::size_t i = 0; i < borne_.size(); ++i) {
+    scratch.place[at(borne_[i].body)] = static_cast<int>(i);
+    const std::size_t count = std::exchange(borne_[i].end, placed);
+    borne_[i].begin = placed;
+    placed += count;
+  }
+  rows_.resize(placed);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (upper_[i] >= 0) rows_[borne_[at(scratch.place[at(upper_[i])])].end++] = i;
+}
+
+void UpwardPass::findLevels(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
+                            Scratch& scratch) {
+  for (const ContactRow& row : rows) scratch.level[at(row.a)] = scratch.level[at(row.b)] = 0;
+  for (Borne& borne : borne_) {
+    for (std::size_t i = borne.begin; i < borne.end; ++i) {
+      const ContactRow& row = rows[rows_[i]];
+      const int below = row.a == borne.body ? row.b : row.a;
+      if (bodies[at(below)].inverse_mass > 0.0)
+        borne.level = std::max(borne.level, scratch.level[at(below)] + 1);
+    }
+    scratch.level[at(borne.body)] = borne.level;
+  }
+  std::stable_sort(borne_.begin(), borne_.end(),
+                   [](const Borne& x, const Borne& y) { return x.level < y.level; });
+  for (std::size_t i = 0; i < borne_.size(); ++i) {
+    if (i == 0 || borne_[i].level != borne_[i - 1].level) levels_.push_back({i, i, 0});
+    levels_.back().end = i + 1;
+    levels_.back().rows += borne_[i].end - borne_[i].begin;
+  }
+}
+
+void UpwardPass::order(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, const Vec3& up,
+                       Scratch& scratch) {
+  borne_.clear();
+  rows_.clear();
+  levels_.clear();
+  if (up.isZero(0.0)) return;
+  scratch.place.resize(bodies.size());
+  scratch.level.resize(bodies.size());
+  placeRows(rows, bodies, up, scratch);
+  findLevels(rows, bodies, scratch);
+}
+
+void UpwardPass::make(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew) const {
+  const auto settleSome = [&](std::span<const Borne> some, std::vector<Bound>& bounds) {
+    for (const Borne& borne : some) {
+      bounds.clear();
+      for (std::size_t i = borne.begin; i < borne.end; ++i) {
+        const ContactRow& row = rows[rows_[i]];
+        const bool is_b = row.b == borne.body;
+        const Vec3 other =
+            is_b ? bodies[at(row.a)].velocity.at(row.r_a) : bodies[at(row.b)].velocity.at(row.r_b);
+        bounds.push_back({&row, is_b, other});
+      }
+      settle(bounds, bodies[at(borne.body)]);
+    }
+  };
+  std::vector<Bound> of_caller;
+  for (const Level& level : levels_) {
+    const std::span<const Borne> some = std::span(borne_).subspan(level.begin, level.end - level.begin);
+    if (crew == nullptr || crew->threads() == 1 || level.rows < kWorthSharing) {
+      settleSome(some, of_caller);
+      continue;
+    }
+    const std::size_t few = std::max<std::size_t>(1, some.size() * (kWorthSharing / 2) / level.rows);
+    crew->runStretches(some.size(), few, [&](std::size_t begin, std::size_t end) {
+      std::vector<Bound> bounds;
+      settleSome(some.subspan(begin, end - begin), bounds);
+    });
   }
 }
 

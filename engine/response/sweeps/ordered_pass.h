@@ -1,19 +1,57 @@
 #pragma once
-// One pass over contact rows from the supports upwards. Every body is brought to the bounds of all its rows
+// A pass over contact rows from the supports upwards. Every body is brought to the bounds of all its rows
 // with bodies below it, which stay as they are: so a tower is opened from its foot to its top in one pass,
 // where sweeps that move both bodies of a row carry a correction up by one body each. What wedges bodies from
 // above as well stays unsolved. For velocities that are paths only: the impulses do not act back. Tested in
 // tests/engine/response/sweeps/ordered_pass_test.cpp.
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
 
-/// Raises the separating speeds of the rows to their `lowest_speed`, without friction, the rows' impulses
-/// being as they were. `up`: away from the supports, of any length; null: nothing is above anything else, and
-/// nothing is done.
-void passUpwards(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies, const Vec3& up);
+/// The order in which the bodies of some rows are brought to them. A body's level is above those of all that
+/// bear it, so that bodies of one level share no row and are worked on side by side; the bits are those of
+/// one thread.
+class UpwardPass {
+ public:
+  /// Of bodies, by index; kept for its room. What other rows left in it does not matter.
+  struct Scratch {
+    std::vector<int> place;  ///< Among the bodies of the rows.
+    std::vector<int> level;
+  };
+
+  /// `up`: away from the supports, of any length; null: nothing is above anything else, and no body is
+  /// brought to anything.
+  void order(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, const Vec3& up,
+             Scratch& scratch);
+  /// Raises the separating speeds of these rows to their `lowest_speed`, without friction, the rows' impulses
+  /// being as they were. Without a crew the caller works alone.
+  void make(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew) const;
+
+ private:
+  struct Borne {  // a body that rows bear
+    int body = -1;
+    int level = 0;
+    std::size_t begin = 0;  // of its rows
+    std::size_t end = 0;
+  };
+  struct Level {
+    std::size_t begin = 0;  // of its bodies
+    std::size_t end = 0;
+    std::size_t rows = 0;
+  };
+  void placeRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, const Vec3& up,
+                 Scratch& scratch);
+  void findLevels(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, Scratch& scratch);
+
+  std::vector<Borne> borne_;       // by level, then from below
+  std::vector<std::size_t> rows_;  // indices, those of a body together
+  std::vector<Level> levels_;
+  std::vector<int> upper_;  // scratch: of each row the body that it bears
+};
 
 }  // namespace carom

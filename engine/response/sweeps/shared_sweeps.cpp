@@ -5,12 +5,6 @@
 #include "engine/response/sweeps/dissection.h"
 
 namespace carom {
-namespace {
-
-// Rows of a tier, of which a visit takes some 30 ns: below, waiting for others takes longer than they save.
-constexpr std::size_t kWorthSharing = 500;
-
-}  // namespace
 
 SharedSweeps::SharedSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
     : rows_(rows), bodies_(bodies), crew_(crew) {

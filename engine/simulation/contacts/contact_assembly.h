@@ -9,6 +9,7 @@
 
 #include "engine/contact/time_of_impact.h"
 #include "engine/modes/islands.h"
+#include "engine/response/sweeps/ordered_pass.h"
 #include "engine/simulation/bodies/active_bodies.h"
 #include "engine/simulation/bodies/half_turn.h"
 #include "engine/simulation/contacts/carried_path.h"
@@ -60,8 +61,12 @@ struct ContactRoom {
   std::vector<Velocity> ways;      ///< Means of momenta, from which paths are led.
   std::vector<Velocity> led_from;  ///< Means of paths before they were raised for turning.
   std::vector<BodyMotion> motions;
-  std::vector<char> near;  ///< Whether a body is within reach of lasting contact.
+  std::vector<char> near;    ///< Whether a body is within reach of lasting contact.
+  std::vector<char> listed;  ///< All 0 but while bodies are listed.
   Islands joined;
+  std::vector<UpwardPass> upward;  ///< Of the islands whose paths have asked for it.
+  std::vector<char> is_ordered;    ///< Likewise.
+  UpwardPass::Scratch of_order;
 };
 
 /// The contact rows of a step with where they came from; kept for the modes, and their memory for the next
@@ -88,7 +93,7 @@ struct LastingContacts {
     return std::span(pair_rows).subspan(island.pair_begin, island.pair_end - island.pair_begin);
   }
   /// Of some islands, by index: all bodies that their rows have, ascending.
-  std::vector<int> bodiesOf(std::span<const std::size_t> some) const;
+  std::vector<int> bodiesOf(std::span<const std::size_t> some);
 
   std::vector<ContactRow> rows;
   std::vector<RowSource> sources;      ///< As long.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/ordered_pass.h"
@@ -40,6 +41,9 @@ class ContactPaths {
   }
 
   void set() {
+    contacts_.room.is_ordered.assign(contacts_.islands.size(), 0);
+    if (contacts_.room.upward.size() < contacts_.islands.size())
+      contacts_.room.upward.resize(contacts_.islands.size());
     beginAtMeans();
     const double residual_mps = kPathGapShare * boundPaths() / step_s_;
     solve(islands_, residual_mps);
@@ -195,8 +199,16 @@ class ContactPaths {
     };
     const auto enough = [](std::size_t) { return kPathResidual; };
     counters_.row_visits += solveWithinBudget(contacts_, islands, enough, solveIsland);
-    for (const std::size_t island : coarse)
-      passUpwards(contacts_.rowsOf(contacts_.islands[island]), contacts_.paths, -world_.settings.gravity);
+    for (const std::size_t island : coarse) passUpwards(island);
+  }
+
+  // What lies on what does not change while paths are sought.
+  void passUpwards(std::size_t island) {
+    const std::span<ContactRow> rows = contacts_.rowsOf(contacts_.islands[island]);
+    ContactRoom& room = contacts_.room;
+    if (std::exchange(room.is_ordered[island], 1) == 0)
+      room.upward[island].order(rows, contacts_.paths, -world_.settings.gravity, room.of_order);
+    room.upward[island].make(rows, contacts_.paths, &world_.crew);
   }
 
   void carry() {

@@ -290,8 +290,8 @@ void PairTable::comeNear(int of_bodies, double time_s, const PairedWorld& world,
     list(pair, true, world, scratch_);
     counters.candidate_pairs += static_cast<int>(pair.candidates() - before);
     if (counters.candidate_pairs > static_cast<int>(kMostPairs)) throw TooManyPairs();
+    lookAt(pair, height, world);
   }
-  lookAt(pair, height, world);
   if (!pair.to_measure) return;
   for (std::size_t i = 0; i < pair.apart.size(); ++i) {
     ApartPieces& apart = pair.apart[i];
@@ -306,8 +306,8 @@ void PairTable::comeNear(int of_bodies, double time_s, const PairedWorld& world,
   measure(pair);
 }
 
-void PairTable::extend(std::span<const int> some, double time_s, const PairedWorld& world,
-                       StepCounters& counters) {
+// The pairs of these bodies, with what they have grown to, each once.
+void PairTable::growPairs(std::span<const int> some, double time_s, const PairedWorld& world) {
   ++extension_;
   extended_in_.resize(world.bodies.size());
   bounded_in_.resize(world.bodies.size());
@@ -315,6 +315,7 @@ void PairTable::extend(std::span<const int> some, double time_s, const PairedWor
     if (std::exchange(bounded_in_[at(body)], extension_) == extension_) return;
     path_bounds_[at(body)] = PathBound(world.bodies[at(body)].path, time_s, world.settings.step_s);
   };
+  grown_.clear();
   for (const int body : some) {
     extended_in_[at(body)] = extension_;
     const std::vector<int>& places = pairs_of_body_[at(body)];
@@ -327,9 +328,22 @@ void PairTable::extend(std::span<const int> some, double time_s, const PairedWor
       const int other = bodyPairAt(place).other(body);
       if (k >= added && extended_in_[at(other)] == extension_) continue;  // that was asked already
       boundPath(other);
-      comeNear(place, time_s, world, counters);
+      grown_.push_back(place);
     }
   }
+}
+
+void PairTable::extend(std::span<const int> some, double time_s, const PairedWorld& world,
+                       StepCounters& counters) {
+  growPairs(some, time_s, world);
+  world.crew.runStretches(grown_.size(), fewBodyPairs(), [&](std::size_t begin, std::size_t end) {
+    const std::span<const int> places = std::span<const int>(grown_).subspan(begin, end - begin);
+    visit(std::span(body_pairs_), places, [&](std::size_t, BodyPair& pair) {
+      const double height = pair.contactHeight(world.settings.step_s);
+      if (staysListed(pair, height)) lookAt(pair, height, world);
+    });
+  });
+  for (const int place : grown_) comeNear(place, time_s, world, counters);
 }
 
 void PairTable::activate(int body, const std::vector<Body>& bodies, const WorldSettings& settings) {

@@ -208,6 +208,7 @@ class PairTable {
   void remove(int place, const std::vector<Body>& bodies);
   bool meetsOthers(const BodyPair& pair, const PairedWorld& world) const;
   void pairGrown(int body, double time_s, const PairedWorld& world);
+  void growPairs(std::span<const int> some, double time_s, const PairedWorld& world);
   void comeNear(int of_bodies, double time_s, const PairedWorld& world, StepCounters& counters);
 
   std::vector<int> active_bodies_;
@@ -235,7 +236,7 @@ class PairTable {
   mutable std::optional<double> resting_gap_m_;  ///< The smallest of those that are not active, if known.
   double scale_ = 1.0;                           ///< By what all impulses have been multiplied.
   // Scratch.
-  std::vector<int> collected_, extended_bodies_, partners_, paired_, met_;
+  std::vector<int> collected_, extended_bodies_, partners_, paired_, met_, grown_;
   std::vector<Asked> asked_;
   std::vector<char> stays_apart_, meets_;
   ListScratch scratch_;

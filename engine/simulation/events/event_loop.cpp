@@ -38,6 +38,8 @@ struct Event {
   int pair = -1;                // none: a kinematic body comes to the next piece of its path, before all else
   int version = 0;
   int body = -1;
+
+  bool isCertain() const { return looked || pair < 0; }
 };
 
 struct Later {
@@ -119,21 +121,46 @@ class EventLoop {
   bool gatherInstant() {
     while (!events_.empty()) {
       const Event event = events_.top();
-      if (!instant_.empty() && event.time_s > instant_s_ + kInstant * settings_.step_s) break;
-      events_.pop();
-      if (event.pair >= 0 && !isCurrent(event)) continue;
-      if (event.looked || event.pair < 0) {
+      if (isAfterInstant(event)) break;
+      if (isOver(event)) {
+        events_.pop();
+      } else if (event.isCertain()) {
+        events_.pop();
         instant_s_ = instant_.empty() ? event.time_s : std::max(instant_s_, event.time_s);
         instant_.push(event);
-        continue;
+      } else {
+        lookAtNext();
       }
-      searches_.look(event.pair);
+    }
+    return !instant_.empty();
+  }
+
+  bool isAfterInstant(const Event& event) const {
+    return !instant_.empty() && event.time_s > instant_s_ + kInstant * settings_.step_s;
+  }
+  bool isOver(const Event& event) const { return event.pair >= 0 && !isCurrent(event); }
+
+  // The pairs that are to be looked at before what comes next for certain, side by side.
+  void lookAtNext() {
+    uncertain_.clear();
+    uncertain_pairs_.clear();
+    while (!events_.empty()) {
+      const Event event = events_.top();
+      const bool over = isOver(event);
+      if (!over && (event.isCertain() || isAfterInstant(event))) break;
+      events_.pop();
+      if (over) continue;
+      uncertain_.push_back(event);
+      uncertain_pairs_.push_back(event.pair);
+    }
+    searches_.look(uncertain_pairs_);
+    for (const Event& event : uncertain_) {
+      if (!isCurrent(event)) continue;
       if (searches_.isSpent())
         freezePair(event.pair, event.time_s);  // up to here all pairs are proven
       else
         await(event.pair);
     }
-    return !instant_.empty();
   }
 
   // What will not bounce and would come down within the step is held in time where it is many, round by
@@ -566,7 +593,9 @@ class EventLoop {
   EventQueue<Later> events_;
   EventQueue<Slower> instant_;  ///< Those of the present instant, which ends at ...
   double instant_s_ = 0.0;
-  std::vector<Event> alike_;  ///< Scratch.
+  // Scratch.
+  std::vector<Event> alike_, uncertain_;
+  std::vector<int> uncertain_pairs_;
 };
 
 }  // namespace

@@ -6,6 +6,16 @@
 #include "engine/simulation/events/path_clearing.h"
 
 namespace carom {
+namespace {
+
+// Looks that one thread makes: to wait for another takes as long as two or three.
+constexpr std::size_t kFewLooks = 16;
+
+SearchCost costOf(const TimeOfImpact& found) {
+  return {found.queries, found.states, found.newton_steps, found.work};
+}
+
+}  // namespace
 
 ImpactSearches::ImpactSearches(const LastingWorld& world, const ContactCluster& cluster,
                                StepCounters& counters, SearchMemory& memory)
@@ -16,6 +26,7 @@ ImpactSearches::ImpactSearches(const LastingWorld& world, const ContactCluster& 
       crew_(world.crew),
       cluster_(cluster),
       counters_(counters),
+      memory_(memory),
       predictions_(memory.predictions),
       struck_(memory.struck),
       most_work_(std::max(tolerance::kLeastSearchWork,
@@ -38,14 +49,8 @@ void ImpactSearches::lookAtAll() {
       carryOn(pairs[i]);
     }
   });
-  for (const int i : pairs) {
-    const Prediction& prediction = predictions_[at(i)];
-    if (!prediction.looked) continue;
-    counters_.distance_queries += prediction.found.queries;
-    counters_.states_walked += prediction.found.states;
-    counters_.newton_steps += prediction.found.newton_steps;
-    work_ += prediction.found.work;
-  }
+  for (const int i : pairs)
+    if (predictions_[at(i)].looked) count(costOf(predictions_[at(i)].found));
 }
 
 void ImpactSearches::begin(int index) {
@@ -56,26 +61,38 @@ void ImpactSearches::begin(int index) {
   if (mayMeet(pair)) beginAt(index, closestAt(index, beginOf(pair)));
 }
 
-void ImpactSearches::look(int index) {
-  const TimeOfImpact& found = predictions_[at(index)].found;
-  const int queries = found.queries;
-  const long states = found.states;
-  const int newton_steps = found.newton_steps;
-  const long work = found.work;
-  carryOn(index);
-  work_ += found.work - work;
-  counters_.distance_queries += found.queries - queries;
-  counters_.states_walked += found.states - states;
-  counters_.newton_steps += found.newton_steps - newton_steps;
+void ImpactSearches::look(std::span<const int> pairs) {
+  std::vector<SearchCost>& costs = memory_.costs;
+  costs.resize(pairs.size());
+  crew_.runStretches(pairs.size(), kFewLooks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) costs[k] = carryOn(pairs[k]);
+  });
+  for (const SearchCost& cost : costs) count(cost);
+}
+
+// Look by look, so that all have come as far where the step's work is spent.
+void ImpactSearches::carryToTheirEnds(std::span<const int> pairs) {
+  std::vector<int>& pending = memory_.pending;
+  pending.assign(pairs.begin(), pairs.end());
+  for (;;) {
+    std::erase_if(pending, [this](int i) {
+      return predictions_[at(i)].found.outcome != TimeOfImpact::Outcome::kPending;
+    });
+    if (pending.empty() || isSpent()) return;
+    look(pending);
+  }
 }
 
 std::vector<int> ImpactSearches::foreseeLandings() {
+  std::vector<int>& followed = memory_.followed;
   std::vector<int> landings;
-  for (const int i : table_.active()) {
+  followed.clear();
+  for (const int i : table_.active())
+    if (table_.pairs()[at(i)].restitution == 0.0 && predictions_[at(i)].searched) followed.push_back(i);
+  carryToTheirEnds(followed);
+  for (const int i : followed) {
     const ShapePair& pair = table_.pairs()[at(i)];
     const TimeOfImpact& found = predictions_[at(i)].found;
-    if (pair.restitution > 0.0 || !predictions_[at(i)].searched) continue;
-    while (found.outcome == TimeOfImpact::Outcome::kPending && !isSpent()) look(i);
     if (found.outcome == TimeOfImpact::Outcome::kClear || found.outcome == TimeOfImpact::Outcome::kPending ||
         isSlow(i))
       continue;
@@ -145,12 +162,21 @@ void ImpactSearches::beginAt(int index, const ClosestFeatures& at_begin) {
   prediction.looked = false;
 }
 
-void ImpactSearches::carryOn(int index) {
+SearchCost ImpactSearches::carryOn(int index) {
   Prediction& prediction = predictions_[at(index)];
   ShapePair& pair = table_.pairs()[at(index)];
+  const SearchCost before = costOf(prediction.found);
   lookFurther(movingPart(pair.shapes.a), movingPart(pair.shapes.b), prediction.search, prediction.found,
               pair.tracked);
   prediction.looked = true;
+  return costOf(prediction.found) - before;
+}
+
+void ImpactSearches::count(const SearchCost& cost) {
+  counters_.distance_queries += cost.queries;
+  counters_.states_walked += cost.states;
+  counters_.newton_steps += cost.newton_steps;
+  work_ += cost.work;
 }
 
 MovingPart ImpactSearches::movingPart(int shape) const {

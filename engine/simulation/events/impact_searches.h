@@ -4,6 +4,7 @@
 // the bodies a new path. Internal to the simulation floor. Tested through tests/engine/simulation/ and
 // tests/physics/piles/pile_test.cpp.
 
+#include <span>
 #include <vector>
 
 #include "engine/contact/time_of_impact.h"
@@ -23,11 +24,25 @@ struct Prediction {
   TimeOfImpact found;
 };
 
+/// What looks took.
+struct SearchCost {
+  int queries = 0;
+  long states = 0;
+  int newton_steps = 0;
+  long work = 0;
+  SearchCost operator-(const SearchCost& before) const {
+    return {queries - before.queries, states - before.states, newton_steps - before.newton_steps,
+            work - before.work};
+  }
+};
+
 /// Kept from step to step for its room, and through a step for what its substeps share.
 struct SearchMemory {
   std::vector<Prediction> predictions;  ///< By place of the pair.
   std::vector<int> struck;  ///< Pairs with impacts in the last step, whose count is to be forgotten.
-  long work = 0;            ///< Poses evaluated in this step, in all its substeps.
+  std::vector<int> followed, pending;  ///< Scratch: pairs whose searches are carried to their ends.
+  std::vector<SearchCost> costs;
+  long work = 0;  ///< Poses evaluated in this step, in all its substeps.
 };
 
 class ImpactSearches {
@@ -41,8 +56,8 @@ class ImpactSearches {
   void lookAtAll();
   /// The search of a pair whose bodies have new paths.
   void begin(int pair);
-  /// Carries the search of a pair on by one look.
-  void look(int pair);
+  /// Carries the searches of some pairs, no pair twice, on by one look each.
+  void look(std::span<const int> pairs);
   /// Pairs that will not bounce and would come down within the step, each with its landing.
   std::vector<int> foreseeLandings();
 
@@ -62,7 +77,9 @@ class ImpactSearches {
   bool mayMeet(const ShapePair& pair) const;
   double beginOf(const ShapePair& pair) const;
   void beginAt(int pair, const ClosestFeatures& at_begin);
-  void carryOn(int pair);
+  SearchCost carryOn(int pair);
+  void carryToTheirEnds(std::span<const int> pairs);
+  void count(const SearchCost& cost);
   MovingPart movingPart(int shape) const;
   ClosestFeatures closestAt(int pair, double time_s);
   double slowestImpact(int pair) const;
@@ -74,6 +91,7 @@ class ImpactSearches {
   Crew& crew_;
   const ContactCluster& cluster_;
   StepCounters& counters_;
+  SearchMemory& memory_;
   std::vector<Prediction>& predictions_;
   std::vector<int>& struck_;
   long most_work_ = 0;

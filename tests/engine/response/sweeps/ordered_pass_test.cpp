@@ -53,11 +53,18 @@ Tower randomTower(Random& random) {
   return tower;
 }
 
+void passUpwards(Tower& tower, const Vec3& up) {
+  UpwardPass pass;
+  UpwardPass::Scratch scratch;
+  pass.order(tower.rows, tower.bodies, up, scratch);
+  pass.make(tower.rows, tower.bodies, nullptr);
+}
+
 TEST(PassUpwards, OpensATowerInOnePass) {
   Random random(77);
   for (int i = 0; i < 50; ++i) {
     Tower tower = randomTower(random);
-    passUpwards(tower.rows, tower.bodies, Vec3(0.0, 0.0, 9.81));
+    passUpwards(tower, Vec3(0.0, 0.0, 9.81));
     for (const ContactRow& row : tower.rows) {
       EXPECT_GT(rowVelocity(row, tower.bodies).x(), row.lowest_speed - 2e-3);
       EXPECT_TRUE(row.impulse.isZero(0.0));
@@ -75,7 +82,7 @@ TEST(PassUpwards, LeavesWhatLockedAxesHold) {
   top.has_locks = true;
   const Velocity before = top.velocity;
   for (ContactRow& row : tower.rows) row.lowest_speed = 1.0;
-  passUpwards(tower.rows, tower.bodies, Vec3::UnitZ());
+  passUpwards(tower, Vec3::UnitZ());
   EXPECT_EQ(tower.bodies.back().velocity.linear, before.linear);
   EXPECT_EQ(tower.bodies.back().velocity.angular, before.angular);
 }
@@ -87,7 +94,7 @@ TEST(PassUpwards, LeavesWhatIsBelowAsItIs) {
   for (ContactRow& row : tower.rows)
     if (std::max(row.a, row.b) < kHeight)
       row.lowest_speed = -1.0;  // of all but the top: they ask for nothing
-  passUpwards(tower.rows, tower.bodies, Vec3::UnitZ());
+  passUpwards(tower, Vec3::UnitZ());
   for (std::size_t i = 0; i < kHeight; ++i) {
     EXPECT_EQ(tower.bodies[i].velocity.linear, before[i].velocity.linear);
     EXPECT_EQ(tower.bodies[i].velocity.angular, before[i].velocity.angular);
@@ -95,11 +102,46 @@ TEST(PassUpwards, LeavesWhatIsBelowAsItIs) {
   EXPECT_NE(tower.bodies.back().velocity.linear, before.back().velocity.linear);
 }
 
+// Towers side by side that bear each other across: of several threads, each body as by one.
+TEST(PassUpwards, HasTheBitsOfOneThread) {
+  Random random(80);
+  Tower towers;
+  for (int k = 0; k < 30; ++k) {
+    const Tower tower = randomTower(random);
+    const int shift = static_cast<int>(towers.bodies.size());
+    for (ImpulseBody body : tower.bodies) {
+      body.center += Vec3(2.0 * k, 0.0, random.uniform(-0.3, 0.3));
+      towers.bodies.push_back(body);
+    }
+    for (ContactRow row : tower.rows) {
+      row.a += shift;
+      row.b += shift;
+      towers.rows.push_back(row);
+      if (k == 0 || random.uniform(0.0, 1.0) < 0.5) continue;
+      row.a -= kHeight + 1;  // lies on the tower before as well
+      prepareRow(row, towers.bodies);
+      towers.rows.push_back(row);
+    }
+  }
+  Tower shared = towers;
+  UpwardPass pass;
+  UpwardPass::Scratch scratch;
+  pass.order(towers.rows, towers.bodies, Vec3::UnitZ(), scratch);
+  pass.make(towers.rows, towers.bodies, nullptr);
+  pass.order(shared.rows, shared.bodies, Vec3::UnitZ(), scratch);
+  Crew crew(3);
+  pass.make(shared.rows, shared.bodies, &crew);
+  for (std::size_t i = 0; i < shared.bodies.size(); ++i) {
+    EXPECT_EQ(shared.bodies[i].velocity.linear, towers.bodies[i].velocity.linear);
+    EXPECT_EQ(shared.bodies[i].velocity.angular, towers.bodies[i].velocity.angular);
+  }
+}
+
 TEST(PassUpwards, DoesNothingWhereNothingIsAbove) {
   Random random(79);
   Tower tower = randomTower(random);
   const std::vector<ImpulseBody> before = tower.bodies;
-  passUpwards(tower.rows, tower.bodies, Vec3::Zero());
+  passUpwards(tower, Vec3::Zero());
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(tower.bodies[i].velocity.linear, before[i].velocity.linear);
 }
