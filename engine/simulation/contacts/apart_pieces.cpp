@@ -176,29 +176,28 @@ bool PairTable::standsOff(ApartPieces& apart, const ClosestFeatures& closest, co
 
 // What was near and is not any more.
 void PairTable::tellApart(const PairedWorld& world) {
-  stays_apart_.assign(near_.size(), 0);
+  told_apart_.resize(near_.size());
   world.crew.runStretches(near_.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
     const std::span<const int> places = std::span<const int>(near_).subspan(begin, end - begin);
     visit(std::span(pairs_), places, [&](std::size_t i, ShapePair& pair) {
       const BodyPair& both = bodyPairAt(pair.of_bodies);
       pair.collision_speed_mps = both.collision_speed_mps;
-      ApartPieces apart{.shapes = pair.shapes};
-      stays_apart_[begin + i] = standsOff(apart, pair.closest, both, world) ? 1 : 0;
+      ApartPieces& apart = told_apart_[begin + i];
+      apart.shapes = pair.shapes;
+      apart.tracked = pair.tracked;
+      apart.stays = standsOff(apart, pair.closest, both, world);
     });
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < near_.size(); ++i) {
     const int place = near_[i];
-    if (stays_apart_[i] == 0) {
+    const ApartPieces& apart = told_apart_[i];
+    if (!apart.stays) {
       near_[kept++] = place;
       continue;
     }
-    const ShapePair& pair = pairAt(place);
-    BodyPair& both = bodyPairAt(pair.of_bodies);
-    ApartPieces apart{.shapes = pair.shapes, .tracked = pair.tracked};
-    standsOff(apart, pair.closest, both, world);
-    const auto later = std::ranges::upper_bound(both.apart, apart.shapes, {}, &ApartPieces::shapes);
-    both.apart.insert(later, apart);
+    BodyPair& both = bodyPairAt(pairAt(place).of_bodies);
+    both.apart.insert(std::ranges::upper_bound(both.apart, apart.shapes, {}, &ApartPieces::shapes), apart);
     both.to_measure = true;
     remove(place, world.bodies);
   }
@@ -232,10 +231,12 @@ void PairTable::askApart(const PairedWorld& world, StepCounters& counters, Phase
     if (!bodyPairAt(asked.of_bodies).apart[asked.index].stays)
       makeNear(asked.of_bodies, asked.index, asked.closest, world);
   }
-  for (const int place : active_pairs_) {
-    BodyPair& pair = bodyPairAt(place);
-    if (pair.to_measure) measure(pair);
-  }
+  world.crew.runStretches(active_pairs_.size(), fewBodyPairs(), [&](std::size_t begin, std::size_t end) {
+    const std::span<const int> places = std::span<const int>(active_pairs_).subspan(begin, end - begin);
+    visit(std::span(body_pairs_), places, [&](std::size_t, BodyPair& pair) {
+      if (pair.to_measure) measure(pair);
+    });
+  });
 }
 
 }  // namespace carom

@@ -238,7 +238,8 @@ class PairTable {
   // Scratch.
   std::vector<int> collected_, extended_bodies_, partners_, paired_, met_, grown_;
   std::vector<Asked> asked_;
-  std::vector<char> stays_apart_, meets_;
+  std::vector<ApartPieces> told_apart_;  ///< Of what was near.
+  std::vector<char> meets_;
   ListScratch scratch_;
 };
 
