@@ -24,6 +24,8 @@ constexpr double kNextShare = 0.25;
 constexpr double kFloorMargin = 0.02;        // of the floor: this near to it, an approach has come to it
 constexpr long kQueryWork = 4;               // a query of closest features takes as long as so many poses
 constexpr double kSharpCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
+constexpr double kUnheldSpeed = 2e-9;        // m/s: twice what is left over where paths are solved
+constexpr double kRoundingOfPlaces = 1e-15;     // of a place in the world
 constexpr int kFollowed = 16;  // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second
@@ -384,8 +386,12 @@ TimeOfImpact beginSearch(const ImpactSearch& search, const ClosestFeatures& at_b
   TimeOfImpact found;
   found.time_s = search.begin_s;
   found.closest = at_begin;
-  // A pair that begins below the floor (bodies that start closer) may not come closer than it is.
-  found.floor = std::min(search.window.floor, (1.0 - 1e-9) * at_begin.distance_m);
+  // A pair that begins below the floor (bodies that start closer) may not come closer than it is, but for
+  // what paths that are held leave over, and the rounding of where it is.
+  const double gap = at_begin.distance_m;
+  const double unheld = kUnheldSpeed * (search.end_s - search.begin_s) +
+                        kRoundingOfPlaces * at_begin.p_A_W.lpNorm<Eigen::Infinity>();
+  found.floor = std::min(search.window.floor, gap - std::clamp(unheld, 1e-9 * gap, 0.01 * gap));
   return found;
 }
 
@@ -412,7 +418,8 @@ void lookOnce(Look& look, const MovingPart& a, const MovingPart& b, const Impact
     return;
   }
   found.outcome = TimeOfImpact::Outcome::kStopped;
-  if ((speed < 0.0 && gap < (1.0 + kFloorMargin) * found.floor) || found.looks > kAdvances) return;
+  const bool comes_down = gap + speed * (search.end_s - found.time_s) < found.floor;
+  if ((comes_down && gap < (1.0 + kFloorMargin) * found.floor) || found.looks > kAdvances) return;
   const bool lands = search.lands && found.time_s >= found.passes_until_s;
   const double interval =
       look.provenInterval(found.time_s, found.closest, speed, found.floor, lands, found.newton_steps);

@@ -129,7 +129,10 @@ void UpwardPass::order(std::span<const ContactRow> rows, std::span<const Impulse
   borne_.clear();
   rows_.clear();
   levels_.clear();
-  if (up.isZero(0.0)) return;
+  const auto stands = [&](const ContactRow& row) {
+    return bodies[at(row.a)].inverse_mass == 0.0 || bodies[at(row.b)].inverse_mass == 0.0;
+  };
+  if (up.isZero(0.0) || std::none_of(rows.begin(), rows.end(), stands)) return;
   scratch.place.resize(bodies.size());
   scratch.level.resize(bodies.size());
   placeRows(rows, bodies, up, scratch);

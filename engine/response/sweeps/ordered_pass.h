@@ -24,8 +24,8 @@ class UpwardPass {
     std::vector<int> level;
   };
 
-  /// `up`: away from the supports, of any length; null: nothing is above anything else, and no body is
-  /// brought to anything.
+  /// `up`: away from the supports, of any length. Null, or without a row on what cannot move: nothing is
+  /// above anything else, and no body is brought to anything; together they would be led away.
   void order(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, const Vec3& up,
              Scratch& scratch);
   /// Raises the separating speeds of these rows to their `lowest_speed`, without friction, the rows' impulses

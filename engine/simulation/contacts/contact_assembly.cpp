@@ -218,7 +218,9 @@ class Assembly {
         if (!givesWay(pair, world_.bodies)) continue;
         const bool last = pair.lands || lastsAsItLies(active[i]);
         lasts[i] = last ? 1 : 0;
-        if (!last) pair.remembered.clear();
+        if (last) continue;
+        pair.remembered.clear();
+        pair.room = 1.0;
       }
     });
     Islands& islands = contacts_.room.joined;

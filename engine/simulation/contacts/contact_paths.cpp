@@ -13,6 +13,10 @@
 namespace carom {
 namespace {
 
+// Where bodies lack room between others: asked for in the next step, and tried to have again, step by step.
+constexpr double kLessRoom = 0.8;
+constexpr double kMoreRoom = 1.02;
+constexpr double kLeastRoom = 0.4;      // of the rest gap, twice the floor
 constexpr int kPathSweeps = 2;          // at least
 constexpr double kPathResidual = 1e-9;  // m/s: over a step, far below any gap
 constexpr double kPathGapShare = 0.01;  // of the smallest rest gap: what a path may be off after a step
@@ -47,6 +51,7 @@ class ContactPaths {
     beginAtMeans();
     const double residual_mps = kPathGapShare * boundPaths() / step_s_;
     solve(islands_, residual_mps);
+    shareRoom(residual_mps);
     std::vector<std::size_t> turning(islands_.begin(), islands_.end());
     for (int round = 0; round < kTurningRounds && raiseForTurning(turning); ++round) {
       rememberPaths();
@@ -103,16 +108,77 @@ class ContactPaths {
   double boundPaths() {
     contacts_.momentum.resize(contacts_.rows.size());
     double smallest = std::numeric_limits<double>::infinity();
-    forPairs([&](const ShapePair& pair, const LastingContacts::PairRows& rows) {
+    forPairs([&](ShapePair& pair, const LastingContacts::PairRows& rows) {
+      pair.room = std::min(kMoreRoom * std::abs(pair.room), 1.0);
       for (std::size_t i = rows.begin; i < rows.end; ++i) {
         ContactRow& row = contacts_.rows[i];
         contacts_.momentum[i] = {row.impulse, row.lowest_speed, {}};
-        row.lowest_speed = gapSpeeds(contacts_.sources[i].gap_m, pair, step_s_, row.impulse.x() > 0.0).path;
+        boundPath(i, pair);
         row.impulse.setZero();
       }
       lowerTo(pair.window.rest, smallest);
     });
     return smallest;
+  }
+
+  // What has too little room between others cannot open its gaps on all sides by as much as they rest at: for
+  // this step nothing of it opens, and less is asked for in the next. What has no solution would lead the
+  // bodies away together.
+  void shareRoom(double residual_mps) {
+    std::vector<std::size_t> islands(islands_.begin(), islands_.end());
+    std::erase_if(islands, [&](std::size_t island) { return !leavesGaps(island); });
+    for (const std::size_t island : islands) {
+      for (ContactRow& row : contacts_.rowsOf(contacts_.islands[island])) row.impulse.setZero();
+      for (const int i : contacts_.bodiesOf(std::span(&island, 1)))
+        contacts_.paths[at(i)].velocity = contacts_.room.ways[at(i)];
+    }
+    if (!islands.empty()) solve(islands, residual_mps);
+  }
+
+  // The pairs of bodies with a row that misses its bound open no gap. Whether one of them was to.
+  bool leavesGaps(std::size_t island) {
+    const auto pairs = contacts_.pairsOf(contacts_.islands[island]);
+    const std::vector<int> wedged = bodiesThatMiss(pairs);
+    if (wedged.empty()) return false;
+    const auto isWedged = [&](int body) { return std::binary_search(wedged.begin(), wedged.end(), body); };
+    bool leaves = false;
+    for (const LastingContacts::PairRows& of_pair : pairs) {
+      ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
+      if (!isWedged(pair.body_a) && !isWedged(pair.body_b)) continue;
+      pair.room = -std::max(kLessRoom * std::abs(pair.room), kLeastRoom);
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        leaves |= contacts_.rows[i].lowest_speed > 0.0;
+        boundPath(i, pair);
+      }
+    }
+    return leaves;
+  }
+
+  // Those of a row that opens by less than half of what it was to, or closes by more than the band of its
+  // gap; ascending.
+  std::vector<int> bodiesThatMiss(std::span<const LastingContacts::PairRows> pairs) const {
+    std::vector<int> bodies;
+    for (const LastingContacts::PairRows& of_pair : pairs) {
+      const ShapePair& pair = world_.table.pairs()[at(of_pair.pair)];
+      const double least_mps = 2.0 * kPathGapShare * pair.window.rest / step_s_;
+      const double most_mps = tolerance::kRestBand * pair.window.rest / step_s_;
+      for (std::size_t i = of_pair.begin; i < of_pair.end; ++i) {
+        const double opening_mps = contacts_.rows[i].lowest_speed;
+        const double missed =
+            opening_mps > 0.0 ? std::clamp(0.5 * opening_mps, least_mps, most_mps) : most_mps;
+        if (-rowMiss(contacts_.rows[i], contacts_.paths).x() <= missed) continue;
+        for (const int body : {pair.body_a, pair.body_b})
+          if (contacts_.paths[at(body)].inverse_mass > 0.0) bodies.push_back(body);
+        break;
+      }
+    }
+    std::sort(bodies.begin(), bodies.end());
+    return bodies;
+  }
+
+  void boundPath(std::size_t row, const ShapePair& pair) {
+    const bool presses = contacts_.momentum[row].impulse.x() > 0.0;
+    contacts_.rows[row].lowest_speed = gapSpeeds(contacts_.sources[row].gap_m, pair, step_s_, presses).path;
   }
 
   void rememberPaths() {

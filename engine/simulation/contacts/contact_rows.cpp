@@ -164,16 +164,15 @@ TurningResistance combinedResistance(const Material& a, const Material& b) {
 }
 
 GapSpeeds gapSpeeds(double gap_m, const ShapePair& pair, double dt_s, bool presses) {
-  const CollisionWindow& window = pair.window;
-  const double band = tolerance::kRestBand * window.rest;
-  if (gap_m > window.rest + band) {
-    const double closing = (window.rest + band - gap_m) / dt_s;
+  const double rest = std::abs(pair.room) * pair.window.rest;
+  const double band = tolerance::kRestBand * rest;
+  if (gap_m > rest + band) {
+    const double closing = (rest + band - gap_m) / dt_s;
     return {(presses ? tolerance::kGapGain : 1.0) * closing, closing};
   }
-  const double lowest =
-      pair.restitution > tolerance::kNearlyElastic ? kNearlyElasticGap * window.rest : window.rest - band;
+  const double lowest = pair.restitution > tolerance::kNearlyElastic ? kNearlyElasticGap * rest : rest - band;
   const double missing = lowest - gap_m;
-  if (missing <= 0.0) return {};
+  if (missing <= 0.0 || pair.room < 0.0) return {};
   return {0.0, std::min(missing / dt_s, tolerance::kGapSpeed)};
 }
 

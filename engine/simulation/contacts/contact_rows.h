@@ -57,7 +57,8 @@ double workOfForces(const ShapePair& pair, const std::vector<Body>& bodies, doub
 /// How a gap may change in `dt_s`. Within a band about the rest gap it is held, so that a body on more
 /// contacts than it needs can lie still on all of them; above the band it may close to it, gently where the
 /// contact `presses` already: bodies wedged between others never find all their gaps within the band. Where
-/// restitution keeps almost all energy, gaps reopen only from much lower: being lifted is energy too.
+/// restitution keeps almost all energy, gaps reopen only from much lower: being lifted is energy too. Where
+/// bodies have not the room for their rest gaps, gaps and bands are those of ShapePair::room.
 struct GapSpeeds {
   double momentum = 0.0;  ///< The separating speed must not be below this.
   double path =

@@ -55,6 +55,9 @@ struct ShapePair : MeetingTerms {
   bool active = false;
   bool lands = false;  ///< Its contact rows of this step are made of its landing.
   double scale = 1.0;  ///< Of the table's impulses, when it was active last.
+  /// The share of the rest gap that its bodies seem to have room for between others; negative: so much, and
+  /// in this step no gap opens.
+  double room = 1.0;
   FeaturePair tracked;
   ClosestFeatures closest;                    ///< At the end of the last step.
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
