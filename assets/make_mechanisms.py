@@ -247,7 +247,7 @@ def key_in_a_lock():
     path = [{"time": 0, "position": [0, 1.0, axle], "rotation": quarter[0]},
             {"time": 1.5, "position": [0, 0, axle], "rotation": quarter[0]}]
     path += [{"time": 1.5 + 1.25 * k, "position": [0, 0, axle], "rotation": quarter[k]} for k in range(1, 5)]
-    path.append({"time": 8, "position": [0, 1.0, axle], "rotation": quarter[0]})
+    path.append({"time": 8, "position": [0, 1.0, axle], "rotation": quarter[4]})
     bodies = [floor(),
               body("plate", mesh("lock-plate.obj"), [0, 0.3, axle], rotation=upright, static=True, material="brass", color=STEEL),
               "The key goes in, turns once, and comes out.",

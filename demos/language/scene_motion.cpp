@@ -1,5 +1,7 @@
 #include "demos/language/scene_motion.h"
 
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include "demos/language/scene_values.h"
@@ -16,10 +18,45 @@ constexpr double kLargestLoad = 1e12;  // N and N m
 // Masses come from densities and volumes of any size: what is accepted of them is said where both are known.
 constexpr Range kMass{0.0, kLargestMass_kg, true};
 constexpr Range kLoad{-kLargestLoad, kLargestLoad};
+constexpr Range kAnyNumber{-1e9, 1e9};  // of what has been read already
+constexpr double kHalfTurn_deg = 180.0 + 1e-9;
 
 Keyframe readKeyframe(const Json& json) {
   json.onlyKeys({"time", "position", "rotation"});
   return {readNumber(json.at("time"), {0.0, kLongestTime_s}), readPose(json)};
+}
+
+struct WrittenTurn {
+  std::optional<Vec3> axis;  // none: it is not turned
+  double degrees = 0.0;
+};
+
+// Nothing where it is written in another way.
+std::optional<WrittenTurn> writtenTurn(const Json& keyframe) {
+  const Json* rotation = keyframe.find("rotation");
+  if (rotation == nullptr) return WrittenTurn{};
+  if (rotation->kind() != Json::Kind::kObject) return std::nullopt;
+  const Json *axis = rotation->find("axis"), *degrees = rotation->find("degrees");
+  if (axis == nullptr || degrees == nullptr) return std::nullopt;
+  return WrittenTurn{readVec3(*axis, kAnyNumber), readNumber(*degrees, kAnyNumber)};
+}
+
+// About an axis that both name; nothing where they do not.
+std::optional<double> degreesBetween(const Json& from, const Json& to) {
+  const std::optional<WrittenTurn> before = writtenTurn(from), after = writtenTurn(to);
+  if (!before || !after || (before->axis && after->axis && *before->axis != *after->axis))
+    return std::nullopt;
+  return after->degrees - before->degrees;
+}
+
+// A leg goes the shorter way round, which is not what more than half a turn about an axis asks for.
+void requireShorterTurn(const Json& from, const Json& to) {
+  const std::optional<double> degrees = degreesBetween(from, to);
+  if (degrees && std::abs(*degrees) > kHalfTurn_deg)
+    to.at("rotation")
+        .fail("turns by " + plainNumber(*degrees) +
+              " degrees from the keyframe before, and a path goes the shorter way round; "
+              "accepted: at most 180 from each keyframe to the next");
 }
 
 void readKeyframes(const Json& json, Body& body) {
@@ -29,6 +66,7 @@ void readKeyframes(const Json& json, Body& body) {
     if (!body.keyframes.empty() && !(keyframe.time_s > body.keyframes.back().time_s))
       item.at("time").fail(item.at("time").shown() +
                            " is not after the keyframe before; accepted: times that rise");
+    if (!body.keyframes.empty()) requireShorterTurn(json.items()[body.keyframes.size() - 1], item);
     body.keyframes.push_back(keyframe);
   }
 }

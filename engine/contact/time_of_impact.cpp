@@ -25,7 +25,7 @@ constexpr double kFloorMargin = 0.02;        // of the floor: this near to it, a
 constexpr long kQueryWork = 4;               // a query of closest features takes as long as so many poses
 constexpr double kSharpCrossingSine = 0.01;  // edges that are flatter to each other are as good as parallel
 constexpr double kUnheldSpeed = 2e-9;        // m/s: twice what is left over where paths are solved
-constexpr double kRoundingOfPlaces = 1e-15;     // of a place in the world
+constexpr double kRoundingOfPlaces = 1e-15;  // of a place in the world
 constexpr int kFollowed = 16;  // of Newton's steps to the floor: one that converges takes five or six
 
 // The smallest value over [0, dt] of a function that is `begin` and `end` at the ends and whose second

@@ -191,6 +191,13 @@ void addBuoyancy(const Acting& a, const Fluid& fluid, const VolumeMoments& wet, 
   a.forces.load.tail<3>() += center.cross(along);
 }
 
+// What of a polyhedron lies behind the planes; its faces there, and the others.
+VolumeMoments cutSurface(const PartSurface& part, std::span<const Plane> region, ForceScratch& s) {
+  if (!part.open) return cutPolyhedron(part.facets(), region, s.cut.cut, &s.wet, &s.dry);
+  cutFacets(*part.open, region, s.cut.cut, s.wet, &s.dry);
+  return cutPolyhedron(part.facets(), region, s.cut.cut, nullptr, nullptr);
+}
+
 // One part in one fluid: the displaced volume, and its drag collected in `drag`.
 VolumeMoments immersePart(const Acting& a, const PartSurface& part, const FluidPlanes& planes,
                           const Stream& stream, StreamDrag& drag, double& dry_share) {
@@ -201,7 +208,7 @@ VolumeMoments immersePart(const Acting& a, const PartSurface& part, const FluidP
   if (part.form == PartSurface::Form::kPolyhedron) {
     s.wet.clear();
     s.dry.clear();
-    VolumeMoments wet = cutPolyhedron(part.facets(), cut.region(), s.cut.cut, &s.wet, &s.dry);
+    VolumeMoments wet = cutSurface(part, cut.region(), s);
     if (cut.count == 0)
       wet = part.whole;
     else if (part.bevelled)
@@ -238,10 +245,12 @@ void blowOnPart(const Acting& a, const PartSurface& part, const FluidPlanes* pla
   if (part.form == PartSurface::Form::kPolyhedron) {
     s.wet.clear();
     s.dry.clear();
-    if (cut.outside)
-      cutPolyhedron(part.facets(), {}, s.cut.cut, &s.dry, nullptr);
+    if (!cut.outside)
+      cutSurface(part, cut.region(), s);
+    else if (part.open)
+      cutFacets(*part.open, {}, s.cut.cut, s.dry, nullptr);
     else
-      cutPolyhedron(part.facets(), cut.region(), s.cut.cut, &s.wet, &s.dry);
+      cutPolyhedron(part.facets(), {}, s.cut.cut, &s.dry, nullptr);
     dragFacets(s.dry, stream, own.value_or(kFaceDrag), s.cut.cut, drag);
   } else if (part.form == PartSurface::Form::kBall) {
     if (dry_share > 0.0)

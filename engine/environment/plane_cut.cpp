@@ -36,6 +36,20 @@ void cutSquare(const ConvexPolyhedron& polyhedron, std::span<const Plane> region
     if (i != which) clip(region[i]);
 }
 
+// Leaves of the scratch's polygon what lies behind all planes; the rest goes to `outside` where that is
+// given.
+void cutOffPlanes(const Vec3& normal, std::span<const Plane> region, CutScratch& scratch,
+                  FacetList* outside) {
+  for (const Plane& plane : region) {
+    if (outside != nullptr) {
+      clipPolygon(scratch.polygon, opposite(plane), scratch.rest);
+      outside->add(normal, scratch.rest);
+    }
+    clipPolygon(scratch.polygon, plane, scratch.next);
+    std::swap(scratch.polygon, scratch.next);
+  }
+}
+
 }  // namespace
 
 void FacetList::add(const Vec3& normal, std::span<const Vec3> polygon) {
@@ -81,6 +95,30 @@ PolygonArea areaOf(std::span<const Vec3> polygon, const Vec3& normal) {
   return sum;
 }
 
+void cutFacets(const FacetList& facets, std::span<const Plane> region, CutScratch& scratch, FacetList& inside,
+               FacetList* outside) {
+  for (const Facet& facet : facets.facets) {
+    const std::span<const Vec3> corners = facets.cornersOf(facet);
+    scratch.polygon.assign(corners.begin(), corners.end());
+    cutOffPlanes(facet.normal, region, scratch, outside);
+    inside.add(facet.normal, scratch.polygon);
+  }
+}
+
+void appendUncovered(std::span<const Vec3> polygon, std::span<const Vec3> cover, const Vec3& normal,
+                     CutScratch& scratch, FacetList& uncovered) {
+  scratch.polygon.assign(polygon.begin(), polygon.end());
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& corner : cover) middle += corner / static_cast<double>(cover.size());
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    const Vec3& corner = cover[i];
+    Plane edge{(cover[(i + 1) % cover.size()] - corner).cross(normal).normalized(), 0.0};
+    edge.offset = dot(edge.normal, corner);
+    if (edge.signedDistance(middle) > 0.0) edge = opposite(edge);
+    cutOffPlanes(normal, std::span(&edge, 1), scratch, &uncovered);
+  }
+}
+
 VolumeMoments cutPolyhedron(const ConvexPolyhedron& polyhedron, std::span<const Plane> region,
                             CutScratch& scratch, FacetList* inside, FacetList* outside) {
   Vec3 apex = polyhedron.center();
@@ -91,14 +129,7 @@ VolumeMoments cutPolyhedron(const ConvexPolyhedron& polyhedron, std::span<const 
     scratch.polygon.clear();
     for (int v : polyhedron.faceVertices(f)) scratch.polygon.push_back(polyhedron.vertex(v));
     const Vec3 on_plane = scratch.polygon[0];
-    for (const Plane& plane : region) {
-      if (outside != nullptr) {
-        clipPolygon(scratch.polygon, opposite(plane), scratch.rest);
-        outside->add(normal, scratch.rest);
-      }
-      clipPolygon(scratch.polygon, plane, scratch.next);
-      std::swap(scratch.polygon, scratch.next);
-    }
+    cutOffPlanes(normal, region, scratch, outside);
     if (scratch.polygon.size() < 3) continue;
     addCone(sum, areaOf(scratch.polygon, normal), apex, normal, on_plane);
     if (inside != nullptr) inside->add(normal, scratch.polygon);

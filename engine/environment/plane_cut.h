@@ -56,6 +56,15 @@ struct PolygonArea {
 };
 PolygonArea areaOf(std::span<const Vec3> polygon, const Vec3& normal);
 
+/// What of flat facets lies behind all planes of `region` goes to `inside`, the rest to `outside` where that
+/// is given.
+void cutFacets(const FacetList& facets, std::span<const Plane> region, CutScratch& scratch, FacetList& inside,
+               FacetList* outside);
+/// Appends what of the flat convex `polygon` another one, in its plane, leaves uncovered: convex pieces.
+/// Either may be seen from any side.
+void appendUncovered(std::span<const Vec3> polygon, std::span<const Vec3> cover, const Vec3& normal,
+                     CutScratch& scratch, FacetList& uncovered);
+
 /// What of the polyhedron lies behind all planes of `region` (unit outward normals); none: all of it. Pieces
 /// of its faces go to `inside` and `outside` where these are given. Cost: faces times planes, and for every
 /// plane but the first one polygon clipped by all faces.

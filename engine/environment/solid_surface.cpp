@@ -29,6 +29,68 @@ double facetArea(const ConvexPolyhedron& polyhedron) {
   return area;
 }
 
+std::vector<Vec3> cornersOf(const ConvexPolyhedron& polyhedron, int face) {
+  std::vector<Vec3> corners;
+  for (int v : polyhedron.faceVertices(face)) corners.push_back(polyhedron.vertex(v));
+  return corners;
+}
+
+double openArea(const FacetList& list) {
+  double area = 0.0;
+  for (const Facet& facet : list.facets) area += areaOf(list.cornersOf(facet), facet.normal).area_m2;
+  return area;
+}
+
+// Pieces of a mesh.
+class Pieces {
+ public:
+  explicit Pieces(const Solid& solid) : solid_(solid) {
+    for (std::size_t i = 0; i < solid.parts().size(); ++i)
+      if (solid.isPiece(i)) pieces_.push_back(&solid.parts()[i].core);
+  }
+
+  // The faces of a piece where no other lies against them.
+  FacetList openFaces(const ConvexPolyhedron& piece) {
+    std::vector<const ConvexPolyhedron*> others;
+    for (const ConvexPolyhedron* other : pieces_) {
+      const double reach = other->radius() + piece.radius() + kTouch * solid_.radius();
+      if (other != &piece && (other->center() - piece.center()).norm() <= reach) others.push_back(other);
+    }
+    FacetList open;
+    for (int f = 0; f < piece.faceCount(); ++f) appendOpen(piece, f, others, open);
+    return open;
+  }
+
+ private:
+  static constexpr double kTouch = 1e-9;      // of the solid's radius
+  static constexpr double kOpposite = 1e-12;  // of 2: normals that are as good as opposite
+
+  void appendOpen(const ConvexPolyhedron& piece, int face, std::span<const ConvexPolyhedron* const> others,
+                  FacetList& open) {
+    const Plane& plane = piece.plane(face);
+    left_.clear();
+    left_.add(plane.normal, cornersOf(piece, face));
+    for (const ConvexPolyhedron* other : others)
+      for (int g = 0; g < other->faceCount(); ++g) {
+        const Plane& against = other->plane(g);
+        if (dot(plane.normal, against.normal) > kOpposite - 1.0 ||
+            std::abs(plane.offset + against.offset) > kTouch * solid_.radius())
+          continue;
+        const std::vector<Vec3> cover = cornersOf(*other, g);
+        next_.clear();
+        for (const Facet& facet : left_.facets)
+          appendUncovered(left_.cornersOf(facet), cover, plane.normal, scratch_, next_);
+        std::swap(left_, next_);
+      }
+    for (const Facet& facet : left_.facets) open.add(facet.normal, left_.cornersOf(facet));
+  }
+
+  const Solid& solid_;
+  std::vector<const ConvexPolyhedron*> pieces_;
+  FacetList left_, next_;
+  CutScratch scratch_;
+};
+
 PartSurface partSurface(const ConvexPart& part) {
   PartSurface surface;
   surface.part = &part;
@@ -68,8 +130,14 @@ SolidSurface surfaceOf(const Solid& solid) {
   surface.volume_m3 = solid.volume();
   surface.radius_m = solid.radius();
   surface.width_m = std::numeric_limits<double>::infinity();
-  for (const ConvexPart& part : solid.parts()) {
+  Pieces pieces(solid);
+  for (std::size_t i = 0; i < solid.parts().size(); ++i) {
+    const ConvexPart& part = solid.parts()[i];
     surface.parts.push_back(partSurface(part));
+    if (solid.isPiece(i)) {
+      surface.parts.back().open = pieces.openFaces(part.core);
+      surface.parts.back().area_m2 = openArea(*surface.parts.back().open);
+    }
     surface.area_m2 += surface.parts.back().area_m2;
     surface.width_m = std::min(surface.width_m, part.width());
   }

@@ -2,7 +2,8 @@
 // What the environment has to know of a solid, found once: the form of each part, the flat facets that a
 // stream presses on, and volumes. A rounded polyhedron shows the stream the hull of its offset faces, which
 // is inscribed in it and has a bevel for each edge and vertex; what it displaces is exact all the same
-// (rounded_cut.h). Tested in tests/engine/environment/body_forces_test.cpp.
+// (rounded_cut.h). Pieces of a mesh show it the mesh's surface, and not the cuts between them. Tested in
+// tests/engine/environment/body_forces_test.cpp.
 
 #include <optional>
 #include <vector>
@@ -17,7 +18,8 @@ struct PartSurface {
   Form form = Form::kPolyhedron;
   const ConvexPart* part = nullptr;
   std::optional<ConvexPolyhedron> bevelled;  ///< Of a rounded polyhedron.
-  VolumeMoments whole;                       ///< In the frame of the solid.
+  std::optional<FacetList> open;  ///< Of a piece of a mesh: its faces where no other piece lies against them.
+  VolumeMoments whole;            ///< In the frame of the solid.
   double area_m2 = 0.0;
   double reach_m = 0.0;  ///< From the core's middle to the farthest point.
 

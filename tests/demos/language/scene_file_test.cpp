@@ -181,6 +181,11 @@ const Refusal kRefusals[] = {
      bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 1 }, { \"time\": 1 } ] }"),
      ":3: bodies[0].kinematic.keyframes[1].time: 1 is not after the keyframe before; accepted: times that "
      "rise"},
+    {"KeyframesThreeQuartersOfATurnApart",
+     bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 0 }, { \"time\": 1, \"rotation\": { "
+                      "\"axis\": [0, 0, 1], \"degrees\": 270 } } ] }"),
+     ":3: bodies[0].kinematic.keyframes[1].rotation: turns by 270 degrees from the keyframe before, and a "
+     "path goes the shorter way round; accepted: at most 180 from each keyframe to the next"},
     // 10 m and a right angle, each in 1e-6 s; a smooth leg is twice as fast in its middle.
     {"KeyframesFasterThanAnyBody",
      bodyScene(kBox + ", \"kinematic\": { \"keyframes\": [ { \"time\": 0 }, { \"time\": 0.000001, "
