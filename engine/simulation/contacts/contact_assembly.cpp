@@ -267,7 +267,6 @@ class Assembly {
   // Whether a pair's contact is one with an internal edge.
   bool isInternal(int index) const {
     const PlacedPair contact = placed(index);
-    if (!isAtEdges(contact, world_.shapes)) return false;
     for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
       if (!moves(body)) continue;
       for (const int other : world_.table.pairsOf(body))

@@ -84,6 +84,14 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   return height - sinks - closes >= passage.contact.pair.window.floor;
 }
 
+// Whether something of `passing` is over an edge or a vertex of the other side, and comes to it obliquely to
+// what holds it: where it lies flat, it may lie on both.
+bool isOblique(const PlacedPair& contact, bool passing_b, const Vec3& up) {
+  const FeaturePair& features = contact.closest.features;
+  if ((passing_b ? features.a : features.b).kind == FeatureKind::kFace) return false;
+  return contact.closest.n_W.cross(up).norm() > kCrossingSine;
+}
+
 }  // namespace
 
 bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
@@ -101,6 +109,7 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
   if (isAtEdges(other, shapes)) return false;
+  const bool at_edges = isAtEdges(contact, shapes);
   for (const bool b : {false, true}) {
     const Side passing = sideOf(contact, b, shapes);
     const Side edge = sideOf(contact, !b, shapes);
@@ -108,6 +117,7 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
       const Side held = sideOf(other, other_b, shapes);
       if (held.body != passing.body) continue;
       const Side support = sideOf(other, !other_b, shapes);
+      if (!at_edges && !isOblique(contact, b, held.outwards_W)) continue;
       if (passes({contact, passing, edge, other, held, support}, dt_s, bodies)) return true;
     }
   }

@@ -1,8 +1,9 @@
 #pragma once
 // Contacts with internal edges: those of a surface that several solids make together, of tiles that lie side
 // by side, of the parts of a compound body. The closest features of a box on one tile and of the next tile
-// are two edges, and the way between them is oblique: a contact along it would brake the box, push it aside
-// and lift it (ghost collisions). On the union of the tiles it is no contact: its direction is not in the
+// are two edges, those of what slides on an edge of its own a face beside that and the tile's edge, and the
+// way between them is oblique: a contact along it would brake the body, push it aside and lift it (ghost
+// collisions). On the union of the tiles it is no contact: its direction is not in the
 // normal cone of the union, as the surface goes on below the box. What is tested is what makes it harmless,
 // so that tiles need not be flush: the box is held on a face beside the edge, and held there it passes the
 // edge at or above the window's floor (paper §2.3). Tested in tests/physics/friction/flush_tiles_test.cpp.
@@ -19,12 +20,12 @@ struct PlacedPair {
   Pose X_WB;
 };
 
-/// Whether the direction of a contact is not determined by a face, nor by edges that cross: only such a
-/// contact can be one with an internal edge.
+/// Whether the direction of a contact is not determined by a face, nor by edges that cross. What is held by
+/// such a contact is not known to pass anything.
 bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes);
 
-/// Whether `other`, another contact of one of its bodies, makes `contact`, which is at edges, one with an
-/// internal edge over the next `dt_s`.
+/// Whether `other`, another contact of one of its bodies, makes `contact`, which is at edges or oblique to
+/// it, one with an internal edge over the next `dt_s`.
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes);
 

@@ -197,7 +197,6 @@ bool ContactCluster::isInternal(int index) {
                       bodies_[at(pair.body_b)].path.at(time_s_)};
   };
   const PlacedPair contact = placed(index);
-  if (!isAtEdges(contact, shapes_)) return false;
   for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
     if (!bodies_[at(body)].yields()) continue;
     for (const int other : table_.pairsOf(body))

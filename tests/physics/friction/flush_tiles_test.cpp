@@ -4,6 +4,7 @@
 
 #include "tests/physics/tiled_floor.h"
 
+#include "engine/solid/convex_hull.h"
 #include "tests/physics/small_world.h"
 
 namespace carom::physics {
@@ -112,6 +113,48 @@ TEST(PlateOfTiles, GoesOnSpinningOnAnother) {
   world.start();
   world.run(3.0);
   EXPECT_NEAR(world.state(spinning).angular_velocity.z() / 3.0, 1.0, 1e-4);
+}
+
+// A skid: the prism of 8 sides along y, one edge down.
+ConvexPart skid(double radius_m, double length_m, const Vec3& middle) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 0.25 * std::numbers::pi * k;
+    for (const double y : {-0.5, 0.5})
+      points.push_back(radius_m * Vec3(std::sin(angle), 0.0, -std::cos(angle)) +
+                       y * length_m * Vec3::UnitY() + middle);
+  }
+  return {convexHull(points).polyhedron, 0.0};
+}
+
+// Beside the edge that bears it a skid has faces that come down obliquely over the edge of the next tile.
+TEST(FlushTiles, LetEdgesAlongTheSeamPass) {
+  for (const double speed : {0.03, 0.1, 0.3})
+    for (const double rate : {60.0, 240.0, 960.0}) {
+      SCOPED_TRACE(testing::Message() << speed << " m/s, " << rate << " Hz");
+      SmallWorld world(rate);
+      for (const double x : {-0.5, 0.5}) {
+        Placement tile{Solid::box({1.0, 2.0, 0.5})};
+        tile.X_WB.position = Vec3(x, 0.0, -0.25);
+        tile.material = rubbing(0.0);
+        tile.is_static = true;
+        world.add(tile);
+      }
+      const Solid sledge({skid(0.1, 0.3, {-0.2, 0.0, 0.0}), skid(0.1, 0.3, {0.2, 0.0, 0.0})});
+      Placement p{sledge};
+      const double rest_gap = collisionWindow(sledge.width()).rest;
+      p.X_WB.position = Vec3(-0.21 - 0.1 * speed, 0.0, 0.1 + rest_gap);
+      p.velocity = Vec3(speed, 0.0, 0.0);
+      p.material = rubbing(0.0);
+      const int sliding = world.add(p);
+      world.start();
+      const double height = world.position(sliding).z();
+      for (int i = 0; i < static_cast<int>(0.6 / speed * rate); ++i) {
+        world.step();
+        ASSERT_NEAR(world.velocity(sliding).x() / speed, 1.0, 1e-6) << i;
+        ASSERT_NEAR(world.position(sliding).z(), height, 0.5 * rest_gap) << i;
+      }
+    }
 }
 
 // Rails of capsules whose cores meet end to end: their tops are one line. Whichever end of the one before is
