@@ -84,11 +84,8 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   return height - sinks - closes >= passage.contact.pair.window.floor;
 }
 
-// Whether something of `passing` is over an edge or a vertex of the other side, and comes to it obliquely to
-// what holds it: where it lies flat, it may lie on both.
-bool isOblique(const PlacedPair& contact, bool passing_b, const Vec3& up) {
-  const FeaturePair& features = contact.closest.features;
-  if ((passing_b ? features.a : features.b).kind == FeatureKind::kFace) return false;
+// Whether a contact comes obliquely to what holds one of its bodies: where it lies flat, it may lie on both.
+bool isOblique(const PlacedPair& contact, const Vec3& up) {
   return contact.closest.n_W.cross(up).norm() > kCrossingSine;
 }
 
@@ -106,18 +103,20 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
   return across.norm() < kCrossingSine;
 }
 
+// What is asked of most comes first: a body has many contacts, and of each all others are asked.
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  if (isAtEdges(other, shapes)) return false;
-  const bool at_edges = isAtEdges(contact, shapes);
+  const FeaturePair& features = contact.closest.features;
   for (const bool b : {false, true}) {
+    if ((b ? features.a : features.b).kind == FeatureKind::kFace) continue;  // no edge to pass
     const Side passing = sideOf(contact, b, shapes);
-    const Side edge = sideOf(contact, !b, shapes);
     for (const bool other_b : {false, true}) {
       const Side held = sideOf(other, other_b, shapes);
       if (held.body != passing.body) continue;
+      if (!isOblique(contact, held.outwards_W) && !isAtEdges(contact, shapes)) continue;
+      if (isAtEdges(other, shapes)) return false;
+      const Side edge = sideOf(contact, !b, shapes);
       const Side support = sideOf(other, !other_b, shapes);
-      if (!at_edges && !isOblique(contact, b, held.outwards_W)) continue;
       if (passes({contact, passing, edge, other, held, support}, dt_s, bodies)) return true;
     }
   }
