@@ -278,7 +278,7 @@ void World::Impl::wakeDriven() {
     for (const int place : places) {
       const ShapePair& pair = table.pairs()[at(place)];
       const int other = pair.body_a == i ? pair.body_b : pair.body_a;
-      if (!bodies[at(other)].resting || !isLasting(pair, substep.step_s)) continue;
+      if (!bodies[at(other)].resting || !pair.lasts(substep.step_s)) continue;
       for (const int member : active.wakeIsland(bodies, other)) table.activate(member, bodies, substep);
       woken = true;
     }

@@ -7,7 +7,6 @@
 
 #include "engine/foundation/index.h"
 #include "engine/response/sweeps/dissection.h"
-#include "engine/simulation/contacts/internal_edges.h"
 #include "engine/simulation/contacts/midstep_rows.h"
 #include "engine/simulation/contacts/warm_start.h"
 
@@ -147,7 +146,7 @@ class Assembly {
     for (const int i : world_.active.list()) near[at(i)] = 0;
     for (const int i : world_.table.active()) {
       const ShapePair& pair = world_.table.pairs()[at(i)];
-      if (isLasting(pair, world_.settings.step_s)) near[at(pair.body_a)] = near[at(pair.body_b)] = 1;
+      if (pair.lasts(world_.settings.step_s)) near[at(pair.body_a)] = near[at(pair.body_b)] = 1;
     }
   }
 
@@ -212,6 +211,7 @@ class Assembly {
   void findLastingPairs() {
     const std::vector<int>& active = world_.table.active();
     std::vector<char> lasts(active.size(), 0);
+    contacts_.room.bearings.find(world_.table, pairedWorld(), world_.active.list());
     world_.crew.runStretches(active.size(), kFewPairs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         ShapePair& pair = world_.table.pairs()[at(active[i])];
@@ -255,27 +255,12 @@ class Assembly {
     });
   }
 
-  PlacedPair placed(int index) const {
-    const ShapePair& pair = world_.table.pairs()[at(index)];
-    return {pair, pair.closest, world_.bodies[at(pair.body_a)].X_WB, world_.bodies[at(pair.body_b)].X_WB};
-  }
-
   bool lastsAsItLies(int index) const {
-    return isLasting(world_.table.pairs()[at(index)], world_.settings.step_s) && !isInternal(index);
+    return world_.table.pairs()[at(index)].lasts(world_.settings.step_s) &&
+           !contacts_.room.bearings.isInternal(index, world_.table, pairedWorld());
   }
 
-  // Whether a pair's contact is one with an internal edge.
-  bool isInternal(int index) const {
-    const PlacedPair contact = placed(index);
-    for (const int body : {contact.pair.body_a, contact.pair.body_b}) {
-      if (!moves(body)) continue;
-      for (const int other : world_.table.pairsOf(body))
-        if (other != index && isLasting(world_.table.pairs()[at(other)], world_.settings.step_s) &&
-            passesEdge(contact, placed(other), world_.settings.step_s, world_.bodies, world_.shapes))
-          return true;
-    }
-    return false;
-  }
+  PairedWorld pairedWorld() const { return {world_.bodies, world_.shapes, world_.settings, world_.crew}; }
 
   double noticedTurning() const {
     return kNoticedTurning * world_.settings.gravity.norm() * world_.settings.step_s;
@@ -552,10 +537,6 @@ std::vector<int> LastingContacts::bodiesOf(std::span<const std::size_t> some) {
   for (const int body : found) room.listed[at(body)] = 0;
   std::sort(found.begin(), found.end());
   return found;
-}
-
-bool isLasting(const ShapePair& pair, double step_s) {
-  return pair.closest.distance_m <= pair.lastingHeight(step_s);
 }
 
 void assembleContacts(const LastingWorld& world, StepCounters& counters, LastingContacts& contacts) {

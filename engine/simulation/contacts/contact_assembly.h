@@ -14,6 +14,7 @@
 #include "engine/simulation/bodies/half_turn.h"
 #include "engine/simulation/contacts/carried_path.h"
 #include "engine/simulation/contacts/contact_rows.h"
+#include "engine/simulation/contacts/internal_edges.h"
 
 namespace carom {
 
@@ -63,6 +64,7 @@ struct ContactRoom {
   std::vector<BodyMotion> motions;
   std::vector<char> near;    ///< Whether a body is within reach of lasting contact.
   std::vector<char> listed;  ///< All 0 but while bodies are listed.
+  BearingContacts bearings;
   Islands joined;
   std::vector<UpwardPass> upward;  ///< Of the islands whose paths have asked for it.
   std::vector<char> is_ordered;    ///< Likewise.
@@ -163,9 +165,6 @@ long solveWithinBudget(const LastingContacts& contacts, std::span<const std::siz
   for (const std::size_t island : unfinished) visits += solve(island, static_cast<int>(sweeps), true).visits;
   return visits;
 }
-
-/// Whether the pair is near enough, for its speed, to be solved as lasting contact in this step.
-bool isLasting(const ShapePair& pair, double step_s);
 
 /// Makes the rows of all lasting pairs of which a body moves, prepared and with the impulses that they start
 /// from, not yet applied. What these pairs remember is over then.

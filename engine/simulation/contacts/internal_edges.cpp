@@ -25,6 +25,21 @@ Side sideOf(const PlacedPair& placed, bool b, const std::vector<Shape>& shapes) 
   return {pair.body_a, shapes[at(pair.shapes.a)], placed.X_WA, placed.closest.p_A_W, -placed.closest.n_W};
 }
 
+PlacedPair placedPair(const ShapePair& pair, const std::vector<Body>& bodies) {
+  return {pair, pair.closest, bodies[at(pair.body_a)].X_WB, bodies[at(pair.body_b)].X_WB};
+}
+
+// The lowest point of a side by its contact. What is round is held below its core, wherever the edge is.
+Vec3 lowestOf(const Side& side, const Vec3& up) {
+  return side.witness_W + side.shape.part->radius_m * (side.outwards_W - up);
+}
+
+// Whether side b of a contact, or a, meets an edge or a vertex of the other there.
+bool meetsEdge(const PlacedPair& contact, bool b) {
+  const FeaturePair& features = contact.closest.features;
+  return (b ? features.a : features.b).kind != FeatureKind::kFace;
+}
+
 // How far a part reaches along a direction.
 double reachAlong(const Side& side, const Vec3& direction_W) {
   const ConvexPart& part = *side.shape.part;
@@ -69,10 +84,11 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   const Side& support = passage.support;
   const PlacedPair& other = passage.other;
   if (support.body != edge.body && !bodies[at(passing.body)].moves()) return false;
-  // What is round is held below its core, wherever the edge is.
   const Vec3& up = passage.held.outwards_W;
-  const Vec3 lowest = passing.witness_W + passing.shape.part->radius_m * (passing.outwards_W - up);
-  if (heightOver(support, lowest) > other.pair.window.manifold) return false;
+  const Vec3 lowest = lowestOf(passing, up);
+  // What bears it lies below the plane of its closest point, which is no face's where two edges cross.
+  if (std::max(dot(up, lowest - support.witness_W), heightOver(support, lowest)) > other.pair.window.manifold)
+    return false;
   const double height = -reachAlong(passing, -up) - reachAlong(edge, up);
   const double held_at = (1.0 - tolerance::kRestBand) * other.pair.window.rest;
   const double sinks = std::max(0.0, other.closest.distance_m - held_at);
@@ -103,12 +119,10 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
   return across.norm() < kCrossingSine;
 }
 
-// What is asked of most comes first: a body has many contacts, and of each all others are asked.
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
-  const FeaturePair& features = contact.closest.features;
   for (const bool b : {false, true}) {
-    if ((b ? features.a : features.b).kind == FeatureKind::kFace) continue;  // no edge to pass
+    if (!meetsEdge(contact, b)) continue;
     const Side passing = sideOf(contact, b, shapes);
     for (const bool other_b : {false, true}) {
       const Side held = sideOf(other, other_b, shapes);
@@ -120,6 +134,60 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
       if (passes({contact, passing, edge, other, held, support}, dt_s, bodies)) return true;
     }
   }
+  return false;
+}
+
+void BearingContacts::find(const PairTable& table, const PairedWorld& world, std::span<const int> active) {
+  of_body_.resize(world.bodies.size());
+  const std::size_t few = active.size() * kFewPairs / std::max<std::size_t>(1, table.active().size());
+  world.crew.runStretches(
+      active.size(), std::max<std::size_t>(1, few), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          std::vector<Bearing>& bearings = of_body_[at(active[k])];
+          bearings.clear();
+          if (!world.bodies[at(active[k])].moves()) continue;
+          for (const int index : table.pairsOf(active[k])) {
+            const ShapePair& pair = table.pairs()[at(index)];
+            if (!pair.lasts(world.settings.step_s) || isAtEdges(placedPair(pair, world.bodies), world.shapes))
+              continue;
+            const ClosestFeatures& closest = pair.closest;
+            bearings.push_back({index, pair.body_a, pair.body_b, pair.window.manifold, closest.n_W,
+                                closest.p_A_W, closest.p_B_W});
+          }
+        }
+      });
+}
+
+// What of passesEdge the contacts' points tell: whether the one is oblique, its body's point above the
+// edge's, and near what bears the body, which lies below the plane of its closest point.
+bool BearingContacts::mayHold(const PlacedPair& contact, const Bearing& bearing,
+                              const std::vector<Shape>& shapes) {
+  if (!isOblique(contact, bearing.n_W) && !isAtEdges(contact, shapes)) return false;
+  for (const bool b : {false, true}) {
+    if (!meetsEdge(contact, b)) continue;
+    const Side passing = sideOf(contact, b, shapes);
+    for (const bool other_b : {false, true}) {
+      if ((other_b ? bearing.body_b : bearing.body_a) != passing.body) continue;
+      const Vec3 up = other_b ? bearing.n_W : -bearing.n_W;
+      const Vec3& support = other_b ? bearing.p_A_W : bearing.p_B_W;
+      const Vec3 lowest = lowestOf(passing, up);
+      if (dot(up, lowest - support) <= bearing.highest_m &&
+          dot(up, lowest - lowestOf(sideOf(contact, !b, shapes), -up)) >= contact.pair.window.floor)
+        return true;
+    }
+  }
+  return false;
+}
+
+bool BearingContacts::isInternal(int pair, const PairTable& table, const PairedWorld& world) const {
+  const PlacedPair contact = placedPair(table.pairs()[at(pair)], world.bodies);
+  const auto holds = [&](const Bearing& bearing) {
+    if (bearing.pair == pair || !mayHold(contact, bearing, world.shapes)) return false;
+    return passesEdge(contact, placedPair(table.pairs()[at(bearing.pair)], world.bodies),
+                      world.settings.step_s, world.bodies, world.shapes);
+  };
+  for (const int body : {contact.pair.body_a, contact.pair.body_b})
+    if (world.bodies[at(body)].moves() && std::ranges::any_of(of_body_[at(body)], holds)) return true;
   return false;
 }
 

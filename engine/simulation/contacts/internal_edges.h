@@ -29,4 +29,30 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes);
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes);
 
+/// Of each body that moves, the lasting contacts that may hold it where it passes an internal edge, as it
+/// lies at the end of the last step. A body in a crowd has many contacts, and of each all others are asked:
+/// what answers most of them is kept together.
+class BearingContacts {
+ public:
+  /// Those of the `active` bodies. Cost O(their pairs).
+  void find(const PairTable& table, const PairedWorld& world, std::span<const int> active);
+  /// Whether the contact of a pair with an active body is one with an internal edge.
+  bool isInternal(int pair, const PairTable& table, const PairedWorld& world) const;
+
+ private:
+  struct Bearing {
+    int pair = -1;
+    int body_a = -1;
+    int body_b = -1;
+    double highest_m = 0.0;  ///< Over what bears the body, a point can be said to lie on it.
+    Vec3 n_W = Vec3::Zero();
+    Vec3 p_A_W = Vec3::Zero();
+    Vec3 p_B_W = Vec3::Zero();
+  };
+
+  static bool mayHold(const PlacedPair& contact, const Bearing& bearing, const std::vector<Shape>& shapes);
+
+  std::vector<std::vector<Bearing>> of_body_;
+};
+
 }  // namespace carom

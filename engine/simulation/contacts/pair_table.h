@@ -63,6 +63,8 @@ struct ShapePair : MeetingTerms {
   std::vector<RememberedImpulse> remembered;  ///< Most pairs of a crowd are near and do not touch.
 
   bool isFree() const { return shapes.a < 0; }  ///< Its place in the table is.
+  /// Whether it is near enough, for its speed, to be solved as lasting contact in a step.
+  bool lasts(double step_s) const { return closest.distance_m <= lastingHeight(step_s); }
   /// Whether a force of its contacts acts.
   bool presses() const {
     return std::ranges::any_of(remembered,
