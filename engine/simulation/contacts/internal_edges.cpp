@@ -1,7 +1,6 @@
 #include "engine/simulation/contacts/internal_edges.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/closest_features/pair/feature_distance.h"
 #include "engine/foundation/index.h"
@@ -47,10 +46,11 @@ double reachAlong(const Side& side, const Vec3& direction_W) {
   return dot(direction_W, side.X * part.core.vertex(part.core.support(direction))) + part.radius_m;
 }
 
-// A lower bound of how far a point is from a part; exact over faces, balls and capsules.
-double heightOver(const Side& side, const Vec3& p_W) {
+// Whether a point is so near a part, at most; a bound over its edges, exact over faces, balls and capsules.
+bool isWithin(double height_m, const Side& side, const Vec3& p_W) {
   const ConvexPart& part = *side.shape.part;
   const ConvexPolyhedron& core = part.core;
+  const double height = height_m + part.radius_m;
   const Vec3 p = side.X.rotation.conjugate() * (p_W - side.X.position);
   if (core.faceCount() == 0) {
     Vec3 nearest = core.vertex(0);
@@ -59,11 +59,11 @@ double heightOver(const Side& side, const Vec3& p_W) {
       const Vec3& tail = core.vertex(edge.tail);
       nearest = tail + std::clamp(dot(edge.direction, p - tail), 0.0, edge.length_m) * edge.direction;
     }
-    return (p - nearest).norm() - part.radius_m;
+    return (p - nearest).norm() <= height;
   }
-  double height = -std::numeric_limits<double>::infinity();
-  for (int f = 0; f < core.faceCount(); ++f) height = std::max(height, core.plane(f).signedDistance(p));
-  return height - part.radius_m;
+  for (int f = 0; f < core.faceCount(); ++f)
+    if (core.plane(f).signedDistance(p) > height) return false;
+  return true;
 }
 
 // A contact between `passing` and the edge of `edge` before it, and `other`, which holds the same body on
@@ -73,8 +73,8 @@ struct Passage {
   const Side& passing;
   const Side& edge;
   const PlacedPair& other;
-  const Side& held;
   const Side& support;
+  const Vec3& up_W;
 };
 
 // Whether it is held so that it passes the edge.
@@ -84,12 +84,15 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   const Side& support = passage.support;
   const PlacedPair& other = passage.other;
   if (support.body != edge.body && !bodies[at(passing.body)].moves()) return false;
-  const Vec3& up = passage.held.outwards_W;
+  const Vec3& up = passage.up_W;
   const Vec3 lowest = lowestOf(passing, up);
+  const double near = other.pair.window.manifold;
   // What bears it lies below the plane of its closest point, which is no face's where two edges cross.
-  if (std::max(dot(up, lowest - support.witness_W), heightOver(support, lowest)) > other.pair.window.manifold)
-    return false;
-  const double height = -reachAlong(passing, -up) - reachAlong(edge, up);
+  if (dot(up, lowest - support.witness_W) > near || !isWithin(near, support, lowest)) return false;
+  const double floor = passage.contact.pair.window.floor;
+  const double bottom = -reachAlong(passing, -up);
+  if (bottom - dot(up, lowestOf(edge, -up)) < floor) return false;
+  const double height = bottom - reachAlong(edge, up);
   const double held_at = (1.0 - tolerance::kRestBand) * other.pair.window.rest;
   const double sinks = std::max(0.0, other.closest.distance_m - held_at);
   const auto rising = [&](const Side& side) {
@@ -97,7 +100,7 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   };
   const double closes =
       support.body == edge.body ? 0.0 : std::max(0.0, rising(edge) - rising(support)) * dt_s;
-  return height - sinks - closes >= passage.contact.pair.window.floor;
+  return height - sinks - closes >= floor;
 }
 
 // Whether a contact comes obliquely to what holds one of its bodies: where it lies flat, it may lie on both.
@@ -131,7 +134,7 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
       if (isAtEdges(other, shapes)) return false;
       const Side edge = sideOf(contact, !b, shapes);
       const Side support = sideOf(other, !other_b, shapes);
-      if (passes({contact, passing, edge, other, held, support}, dt_s, bodies)) return true;
+      if (passes({contact, passing, edge, other, support, held.outwards_W}, dt_s, bodies)) return true;
     }
   }
   return false;
@@ -139,55 +142,53 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
 
 void BearingContacts::find(const PairTable& table, const PairedWorld& world, std::span<const int> active) {
   of_body_.resize(world.bodies.size());
+  const auto findOf = [&](int body) {
+    std::vector<Bearing>& bearings = of_body_[at(body)];
+    bearings.clear();
+    if (!world.bodies[at(body)].moves()) return;
+    for (const int index : table.pairsOf(body)) {
+      const ShapePair& pair = table.pairs()[at(index)];
+      if (!pair.lasts(world.settings.step_s) || isAtEdges(placedPair(pair, world.bodies), world.shapes))
+        continue;
+      const ClosestFeatures& closest = pair.closest;
+      for (const bool b : {false, true}) {
+        const int held = b ? pair.body_b : pair.body_a;
+        if (held != body && world.bodies[at(held)].moves()) continue;
+        bearings.push_back({index, held, pair.window.manifold, b ? closest.n_W : -closest.n_W,
+                            b ? closest.p_A_W : closest.p_B_W});
+      }
+    }
+  };
   const std::size_t few = active.size() * kFewPairs / std::max<std::size_t>(1, table.active().size());
-  world.crew.runStretches(
-      active.size(), std::max<std::size_t>(1, few), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          std::vector<Bearing>& bearings = of_body_[at(active[k])];
-          bearings.clear();
-          if (!world.bodies[at(active[k])].moves()) continue;
-          for (const int index : table.pairsOf(active[k])) {
-            const ShapePair& pair = table.pairs()[at(index)];
-            if (!pair.lasts(world.settings.step_s) || isAtEdges(placedPair(pair, world.bodies), world.shapes))
-              continue;
-            const ClosestFeatures& closest = pair.closest;
-            bearings.push_back({index, pair.body_a, pair.body_b, pair.window.manifold, closest.n_W,
-                                closest.p_A_W, closest.p_B_W});
-          }
-        }
-      });
+  world.crew.runStretches(active.size(), std::max<std::size_t>(1, few),
+                          [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t k = begin; k < end; ++k) findOf(active[k]);
+                          });
 }
 
-// What of passesEdge the contacts' points tell: whether the one is oblique, its body's point above the
-// edge's, and near what bears the body, which lies below the plane of its closest point.
-bool BearingContacts::mayHold(const PlacedPair& contact, const Bearing& bearing,
-                              const std::vector<Shape>& shapes) {
-  if (!isOblique(contact, bearing.n_W) && !isAtEdges(contact, shapes)) return false;
+bool BearingContacts::isInternal(int index, const PairTable& table, const PairedWorld& world) const {
+  const ShapePair& pair = table.pairs()[at(index)];
+  const PlacedPair contact = placedPair(pair, world.bodies);
   for (const bool b : {false, true}) {
     if (!meetsEdge(contact, b)) continue;
-    const Side passing = sideOf(contact, b, shapes);
-    for (const bool other_b : {false, true}) {
-      if ((other_b ? bearing.body_b : bearing.body_a) != passing.body) continue;
-      const Vec3 up = other_b ? bearing.n_W : -bearing.n_W;
-      const Vec3& support = other_b ? bearing.p_A_W : bearing.p_B_W;
+    const Side passing = sideOf(contact, b, world.shapes);
+    const Side edge = sideOf(contact, !b, world.shapes);
+    for (const Bearing& bearing :
+         of_body_[at(world.bodies[at(passing.body)].moves() ? passing.body : edge.body)]) {
+      const Vec3& up = bearing.up_W;
+      if (bearing.held != passing.body || bearing.pair == index) continue;
+      if (!isOblique(contact, up) && !isAtEdges(contact, world.shapes)) continue;
+      // Of the rest what the points alone can tell comes first.
       const Vec3 lowest = lowestOf(passing, up);
-      if (dot(up, lowest - support) <= bearing.highest_m &&
-          dot(up, lowest - lowestOf(sideOf(contact, !b, shapes), -up)) >= contact.pair.window.floor)
+      if (dot(up, lowest - bearing.p_W) > bearing.highest_m ||
+          dot(up, lowest - lowestOf(edge, -up)) < pair.window.floor)
+        continue;
+      const PlacedPair other = placedPair(table.pairs()[at(bearing.pair)], world.bodies);
+      const Side support = sideOf(other, other.pair.body_a == bearing.held, world.shapes);
+      if (passes({contact, passing, edge, other, support, up}, world.settings.step_s, world.bodies))
         return true;
     }
   }
-  return false;
-}
-
-bool BearingContacts::isInternal(int pair, const PairTable& table, const PairedWorld& world) const {
-  const PlacedPair contact = placedPair(table.pairs()[at(pair)], world.bodies);
-  const auto holds = [&](const Bearing& bearing) {
-    if (bearing.pair == pair || !mayHold(contact, bearing, world.shapes)) return false;
-    return passesEdge(contact, placedPair(table.pairs()[at(bearing.pair)], world.bodies),
-                      world.settings.step_s, world.bodies, world.shapes);
-  };
-  for (const int body : {contact.pair.body_a, contact.pair.body_b})
-    if (world.bodies[at(body)].moves() && std::ranges::any_of(of_body_[at(body)], holds)) return true;
   return false;
 }
 

@@ -37,22 +37,18 @@ class BearingContacts {
   /// Those of the `active` bodies. Cost O(their pairs).
   void find(const PairTable& table, const PairedWorld& world, std::span<const int> active);
   /// Whether the contact of a pair with an active body is one with an internal edge.
-  bool isInternal(int pair, const PairTable& table, const PairedWorld& world) const;
+  bool isInternal(int index, const PairTable& table, const PairedWorld& world) const;
 
  private:
   struct Bearing {
     int pair = -1;
-    int body_a = -1;
-    int body_b = -1;
-    double highest_m = 0.0;  ///< Over what bears the body, a point can be said to lie on it.
-    Vec3 n_W = Vec3::Zero();
-    Vec3 p_A_W = Vec3::Zero();
-    Vec3 p_B_W = Vec3::Zero();
+    int held = -1;           ///< The body that is borne.
+    double highest_m = 0.0;  ///< Over what bears it, a point can be said to lie on it.
+    Vec3 up_W = Vec3::Zero();
+    Vec3 p_W = Vec3::Zero();  ///< The closest point of what bears it.
   };
 
-  static bool mayHold(const PlacedPair& contact, const Bearing& bearing, const std::vector<Shape>& shapes);
-
-  std::vector<std::vector<Bearing>> of_body_;
+  std::vector<std::vector<Bearing>> of_body_;  ///< Those of what does not move with the body that it bears.
 };
 
 }  // namespace carom
