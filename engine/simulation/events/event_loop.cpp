@@ -140,7 +140,8 @@ class EventLoop {
   }
   bool isOver(const Event& event) const { return event.pair >= 0 && !isCurrent(event); }
 
-  // The pairs that are to be looked at before what comes next for certain, side by side.
+  // The pairs that are to be looked at before what comes next for certain, side by side; where nothing can be
+  // looked at any more, one after the other.
   void lookAtNext() {
     uncertain_.clear();
     uncertain_pairs_.clear();
@@ -152,12 +153,14 @@ class EventLoop {
       if (over) continue;
       uncertain_.push_back(event);
       uncertain_pairs_.push_back(event.pair);
+      if (searches_.isSpent()) break;
     }
     searches_.look(uncertain_pairs_);
+    bool is_proven = true;  // of all pairs, up to the event; from where bodies froze on theirs are to be proven
     for (const Event& event : uncertain_) {
       if (!isCurrent(event)) continue;
-      if (searches_.isSpent())
-        freezePair(event.pair, event.time_s);  // up to here all pairs are proven
+      if (searches_.isSpent() && is_proven)
+        is_proven = !freezePair(event.pair, event.time_s);
       else
         await(event.pair);
     }
@@ -178,9 +181,9 @@ class EventLoop {
     return true;
   }
 
-  // Freezes the bodies of a pair that its search has not cleared.
-  void freezePair(int index, double time_s) {
-    if (searches_.of(index).found.outcome == TimeOfImpact::Outcome::kClear) return;
+  // Freezes the bodies of a pair that its search has not cleared. Whether it has not.
+  bool freezePair(int index, double time_s) {
+    if (searches_.of(index).found.outcome == TimeOfImpact::Outcome::kClear) return false;
     changed_.clear();
     const ShapePair& pair = table_.pairs()[at(index)];
     for (const int i : {pair.body_a, pair.body_b}) {
@@ -191,6 +194,7 @@ class EventLoop {
       changed_.push_back(i);
     }
     searchAgain(time_s);
+    return true;
   }
 
   void awaitNextPiece(int index) {
