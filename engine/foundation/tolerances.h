@@ -41,42 +41,24 @@ inline constexpr double kFineFall = 2.0e-3;
 /// Pairs of bodies that are awake, times substeps: where this is exceeded, the step has fewer substeps.
 inline constexpr int kFinePairs = 300;
 
-// Contact solver. Residuals are relative to the speed that gravity, or a load, adds in a step. Small islands
-// and large ones are told apart by kFocusedRows (focused_solver.h).
+// Contact solver. Residuals are relative to the speed that gravity, or a load, adds in a step.
 
 /// The residual of islands that the budget of row visits lets be solved with care.
 inline constexpr double kSolverResidual = 1.0e-8;
 /// Row visits: those of a step for all islands in which bodies move, those for all its events, and those for
 /// each island that stands. What needs more is solved to a coarser residual.
 inline constexpr int kSolverRowVisits = 8000;
-/// Sweeps that a small island may have whatever the budget.
-inline constexpr int kSolverSweeps = 60;
-/// Sweeps that a large island may have whatever the budget.
-inline constexpr int kSolverFocusedSweeps = 24;
+/// Sweeps that an island may have whatever the budget.
+inline constexpr int kSolverSweeps = 24;
 /// The residual of what moves, beyond the budget.
 inline constexpr double kSolverCoarseResidual = 1.0e-3;
-/// The residual of an island that stands, beyond the budget.
+/// The residual of an island that lies still, beyond the budget.
 inline constexpr double kSolverStandingResidual = 1.0e-5;
-/// The residual of an island that stands but for some body that moves in it, beyond the budget.
-inline constexpr double kSolverStirredResidual = 1.0e-4;
-/// The residual of a large island for which the direct solve pauses.
-inline constexpr double kSolverCrowdResidual = 2.0e-4;
 /// Row visits of a step where what moves has not come to the coarse residual within its budget.
 inline constexpr int kSolverMostVisits = 50000;
-/// Sweeps of what moves that those visits do not cut.
-inline constexpr int kSolverMovingSweeps = 20;
-/// Sweeps of a small island that stands, before it is solved directly.
-inline constexpr int kSolverStandingSweeps = 20;
-/// Sweeps of a large island that stands, before it is solved directly.
-inline constexpr int kSolverCrowdStandingSweeps = 28;
 /// Products of blocks for each row: a direct solve that takes more takes longer than the sweeps instead of
 /// it.
 inline constexpr long kSolverDearProducts = 16;
-/// How many more direct solves of a large island must have failed, or been too dear, than not, before they
-/// pause.
-inline constexpr int kSolverPatience = 8;
-/// Steps of such a pause.
-inline constexpr int kSolverPause = 120;
 /// Of a surplus gap: what a contact that presses already closes of it in a step.
 inline constexpr double kGapGain = 0.2;
 /// m/s: a gap that is too small is reopened within a step, but no faster than this.

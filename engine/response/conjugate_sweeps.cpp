@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -15,25 +16,22 @@ std::size_t blocksOf(std::size_t count) {
 
 }  // namespace
 
-InvolvedBodies::InvolvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
-  const auto placeOf = [&](int i) {
-    ImpulseBody& body = bodies[static_cast<std::size_t>(i)];
-    if (body.place < 0) {
-      body.place = static_cast<int>(indices.size());
-      indices.push_back(static_cast<std::size_t>(i));
-    }
-    return body.place;
-  };
-  ends.reserve(rows.size());
-  for (const ContactRow& row : rows) {
-    const int a = placeOf(row.a);
-    ends.push_back({a, placeOf(row.b)});
-  }
-  for (const std::size_t i : indices) bodies[i].place = -1;
+std::vector<std::size_t> involvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies) {
+  std::vector<std::size_t> involved;
+  for (const ContactRow& row : rows)
+    for (const int i : {row.a, row.b})
+      if (!std::exchange(bodies[static_cast<std::size_t>(i)].is_listed, true))
+        involved.push_back(static_cast<std::size_t>(i));
+  for (const std::size_t i : involved) bodies[i].is_listed = false;
+  return involved;
 }
 
 ConjugateSweeps::ConjugateSweeps(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, Crew* crew)
-    : rows_(rows), bodies_(bodies), crew_(crew), involved_(rows, bodies), sweeps_(rows, bodies, crew) {
+    : rows_(rows),
+      bodies_(bodies),
+      crew_(crew),
+      involved_(involvedBodies(rows, bodies)),
+      sweeps_(rows, bodies, crew) {
   turning_ = std::any_of(rows.begin(), rows.end(), [](const ContactRow& row) { return row.resists_turning; });
 }
 
@@ -57,16 +55,16 @@ void ConjugateSweeps::begin(bool friction) {
   const std::size_t turning_rows = friction && turning_ ? rows_.size() : 0;
   direction_.impulses.assign(rows_.size(), Vec3::Zero());
   direction_.torques.assign(turning_rows, Vec3::Zero());
-  direction_.velocities.assign(involved_.indices.size(), {});
+  direction_.velocities.assign(involved_.size(), {});
   before_.impulses.resize(rows_.size());
   before_.torques.resize(turning_rows);
-  before_.velocities.resize(involved_.indices.size());
+  before_.velocities.resize(involved_.size());
   inBlocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) before_.impulses[i] = rows_[i].impulse;
   });
   for (std::size_t i = 0; i < turning_rows; ++i) before_.torques[i] = rows_[i].torque;
-  inBlocks(involved_.indices.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) before_.velocities[k] = bodies_[involved_.indices[k]].velocity;
+  inBlocks(involved_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) before_.velocities[k] = bodies_[involved_[k]].velocity;
   });
 }
 
@@ -104,10 +102,10 @@ void ConjugateSweeps::continueAlong(double share) {
       before_.torques[i] = rows_[i].torque += kept;
     }
   });
-  inBlocks(involved_.indices.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  inBlocks(involved_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Velocity& d = direction_.velocities[k];
-      Velocity& v = bodies_[involved_.indices[k]].velocity;
+      Velocity& v = bodies_[involved_[k]].velocity;
       const Velocity kept{share * d.linear, share * d.angular};
       d.linear = v.linear - before_.velocities[k].linear + kept.linear;
       d.angular = v.angular - before_.velocities[k].angular + kept.angular;
@@ -124,10 +122,9 @@ SolverReport ConjugateSweeps::solve(const SolverSettings& settings) {
   while (report.sweeps < settings.sweeps) {
     const bool careful = report.sweeps + 2 < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
-    for (const bool forward : {true, false})
-      sweeps_.sweep({settings.friction, forward, kVisitAll, enough}, report);
+    for (const bool forward : {true, false}) sweeps_.sweep({settings.friction, forward, kVisitAll}, report);
     // The last sweep always ends within the cones: no step along the direction follows it.
-    if (hasConverged(report, settings, enough, rows_.size()) || report.sweeps >= settings.sweeps) break;
+    if (report.residual_mps <= enough || report.sweeps >= settings.sweeps) break;
     const double squared = squaredStep();
     const bool shrinks = squared < last_squared;  // else the direction has lost its worth
     continueAlong(shrinks ? squared / last_squared : 0.0);

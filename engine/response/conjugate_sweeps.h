@@ -3,7 +3,6 @@
 // (Silcowitz, Niebe, Erleben 2010): several times fewer sweeps where bodies stand on each other. Tested in
 // tests/engine/response/conjugate_sweeps_test.cpp.
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,13 +11,8 @@
 
 namespace carom {
 
-/// The bodies that rows refer to, each once: of a world, those of one island.
-struct InvolvedBodies {
-  InvolvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies);
-
-  std::vector<std::size_t> indices;
-  std::vector<std::array<int, 2>> ends;  ///< Of each row, a and b, as places in `indices`.
-};
+/// The bodies that rows refer to, each once, as indices: of a world, those of one island.
+std::vector<std::size_t> involvedBodies(std::span<const ContactRow> rows, std::span<ImpulseBody> bodies);
 
 /// Rows that are solved several times: what is found of them once is kept.
 class ConjugateSweeps {
@@ -27,7 +21,6 @@ class ConjugateSweeps {
 
   /// As solveContacts, from the impulses and velocities as they are now.
   SolverReport solve(const SolverSettings& settings);
-  const InvolvedBodies& involved() const { return involved_; }
 
  private:
   struct Iterate {  // impulses and the velocities they give: a point, or a direction, of the search
@@ -44,7 +37,7 @@ class ConjugateSweeps {
   std::span<ContactRow> rows_;
   std::span<ImpulseBody> bodies_;
   Crew* crew_;
-  InvolvedBodies involved_;
+  std::vector<std::size_t> involved_;
   SharedSweeps sweeps_;
   bool turning_ = false;
   std::vector<double> squares_;  // of blocks of rows

@@ -1,16 +1,14 @@
 #include "engine/response/standing_solver.h"
 
-#include "engine/response/focused_solver.h"
+#include "engine/response/conjugate_sweeps.h"
 #include "engine/response/held_rows.h"
 #include "engine/response/sweeps/solution.h"
 
 namespace carom {
 namespace {
 
-// Direct steps on a small island, at most: each leaves a fifth to a fiftieth of the residual.
+// Direct steps, at most: each leaves a fifth to a fiftieth of the residual.
 constexpr int kDirectSteps = 4;
-// The same on a large island: the next solve begins with what these leave.
-constexpr int kDirectStepsOfMany = 2;
 // Times the residual that is enough. A heap in which some contact comes and goes stays below this and above
 // enough, so there a step that gains little is the last.
 constexpr double kNearlyEnough = 5.0;
@@ -27,7 +25,7 @@ constexpr int kSweepsAfter = 16;
 
 SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                                    const SolverSettings& settings) {
-  SolverReport total = solveContactsFocused(rows, bodies, settings);
+  SolverReport total = solveContactsFinely(rows, bodies, settings);
   const SolverSettings after{
       .sweeps = kSweepsAfter, .residual_mps = kFiner * settings.residual_mps, .crew = settings.crew};
   if (total.residual_mps <= settings.residual_mps) return total;
@@ -36,10 +34,9 @@ SolverReport solveStandingContacts(std::span<ContactRow> rows, std::span<Impulse
   if (total.products > settings.most_products) return total;
   Solution best(rows, bodies);
   double least_mps = total.residual_mps;
-  const int most_steps = rows.size() < kFocusedRows ? kDirectSteps : kDirectStepsOfMany;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < kDirectSteps && (step + 1) * total.products <= settings.most_products; ++step) {
     if (!held.step(rows, bodies)) break;
-    const SolverReport report = solveContactsFocused(rows, bodies, after);
+    const SolverReport report = solveContactsFinely(rows, bodies, after);
     total.sweeps += report.sweeps;
     total.visits += report.visits;
     total.residual_mps = report.residual_mps;

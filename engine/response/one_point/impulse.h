@@ -15,8 +15,8 @@ struct ImpulseBody {
   double inverse_mass = 0.0;
   Mat3 inverse_tensor = Mat3::Zero();
   // Of the contact solver:
-  double stir = 0.0;  ///< The sum of the speeds, m/s, that its rows have changed.
-  int place = -1;     ///< While it lists the bodies of its rows: where this one is in the list.
+  double stir = 0.0;       ///< The sum of the speeds, m/s, that its rows have changed.
+  bool is_listed = false;  ///< While it lists the bodies of its rows.
   /// 1 along the world's axes that it can move along, 0 along those that are locked. Locked turning is in
   /// the tensor.
   Vec3 free_axes = Vec3::Ones();

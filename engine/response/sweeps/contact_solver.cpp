@@ -106,13 +106,6 @@ RowChange solveRow(ContactRow& row, std::span<ImpulseBody> bodies, bool friction
   return solvePoint(row, bodies, friction);
 }
 
-// A change is cut off where the sum of the rows of a world could overflow.
-long excessOf(double change) {
-  constexpr double kMostExcess = 1e6;
-  const double cut = std::min(change, kMostExcess);
-  return static_cast<long>(cut * cut);
-}
-
 double& stirOf(std::span<ImpulseBody> bodies, int i) {
   return bodies[at(i)].stir;
 }
@@ -152,7 +145,6 @@ void setCoefficient(ContactRow& row, double coefficient) {
 void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Sweep& sweep,
                SolverReport& report) {
   double residual_mps = 0.0;
-  long excess = 0;
   long visits = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     ContactRow& row = rows[sweep.forward ? k : rows.size() - 1 - k];
@@ -165,11 +157,9 @@ void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const 
     if (bodies[at(row.b)].inverse_mass > 0.0) stir_b += change.speed_mps;
     row.seen_stir = change.settled ? stir_a + stir_b : before;
     residual_mps = std::max(residual_mps, change.speed_mps);
-    if (change.speed_mps > sweep.enough_mps) excess += excessOf(change.speed_mps / sweep.enough_mps);
     ++visits;
   }
   report.residual_mps = residual_mps;
-  report.excess = excess;
   report.visits += visits;
   ++report.sweeps;
 }
@@ -187,8 +177,8 @@ SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bo
     const bool careful = report.sweeps < settings.careful_sweeps;
     const double enough = careful ? settings.residual_mps : settings.coarse_residual_mps;
     const bool forward = report.sweeps % 2 == 0;
-    sweeps.sweep({settings.friction, forward, kStirShare * enough, enough}, report);
-    if (hasConverged(report, settings, enough, rows.size())) break;
+    sweeps.sweep({settings.friction, forward, kStirShare * enough}, report);
+    if (report.residual_mps <= enough) break;
   }
   return report;
 }

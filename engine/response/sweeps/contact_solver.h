@@ -117,8 +117,7 @@ struct SolverSettings {
   bool friction = true;
   int careful_sweeps = std::numeric_limits<int>::max();  ///< After so many the coarse residual is enough.
   double coarse_residual_mps = 0.0;
-  bool in_the_mean = false;  ///< Residuals are root mean squares: some rows of a crowd never converge.
-  /// Of 6 x 6 blocks: where a step of all held rows takes more, none is made (standing_solver.h).
+  /// Of 6 x 6 blocks: what steps of all held rows may take (standing_solver.h).
   long most_products = std::numeric_limits<long>::max();
   bool resumes = false;  ///< Goes on where the last call stopped: rows that it left settled are not visited.
   Crew* crew = nullptr;  ///< Who sweeps; none: the caller alone, which changes no bit of the outcome.
@@ -127,7 +126,6 @@ struct SolverSettings {
 struct SolverReport {
   int sweeps = 0;
   double residual_mps = 0.0;  ///< The largest change of speed in the last sweep.
-  long excess = 0;            ///< Of the last sweep: see `sweepRows`.
   long visits = 0;            ///< Rows looked at, over all sweeps.
   long products = 0;          ///< Of 6 x 6 blocks: what a step of all held rows takes (standing_solver.h).
 };
@@ -140,21 +138,11 @@ struct Sweep {
   bool friction = true;
   bool forward = true;
   double unnoticed_stir = kVisitAll;
-  double enough_mps = std::numeric_limits<double>::infinity();  ///< A smaller change of speed is no excess.
 };
 
-/// One sweep. Adds to the report; its residual and its excess are of this sweep. The excess: the squares of
-/// the changes of speed, in units of `enough_mps`, cut to whole numbers and summed up, so that parts of a
-/// sweep add up to the same in any order.
+/// One sweep. Adds to the report, whose residual is of this sweep.
 void sweepRows(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, const Sweep& sweep,
                SolverReport& report);
-
-/// Whether the last sweep, over `rows` rows, has come to `enough_mps`, which the sweep was made with.
-inline bool hasConverged(const SolverReport& report, const SolverSettings& settings, double enough_mps,
-                         std::size_t rows) {
-  if (settings.in_the_mean) return report.excess <= static_cast<long>(rows);
-  return report.residual_mps <= enough_mps;
-}
 
 SolverReport solveContacts(std::span<ContactRow> rows, std::span<ImpulseBody> bodies,
                            const SolverSettings& settings);

@@ -27,7 +27,6 @@ void SharedSweeps::sweep(const Sweep& sweep, SolverReport& report) {
     return;
   }
   double residual_mps = 0.0;
-  long excess = 0;
   ++report.sweeps;
   for (std::size_t k = 0; k < tiers_.size(); ++k) {
     const Tier& tier = tiers_[sweep.forward ? k : tiers_.size() - 1 - k];
@@ -43,12 +42,10 @@ void SharedSweeps::sweep(const Sweep& sweep, SolverReport& report) {
       for (int i = 0; i < runs; ++i) sweepRun(i);
     for (const SolverReport& part : reports_) {
       residual_mps = std::max(residual_mps, part.residual_mps);
-      excess += part.excess;
       report.visits += part.visits;
     }
   }
   report.residual_mps = residual_mps;
-  report.excess = excess;
 }
 
 }  // namespace carom

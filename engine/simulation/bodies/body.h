@@ -115,8 +115,6 @@ struct Body : StepMotion {
   double still_s = 0.0;                ///< For how long it has lain still.
   SwingWatch swing;                    ///< Whether it swings about its rest.
   Mode mode = Mode::kFree;
-  int in_vain = 0;      ///< How much more often solving its island at once was not worth it than it was.
-  int swept_alone = 0;  ///< Steps for which that is not tried again.
 
   Pose X_WB;          ///< At the time of the last finished step.
   Velocity velocity;  ///< At the time of the last finished step.

@@ -47,13 +47,6 @@ struct RowStretch {
   }
 };
 
-/// How a body moved before the step's impulses, once for all its rows.
-struct BodyMotion {
-  double mass_kg = 0.0;    ///< 0: it does not move.
-  double speed_mps = 0.0;  ///< Of its middle, and of its surface about that.
-  bool lies_still = true;
-};
-
 /// Room that is kept from step to step, by body of the world; what belongs to bodies that are not active is
 /// as they came to rest.
 struct ContactRoom {
@@ -61,9 +54,9 @@ struct ContactRoom {
   std::vector<Vec3> accelerations;
   std::vector<Velocity> ways;      ///< Means of momenta, from which paths are led.
   std::vector<Velocity> led_from;  ///< Means of paths before they were raised for turning.
-  std::vector<BodyMotion> motions;
-  std::vector<char> near;    ///< Whether a body is within reach of lasting contact.
-  std::vector<char> listed;  ///< All 0 but while bodies are listed.
+  std::vector<char> still;         ///< Whether a body lies still before the step's impulses.
+  std::vector<char> near;          ///< Whether a body is within reach of lasting contact.
+  std::vector<char> listed;        ///< All 0 but while bodies are listed.
   BearingContacts bearings;
   Islands joined;
   std::vector<UpwardPass> upward;  ///< Of the islands whose paths have asked for it.

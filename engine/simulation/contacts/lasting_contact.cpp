@@ -7,114 +7,52 @@
 #include "engine/foundation/index.h"
 #include "engine/modes/islands.h"
 #include "engine/response/conjugate_sweeps.h"
-#include "engine/response/focused_solver.h"
 #include "engine/response/standing_solver.h"
 #include "engine/response/sweeps/energy_bound.h"
 #include "engine/response/sweeps/no_room.h"
 #include "engine/response/sweeps/turning_resistance.h"
-#include "engine/simulation/bodies/solver_patience.h"
 #include "engine/simulation/contacts/contact_paths.h"
 
 namespace carom {
 namespace {
 
-constexpr int kLandingSweeps = 8;    // over rows that landings stir; the next step solves on
-constexpr double kFewMoving = 0.05;  // of a crowd's bodies: so many falling about do not set it in motion
+constexpr int kLandingSweeps = 8;  // over rows that landings stir; the next step solves on
 
-std::span<const BodyMotion> motionsOf(const LastingWorld& world, LastingContacts& contacts) {
-  contacts.room.motions.resize(world.bodies.size());
-  const std::span<const int> active = world.active.list();
-  world.crew.runStretches(active.size(), kFewBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Body& body = world.bodies[at(active[k])];
-      BodyMotion& motion = contacts.room.motions[at(active[k])];
-      motion = {};
-      motion.lies_still = !body.isDriven() || body.was_stopped;
-      if (!body.moves()) continue;
-      motion = {1.0 / body.inertia.inverse_mass,
-                body.velocity.linear.norm() + body.velocity.angular.norm() * body.radius_m, body.liesStill()};
-    }
-  });
-  return contacts.room.motions;
-}
-
-// Whether an island lies still but for a few of its bodies: in the mean by mass, or, of a crowd, nearly all
-// of them. A body counts as often as it has rows.
-bool stands(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
-  double twice_energy = 0.0;  // of bodies that turn with their whole mass at their radius
-  double mass = 0.0;
-  int all = 0, moving = 0;
-  for (const ContactRow& row : rows) {
-    for (const int i : {row.a, row.b}) {
-      const BodyMotion& body = motions[at(i)];
-      if (body.mass_kg == 0.0 && !body.lies_still) return false;  // it rides on what moves
-      if (body.mass_kg == 0.0) continue;
-      ++all;
-      if (!(body.speed_mps < tolerance::kRestSpeed)) ++moving;
-      mass += body.mass_kg;
-      twice_energy += body.mass_kg * body.speed_mps * body.speed_mps;
-    }
+// Of each body, whether it lies still; what rests and what is static do.
+std::span<const char> stillBodies(const LastingWorld& world, LastingContacts& contacts) {
+  contacts.room.still.resize(world.bodies.size());
+  for (const int i : world.active.list()) {
+    const Body& body = world.bodies[at(i)];
+    contacts.room.still[at(i)] = body.moves() ? body.liesStill() : !body.isDriven() || body.was_stopped;
   }
-  if (rows.size() >= kFocusedRows && moving <= kFewMoving * all) return true;
-  return twice_energy <= mass * tolerance::kRestSpeed * tolerance::kRestSpeed;
+  return contacts.room.still;
 }
 
-bool isStirred(std::span<const ContactRow> rows, std::span<const BodyMotion> motions) {
-  return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& row) {
-    return !motions[at(row.a)].lies_still || !motions[at(row.b)].lies_still;
-  });
+// What lies still and presses holds at the gap it has: closing it would keep all around it from coming to rest.
+void holdStillGaps(LastingContacts& contacts, std::span<const char> still) {
+  for (ContactRow& row : contacts.rows)
+    if (row.impulse.x() > 0.0 && still[at(row.a)] && still[at(row.b)])
+      row.lowest_speed = std::max(0.0, row.lowest_speed);
 }
 
-// The least sweeps of an island that stands but for what moves in it.
-int fewestSweeps(std::span<const ContactRow> rows) {
-  return rows.size() < kFocusedRows ? tolerance::kSolverSweeps : tolerance::kSolverFocusedSweeps;
+// Whether an island lies still, all of it.
+bool liesStill(std::span<const ContactRow> rows, std::span<const char> still) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const ContactRow& row) { return still[at(row.a)] && still[at(row.b)]; });
 }
 
-// Of an island that lies still, before its rows are solved at once.
-int standingSweeps(std::span<const ContactRow> rows) {
-  return rows.size() < kFocusedRows ? tolerance::kSolverStandingSweeps
-                                    : tolerance::kSolverCrowdStandingSweeps;
-}
-
-// Small islands are solved to the fine residual, large ones to a coarser one.
-double residualOf(std::span<const ContactRow> rows, double coarser) {
-  return sweepsInBudget(rows.size()) >= tolerance::kSolverSweeps ? tolerance::kSolverResidual : coarser;
-}
-
-// What lies still, all of it.
-SolverReport solveStillIsland(std::span<ContactRow> rows, std::vector<Body>& bodies,
-                              std::span<ImpulseBody> solver_bodies, double push_mps, Crew& crew) {
-  SolverSettings settings{.sweeps = std::max(sweepsInBudget(rows.size()), standingSweeps(rows)),
-                          .residual_mps = residualOf(rows, tolerance::kSolverStandingResidual) * push_mps,
-                          .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
-                          .crew = &crew};
-  SolverPatience patience(rows, bodies);
-  if (patience.isLost()) {
-    settings.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows));
-    settings.residual_mps = tolerance::kSolverCrowdResidual * push_mps;
-    settings.in_the_mean = true;
-    patience.waitAStep();
-    return solveContactsFocused(rows, solver_bodies, settings);
-  }
-  const SolverReport report = solveStandingContacts(rows, solver_bodies, settings);
-  patience.learn(report, settings.residual_mps);
-  return report;
-}
-
-// While some body still moves in it, sweeps are enough: the loads change from step to step, and its rows,
-// taken as equations, would contradict each other.
-SolverReport solveStandingIsland(std::span<ContactRow> rows, std::span<const BodyMotion> motions,
-                                 std::vector<Body>& bodies, std::span<ImpulseBody> solver_bodies,
-                                 double push_mps, Crew& crew) {
-  // What presses holds at the gap it has: closing it would keep the rest from lying still.
-  for (ContactRow& row : rows)
-    if (row.impulse.x() > 0.0) row.lowest_speed = std::max(0.0, row.lowest_speed);
-  if (!isStirred(rows, motions)) return solveStillIsland(rows, bodies, solver_bodies, push_mps, crew);
-  return solveContactsFocused(rows, solver_bodies,
-                              {.sweeps = std::max(sweepsInBudget(rows.size()), fewestSweeps(rows)),
-                               .residual_mps = residualOf(rows, tolerance::kSolverStirredResidual) * push_mps,
-                               .in_the_mean = rows.size() >= kFocusedRows,
-                               .crew = &crew});
+// With steps that solve all held rows at once. While some body moves, its rows, taken as equations, would
+// contradict each other.
+SolverReport solveStillIsland(std::span<ContactRow> rows, std::span<ImpulseBody> bodies, double push_mps,
+                              Crew& crew) {
+  const int sweeps = sweepsInBudget(rows.size());
+  const bool careful = sweeps >= tolerance::kSolverSweeps;
+  return solveStandingContacts(
+      rows, bodies,
+      {.sweeps = std::max(sweeps, tolerance::kSolverSweeps),
+       .residual_mps = (careful ? tolerance::kSolverResidual : tolerance::kSolverStandingResidual) * push_mps,
+       .most_products = tolerance::kSolverDearProducts * static_cast<long>(rows.size()),
+       .crew = &crew});
 }
 
 // Carefully for its share of the budget, and coarsely for longer; a crowd in motion is solved on in the next
@@ -182,17 +120,16 @@ std::vector<std::size_t> stopWhatLeavesNoRoom(LastingContacts& contacts, std::sp
 // With friction.
 void solveImpulses(LastingContacts& contacts, std::span<const std::size_t> islands, const LastingWorld& world,
                    StepCounters& counters) {
-  const std::span<const BodyMotion> motions = motionsOf(world, contacts);
+  const std::span<const char> still = stillBodies(world, contacts);
+  holdStillGaps(contacts, still);
   const int most_sweeps =
-      std::max(tolerance::kSolverMovingSweeps,
+      std::max(tolerance::kSolverSweeps,
                tolerance::kSolverMostVisits / std::max(1, static_cast<int>(contacts.rows.size())));
   const auto solve = [&](std::size_t island, int sweeps, bool again) {
     const std::span<ContactRow> rows = contacts.rowsOf(contacts.islands[island]);
     const double push_mps = contacts.islands[island].push_mps;
-    if (!again && stands(rows, motions)) {
-      const SolverReport report =
-          solveStandingIsland(rows, motions, world.bodies, contacts.bodies, push_mps, world.crew);
-      counters.row_visits += report.visits;
+    if (!again && liesStill(rows, still)) {
+      counters.row_visits += solveStillIsland(rows, contacts.bodies, push_mps, world.crew).visits;
       return SolverReport{};  // it has budgets of its own
     }
     return solveMovingIsland(rows, contacts.bodies, sweeps, again ? sweeps : std::max(sweeps, most_sweeps),
