@@ -47,24 +47,36 @@ double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& v
          0.5 * dot(velocity.angular, angularMomentum(inertia, R_WB, velocity.angular));
 }
 
-Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J) {
-  // Lagrange: L_i / (1 + s I_min / I_i) along each principal axis. The energy falls with s; its inverse root
-  // is nearly linear in s, so Newton's steps on that converge from everywhere.
+Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J,
+                  const Vec3& kept_W) {
+  // Lagrange: (L_i + c u_i) / (1 + s I_min / I_i) along each principal axis, with c so that the part along u
+  // stays. The energy falls with s; its inverse root is nearly linear in s, so Newton's steps on that
+  // converge from everywhere.
   const Mat3 R_WP = R_WB.toRotationMatrix() * inertia.principal_axes_B;
   const Vec3& moments = inertia.principal_moments;
   const Vec3 momentum = R_WP.transpose() * angular_momentum;
   const Vec3 share = moments[0] * moments.cwiseInverse();
+  Vec3 u = Vec3::Zero();
+  if (!kept_W.isZero(0.0)) u = R_WP.transpose() * kept_W.normalized();
+  const double kept = dot(u, momentum);
+  // The least energy with that part is the one of spinning about u alone.
+  if (kept * kept >= 2.0 * energy_J * dot(u, moments.cwiseProduct(u))) u.setZero();
+  const bool keeps = !u.isZero(0.0);
   double s = 0.0;
   double energy = 0.0;
   Vec3 nearest = momentum;
   for (int i = 0; i <= kNearestSteps; ++i) {
-    const Vec3 shrinking = Vec3::Ones() + s * share;
-    nearest = momentum.cwiseQuotient(shrinking);
-    const Vec3 energies = 0.5 * nearest.cwiseProduct(nearest).cwiseQuotient(moments);
-    energy = energies.sum();
+    const Vec3 shrunk = (Vec3::Ones() + s * share).cwiseInverse();
+    const Vec3 along = shrunk.cwiseProduct(u);
+    nearest = momentum.cwiseProduct(shrunk);
+    if (keeps) nearest += (kept - dot(u, nearest)) / dot(u, along) * along;
+    energy = 0.5 * dot(nearest.cwiseProduct(nearest), moments.cwiseInverse());
     if (!(energy > 0.0) || std::abs(energy - energy_J) <= kSameEnergy * energy_J || i == kNearestSteps) break;
-    const double slope = energies.cwiseProduct(share).cwiseQuotient(shrinking).sum();  // -1/2 d energy / ds
-    s = std::max(kMostGrowth, s + (std::sqrt(energy / energy_J) - 1.0) * energy / slope);
+    const Vec3 weighed = share.cwiseProduct(nearest);
+    double slope = dot(weighed.cwiseProduct(weighed), shrunk);  // -I_min d energy / ds
+    if (keeps) slope -= dot(along, weighed) * dot(along, weighed) / dot(u, along);
+    if (!(slope > 0.0)) break;
+    s = std::max(kMostGrowth, s + (std::sqrt(energy / energy_J) - 1.0) * energy * 2.0 * moments[0] / slope);
   }
   const Vec3 spin = R_WP * nearest.cwiseQuotient(moments);
   return energy > energy_J ? Vec3(spin * std::sqrt(energy_J / energy)) : spin;

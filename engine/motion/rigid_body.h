@@ -39,7 +39,9 @@ double kineticEnergy(const Inertia& inertia, const Quat& R_WB, const Velocity& v
 /// the one given. For a body whose orientation contacts have led elsewhere than its own rotation would have:
 /// with the same angular momentum a needle would have a hundred times its energy for every few degrees of
 /// difference, as its moment about its own axis is so small. Less energy than asked for where the momentum
-/// would have to change beyond what such a difference explains.
-Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J);
+/// would have to change beyond what such a difference explains. `kept_W`, if it is not zero: the part of the
+/// angular momentum along it stays as it is, where that leaves room for the energy.
+Vec3 spinOfEnergy(const Inertia& inertia, const Quat& R_WB, const Vec3& angular_momentum, double energy_J,
+                  const Vec3& kept_W = Vec3::Zero());
 
 }  // namespace carom

@@ -37,6 +37,8 @@ struct StepMotion {
   Velocity momentum_velocity;        ///< At path.start_s.
   Vec3 acceleration = Vec3::Zero();  ///< Of the momentum velocity: by the environment, and lasting contacts.
   Vec3 torque = Vec3::Zero();        ///< Theirs, N m, world frame.
+  /// Where gravity and its load pull it. Forces along this do not change the angular momentum about it.
+  Vec3 pull_W = Vec3::Zero();
   /// W, of a body that tumbles through air or fluids: what all that makes of its energy of turning. Near the
   /// orientation of its flight, which its path leads it to, a slender body with the same angular momentum has
   /// another energy.
@@ -53,7 +55,8 @@ struct StepMotion {
 
   /// The velocity impulses act on, at a time not before path.start_s at which the path has turned the body to
   /// `R_WB`. In flight the path is the body's own rotation, and its angular momentum says how it turns. Where
-  /// contacts lead the path, the body has the energy that their impulses left it, whatever its orientation.
+  /// contacts lead the path, the body has the energy that their impulses left it, whatever its orientation,
+  /// and keeps its angular momentum about its pull.
   Velocity velocityAt(const Inertia& inertia, double t_s, const Quat& R_WB) const {
     Velocity v = momentum_velocity;
     const double dt = t_s - path.start_s;
@@ -72,7 +75,7 @@ struct StepMotion {
       return v;
     }
     const Vec3 spin_B = solved_spin_B + dt * turning_B;
-    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * dot(spin_B, inertia.tensor_B * spin_B));
+    v.angular = spinOfEnergy(inertia, R_WB, momentum, 0.5 * dot(spin_B, inertia.tensor_B * spin_B), pull_W);
     return v;
   }
 

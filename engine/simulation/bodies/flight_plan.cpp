@@ -163,6 +163,7 @@ void FlightPlanner::planStep(int index, Body& body) const {
   body.travel = Travel::kBallistic;
   body.path = Trajectory{0.0, body.X_WB, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   body.momentum_velocity = body.velocity;
+  body.pull_W = body.pull.steady;
   body.place_sum.setZero();
   body.load_work_J = 0.0;
   plan(index, body);

@@ -25,7 +25,7 @@ HalfTurn halfTurn(const Body& body, double step_s, double noticed_mps) {
   const Vec3 torque = body.torque + body.contact_torque;
   half.R_WB =
       turned(body.inertia, half.R_WB, momentum + 0.5 * half_step_s * torque, half_step_s).normalized();
-  half.spin = spinOfEnergy(body.inertia, half.R_WB, momentum, 0.5 * dot(spin, momentum));
+  half.spin = spinOfEnergy(body.inertia, half.R_WB, momentum, 0.5 * dot(spin, momentum), body.pull.steady);
   half.tumbles = true;
   return half;
 }

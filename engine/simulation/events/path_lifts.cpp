@@ -17,16 +17,29 @@ double slowFall(Body& body, double energy, const Vec3& down) {
   return std::max(0.0, -0.5 * left);
 }
 
-// A body that rises, falls or tips does so by what lifted it: first this pays. Where nothing moves, it was
-// held up. Where nothing pulls, there is no lift, and bodies that only meet each other keep their momentum.
+// Takes energy, J/kg, as far as there is, out of the angular momentum across `down`.
+void slowTipping(Body& body, double energy, const Vec3& down) {
+  const Quat& R_WB = body.X_WB.rotation;
+  const Vec3 momentum = angularMomentum(body.inertia, R_WB, body.velocity.angular);
+  const Mat3 response = body.impulseBody(body.X_WB, body.velocity).inverse_tensor;
+  const Vec3 tipping = response * (momentum - dot(down, momentum) * down);
+  // Less by a share s of that the spin has less energy by s p - s^2 q / 2.
+  const double p = dot(tipping, momentum);
+  const double q = dot(tipping, angularMomentum(body.inertia, R_WB, tipping));
+  if (!(p > 0.0 && q > 0.0)) return;
+  const double root = std::sqrt(std::max(0.0, p * p - 2.0 * q * body.inertia.mass_kg * energy));
+  body.velocity.angular -= std::min(1.0, (p - root) / q) * tipping;
+}
+
+// A body that rises, falls or tips does so by what lifted it, and this pays; what forces along the pull
+// cannot change, its momentum across and its angular momentum about that, it keeps. Where nothing moves, it
+// was held up. Where nothing pulls, there is no lift, and bodies that only meet each other keep their
+// momentum.
 void takeBack(Body& body, double energy, const Vec3& pull) {
   if (pull.isZero(0.0)) return;
-  const double left = slowFall(body, energy, pull.normalized());
-  if (!(left > 0.0)) return;
-  const double all = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity) / body.inertia.mass_kg;
-  const double kept = all > left ? std::sqrt(1.0 - left / all) : 0.0;
-  body.velocity.linear *= kept;
-  body.velocity.angular *= kept;
+  const Vec3 down = pull.normalized();
+  const double left = slowFall(body, energy, down);
+  if (left > 0.0) slowTipping(body, left, down);
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 // Forces do work on a momentum on the way that it would go. A path that is led clear of a floor, raised for
 // what turns, or held goes another way, and what the forces would not have done on that one is energy that
 // nothing gave: weight has accelerated a momentum for a fall that its path did not make. It comes out of the
-// motion of those whose paths were led together, first out of the speeds at which they rise or fall. So does
-// what a contact that presses does as paths open it: it raises all that lies above (openingPower). What
-// bodies do to each other's paths otherwise lifts one by what it lowers the other, and costs nothing.
+// motion of those whose paths were led together: out of the speeds at which they rise or fall, then out of
+// their tipping. So does what a contact that presses does as paths open it: it raises all that lies above
+// (openingPower). What forces along the pull cannot change is kept, and who moves no other way pays nothing.
+// What bodies do to each other's paths otherwise lifts one by what it lowers the other, and costs nothing.
 // Internal to the simulation floor. Tested in tests/engine/simulation/events/path_lifts_test.cpp.
 
 #include <span>

@@ -92,5 +92,32 @@ TEST(SpinOfEnergy, HasTheEnergyAndTheNearestAngularMomentum) {
   EXPECT_LT((spinOfEnergy(inertia, same, momentum, 0.5 * spin.dot(momentum)) - spin).norm(), 1e-9);
 }
 
+// Of the spins of that energy and that angular momentum about the axis, the one of the nearest momentum.
+TEST(SpinOfEnergy, KeepsTheAngularMomentumAboutAnAxis) {
+  const Solid plate = Solid::box({0.4, 0.3, 0.02});
+  const Inertia inertia = inertiaOf(1000.0, plate.volume(), plate.unitInertia());
+  oracle::Random random(6);
+  int met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Quat before = random.rotation();
+    const Vec3 spin = random.uniform(1.0, 100.0) * random.direction();
+    const Vec3 momentum = angularMomentum(inertia, before, spin);
+    const double energy = 0.5 * spin.dot(momentum);
+    const Quat after = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction())) * before;
+    const Vec3 axis = random.direction();
+    const Vec3 found = spinOfEnergy(inertia, after, momentum, energy, 9.8 * axis);
+    const Vec3 kept = angularMomentum(inertia, after, found);
+    EXPECT_LE(0.5 * found.dot(kept), energy * (1.0 + 1e-14)) << i;
+    if (0.5 * found.dot(kept) < energy * (1.0 - 1e-12)) continue;
+    const Vec3 change = kept - momentum;
+    if (std::abs(axis.dot(change)) > 1e-12 * momentum.norm()) continue;  // no room for the energy
+    ++met;
+    // The change is along the gradient of the energy among those.
+    const Vec3 gradient = found - axis.dot(found) * axis;
+    EXPECT_LE(change.cross(gradient).norm(), 1e-9 * momentum.norm() * found.norm()) << i;
+  }
+  EXPECT_GT(met, 180);
+}
+
 }  // namespace
 }  // namespace carom

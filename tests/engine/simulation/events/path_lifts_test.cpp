@@ -61,13 +61,29 @@ TEST(PathLifts, WhatLoadsPullAlongPays) {
   EXPECT_EQ(bodies[0].velocity.linear.z(), -2.0);
 }
 
-TEST(PathLifts, WhatFallingCannotPayTheRestOfTheMotionDoes) {
-  std::vector<Body> bodies{bodyAt(2.0, {3.0, 0.0, -1.0}, {0.0, 1.0, 0.0}), bodyAt(1.0, Vec3::Zero())};
+TEST(PathLifts, WhatFallingCannotPayTippingDoes) {
+  std::vector<Body> bodies{bodyAt(2.0, {3.0, 0.0, -1.0}, {4.0, 5.0, 3.0}), bodyAt(1.0, Vec3::Zero())};
+  bodies[0].inertia = inertiaOf(2.0, 1.0, Solid::box({1.0, 0.4, 2.0}).unitInertia());
+  bodies[0].X_WB.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()));
   bodies[0].lift = bodies[1].lift = 1.5;
-  const double before = energyOf(bodies[0]);
+  const auto aboutGravity = [&] {
+    return angularMomentum(bodies[0].inertia, bodies[0].X_WB.rotation, bodies[0].velocity.angular).z();
+  };
+  const double before = energyOf(bodies[0]), momentum = aboutGravity();
   pay(bodies, {});
   EXPECT_NEAR(energyOf(bodies[0]), before - 2.0 * 1.5, 1e-12);
+  EXPECT_EQ(bodies[0].velocity.linear, Vec3(3.0, 0.0, 0.0));
+  EXPECT_NEAR(aboutGravity(), momentum, 1e-14);
   EXPECT_EQ(bodies[1].velocity.linear, Vec3(Vec3::Zero())) << "what lies has nothing to pay with";
+}
+
+// A cube that goes across and turns about gravity: no force along that could have changed either.
+TEST(PathLifts, WhatNeitherFallsNorTipsPaysNothing) {
+  std::vector<Body> bodies{bodyAt(2.0, {3.0, 0.0, 0.0}, {0.0, 0.0, 2.0})};
+  bodies[0].lift = 1.5;
+  pay(bodies, {});
+  EXPECT_EQ(bodies[0].velocity.linear, Vec3(3.0, 0.0, 0.0));
+  EXPECT_EQ(bodies[0].velocity.angular, Vec3(0.0, 0.0, 2.0));
 }
 
 TEST(PathLifts, BodiesThatLedEachOtherPayTogether) {
