@@ -28,7 +28,8 @@ std::span<const char> stillBodies(const LastingWorld& world, LastingContacts& co
   return contacts.room.still;
 }
 
-// What lies still and presses holds at the gap it has: closing it would keep all around it from coming to rest.
+// What lies still and presses holds at the gap it has: closing it would keep all around it from coming to
+// rest.
 void holdStillGaps(LastingContacts& contacts, std::span<const char> still) {
   for (ContactRow& row : contacts.rows)
     if (row.impulse.x() > 0.0 && still[at(row.a)] && still[at(row.b)])
