@@ -142,28 +142,27 @@ bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
 
 void BearingContacts::find(const PairTable& table, const PairedWorld& world, std::span<const int> active) {
   of_body_.resize(world.bodies.size());
-  const auto findOf = [&](int body) {
-    std::vector<Bearing>& bearings = of_body_[at(body)];
-    bearings.clear();
-    if (!world.bodies[at(body)].moves()) return;
-    for (const int index : table.pairsOf(body)) {
-      const ShapePair& pair = table.pairs()[at(index)];
-      if (!pair.lasts(world.settings.step_s) || isAtEdges(placedPair(pair, world.bodies), world.shapes))
-        continue;
-      const ClosestFeatures& closest = pair.closest;
-      for (const bool b : {false, true}) {
-        const int held = b ? pair.body_b : pair.body_a;
-        if (held != body && world.bodies[at(held)].moves()) continue;
-        bearings.push_back({index, held, pair.window.manifold, b ? closest.n_W : -closest.n_W,
-                            b ? closest.p_A_W : closest.p_B_W});
-      }
-    }
-  };
   const std::size_t few = active.size() * kFewPairs / std::max<std::size_t>(1, table.active().size());
   world.crew.runStretches(active.size(), std::max<std::size_t>(1, few),
                           [&](std::size_t begin, std::size_t end) {
-                            for (std::size_t k = begin; k < end; ++k) findOf(active[k]);
+                            for (std::size_t k = begin; k < end; ++k) findOf(active[k], table, world);
                           });
+}
+
+void BearingContacts::findOf(int body, const PairTable& table, const PairedWorld& world) {
+  std::vector<Bearing>& bearings = of_body_[at(body)];
+  bearings.clear();
+  if (!world.bodies[at(body)].moves()) return;
+  for (const int index : table.pairsOf(body)) {
+    const ShapePair& pair = table.pairs()[at(index)];
+    if (!pair.lasts(world.settings.step_s) || isAtEdges(placedPair(pair, world.bodies), world.shapes))
+      continue;
+    const ClosestFeatures& closest = pair.closest;
+    if (pair.body_a == body || !world.bodies[at(pair.body_a)].moves())
+      bearings.push_back({index, pair.body_a, pair.window.manifold, -closest.n_W, closest.p_B_W});
+    if (pair.body_b == body || !world.bodies[at(pair.body_b)].moves())
+      bearings.push_back({index, pair.body_b, pair.window.manifold, closest.n_W, closest.p_A_W});
+  }
 }
 
 bool BearingContacts::isInternal(int index, const PairTable& table, const PairedWorld& world) const {

@@ -48,6 +48,8 @@ class BearingContacts {
     Vec3 p_W = Vec3::Zero();  ///< The closest point of what bears it.
   };
 
+  void findOf(int body, const PairTable& table, const PairedWorld& world);
+
   std::vector<std::vector<Bearing>> of_body_;  ///< Those of what does not move with the body that it bears.
 };
 
