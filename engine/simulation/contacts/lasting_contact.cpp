@@ -20,7 +20,7 @@ constexpr int kLandingSweeps = 8;  // over rows that landings stir; the next ste
 
 // Of each body, whether it lies still; what rests and what is static do.
 std::span<const char> stillBodies(const LastingWorld& world, LastingContacts& contacts) {
-  contacts.room.still.resize(world.bodies.size());
+  contacts.room.still.resize(world.bodies.size(), 1);
   for (const int i : world.active.list()) {
     const Body& body = world.bodies[at(i)];
     contacts.room.still[at(i)] = body.moves() ? body.liesStill() : !body.isDriven() || body.was_stopped;
