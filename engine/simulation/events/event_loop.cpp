@@ -156,7 +156,7 @@ class EventLoop {
       if (searches_.isSpent()) break;
     }
     searches_.look(uncertain_pairs_);
-    bool is_proven = true;  // of all pairs, up to the event; from where bodies froze on theirs are to be proven
+    bool is_proven = true;  // up to the event; where bodies froze, their pairs are to be proven from then on
     for (const Event& event : uncertain_) {
       if (!isCurrent(event)) continue;
       if (searches_.isSpent() && is_proven)
