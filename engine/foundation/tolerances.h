@@ -46,7 +46,7 @@ inline constexpr int kFinePairs = 300;
 /// The residual of islands that the budget of row visits lets be solved with care.
 inline constexpr double kSolverResidual = 1.0e-8;
 /// Row visits: those of a step for all islands in which bodies move, those for all its events, and those for
-/// each island that stands. What needs more is solved to a coarser residual.
+/// each island that lies still. What needs more is solved to a coarser residual.
 inline constexpr int kSolverRowVisits = 8000;
 /// Sweeps that an island may have whatever the budget.
 inline constexpr int kSolverSweeps = 24;

@@ -77,6 +77,14 @@ struct Passage {
   const Vec3& up_W;
 };
 
+// What the contacts' points tell of it, where `up` is: that of what passes is above the edge's, and near what
+// bears it, which lies below the plane of its own; that is no face's where two edges cross.
+bool mayPass(const Side& passing, const Side& edge, const Vec3& up, const Vec3& support_W, double near_m,
+             double floor_m) {
+  const Vec3 lowest = lowestOf(passing, up);
+  return dot(up, lowest - support_W) <= near_m && dot(up, lowest - lowestOf(edge, -up)) >= floor_m;
+}
+
 // Whether it is held so that it passes the edge.
 bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies) {
   const Side& passing = passage.passing;
@@ -85,11 +93,10 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   const PlacedPair& other = passage.other;
   if (support.body != edge.body && !bodies[at(passing.body)].moves()) return false;
   const Vec3& up = passage.up_W;
-  const Vec3 lowest = lowestOf(passing, up);
   const double near = other.pair.window.manifold;
-  // What bears it lies below the plane of its closest point, which is no face's where two edges cross.
-  if (dot(up, lowest - support.witness_W) > near || !isWithin(near, support, lowest)) return false;
   const double floor = passage.contact.pair.window.floor;
+  if (!mayPass(passing, edge, up, support.witness_W, near, floor)) return false;
+  if (!isWithin(near, support, lowestOf(passing, up))) return false;
   const double bottom = -reachAlong(passing, -up);
   if (bottom - dot(up, lowestOf(edge, -up)) < floor) return false;
   const double height = bottom - reachAlong(edge, up);
@@ -103,13 +110,8 @@ bool passes(const Passage& passage, double dt_s, const std::vector<Body>& bodies
   return height - sinks - closes >= floor;
 }
 
-// Whether a contact comes obliquely to what holds one of its bodies: where it lies flat, it may lie on both.
-bool isOblique(const PlacedPair& contact, const Vec3& up) {
-  return contact.closest.n_W.cross(up).norm() > kCrossingSine;
-}
-
-}  // namespace
-
+// Whether the direction of a contact is not determined by a face, nor by edges that cross. What is held by
+// such a contact is not known to pass anything.
 bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
   const FeaturePair& features = contact.closest.features;
   if (features.a.kind == FeatureKind::kFace || features.b.kind == FeatureKind::kFace) return false;
@@ -121,6 +123,13 @@ bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes) {
                           .cross(along(contact.pair.shapes.b, contact.X_WB, features.b.index));
   return across.norm() < kCrossingSine;
 }
+
+// Whether a contact comes obliquely to what holds one of its bodies: where it lies flat, it may lie on both.
+bool isOblique(const PlacedPair& contact, const Vec3& up) {
+  return contact.closest.n_W.cross(up).norm() > kCrossingSine;
+}
+
+}  // namespace
 
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,
                 const std::vector<Body>& bodies, const std::vector<Shape>& shapes) {
@@ -177,11 +186,8 @@ bool BearingContacts::isInternal(int index, const PairTable& table, const Paired
       const Vec3& up = bearing.up_W;
       if (bearing.held != passing.body || bearing.pair == index) continue;
       if (!isOblique(contact, up) && !isAtEdges(contact, world.shapes)) continue;
-      // Of the rest what the points alone can tell comes first.
-      const Vec3 lowest = lowestOf(passing, up);
-      if (dot(up, lowest - bearing.p_W) > bearing.highest_m ||
-          dot(up, lowest - lowestOf(edge, -up)) < pair.window.floor)
-        continue;
+      // Asked before the bearing pair is looked up, which most need not be.
+      if (!mayPass(passing, edge, up, bearing.p_W, bearing.highest_m, pair.window.floor)) continue;
       const PlacedPair other = placedPair(table.pairs()[at(bearing.pair)], world.bodies);
       const Side support = sideOf(other, other.pair.body_a == bearing.held, world.shapes);
       if (passes({contact, passing, edge, other, support, up}, world.settings.step_s, world.bodies))

@@ -20,10 +20,6 @@ struct PlacedPair {
   Pose X_WB;
 };
 
-/// Whether the direction of a contact is not determined by a face, nor by edges that cross. What is held by
-/// such a contact is not known to pass anything.
-bool isAtEdges(const PlacedPair& contact, const std::vector<Shape>& shapes);
-
 /// Whether `other`, another contact of one of its bodies, makes `contact`, which is at edges or oblique to
 /// it, one with an internal edge over the next `dt_s`.
 bool passesEdge(const PlacedPair& contact, const PlacedPair& other, double dt_s,

@@ -65,6 +65,20 @@ TEST(RigidBody, AngularVelocityAndMomentumAreInverse) {
   }
 }
 
+// A spin, and where a contact has led the body meanwhile: some degrees beside where the spin leads it.
+struct Led {
+  Led(const Inertia& inertia, oracle::Random& random) {
+    const Quat before = random.rotation();
+    const Vec3 spin = random.uniform(1.0, 100.0) * random.direction();
+    momentum = angularMomentum(inertia, before, spin);
+    energy_J = 0.5 * spin.dot(momentum);
+    after = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction())) * before;
+  }
+  Vec3 momentum;
+  double energy_J;
+  Quat after;
+};
+
 // A needle whose orientation is a few degrees beside its angular momentum's: with the same momentum it would
 // have a hundred times its energy.
 TEST(SpinOfEnergy, HasTheEnergyAndTheNearestAngularMomentum) {
@@ -72,11 +86,7 @@ TEST(SpinOfEnergy, HasTheEnergyAndTheNearestAngularMomentum) {
   const Inertia inertia = inertiaOf(1000.0, needle.volume(), needle.unitInertia());
   oracle::Random random(5);
   for (int i = 0; i < 200; ++i) {
-    const Quat before = random.rotation();
-    const Vec3 spin = random.uniform(1.0, 100.0) * random.direction();
-    const Vec3 momentum = angularMomentum(inertia, before, spin);
-    const double energy = 0.5 * spin.dot(momentum);
-    const Quat after = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction())) * before;
+    const auto& [momentum, energy, after] = Led(inertia, random);
     const Vec3 found = spinOfEnergy(inertia, after, momentum, energy);
     const Vec3 kept = angularMomentum(inertia, after, found);
     const double found_energy = 0.5 * found.dot(kept);
@@ -99,11 +109,7 @@ TEST(SpinOfEnergy, KeepsTheAngularMomentumAboutAnAxis) {
   oracle::Random random(6);
   int met = 0;
   for (int i = 0; i < 200; ++i) {
-    const Quat before = random.rotation();
-    const Vec3 spin = random.uniform(1.0, 100.0) * random.direction();
-    const Vec3 momentum = angularMomentum(inertia, before, spin);
-    const double energy = 0.5 * spin.dot(momentum);
-    const Quat after = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction())) * before;
+    const auto& [momentum, energy, after] = Led(inertia, random);
     const Vec3 axis = random.direction();
     const Vec3 found = spinOfEnergy(inertia, after, momentum, energy, 9.8 * axis);
     const Vec3 kept = angularMomentum(inertia, after, found);
