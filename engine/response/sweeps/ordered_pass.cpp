@@ -13,19 +13,6 @@ namespace {
 constexpr int kRoundsOfABody = 8;  // over the rows of one body, at most
 constexpr double kSettled = 1e-3;  // of what the first round changed: a round that changes less is the last
 
-double heightOf(const ImpulseBody& body, const Vec3& up) {
-  return dot(up, body.center);
-}
-
-// The end of a row that gives way to the other: of two that move, the higher one.
-int upperBody(const ContactRow& row, std::span<const ImpulseBody> bodies, const Vec3& up) {
-  const ImpulseBody& a = bodies[at(row.a)];
-  const ImpulseBody& b = bodies[at(row.b)];
-  if (b.inverse_mass == 0.0) return row.a;
-  if (a.inverse_mass == 0.0) return row.b;
-  return std::pair(heightOf(b, up), row.b) > std::pair(heightOf(a, up), row.a) ? row.b : row.a;
-}
-
 // What one body, which alone moves, has of a row.
 struct Bound {
   const ContactRow* row = nullptr;
@@ -71,36 +58,20 @@ void settle(std::span<Bound> bounds, ImpulseBody& body) {
 
 }  // namespace
 
-// The bodies that rows bear, from below, and the rows of each in their order.
-void UpwardPass::placeRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
-                           const Vec3& up, Scratch& scratch) {
-  for (const ContactRow& row : rows) scratch.place[at(row.a)] = scratch.place[at(row.b)] = -1;
-  upper_.clear();
-  for (const ContactRow& row : rows) {
-    const int body = upperBody(row, bodies, up);
-    upper_.push_back(bodies[at(body)].inverse_mass > 0.0 ? body : -1);
-    if (upper_.back() < 0) continue;
-    int& place = scratch.place[at(body)];
-    if (place < 0) {
-      place = static_cast<int>(borne_.size());
-      borne_.push_back({.body = body});
-    }
-    ++borne_[at(place)].end;
-  }
-  std::sort(borne_.begin(), borne_.end(), [&](const Borne& x, const Borne& y) {
-    return std::pair(heightOf(bodies[at(x.body)], up), x.body) <
-           std::pair(heightOf(bodies[at(y.body)], up), y.body);
-  });
+// The bodies that rows bear, each after those that bear it, and the rows of each in their order.
+void UpwardPass::placeRows(std::span<const ContactRow> rows, const BearingOrder& order) {
+  for (const int body : order.bodies()) borne_.push_back({.body = body});
+  for (const ContactRow& row : rows)
+    if (const int body = order.borneBy(row); body >= 0) ++borne_[at(order.placeOf(body))].end;
   std::size_t placed = 0;
-  for (std::size_t i = 0; i < borne_.size(); ++i) {
-    scratch.place[at(borne_[i].body)] = static_cast<int>(i);
-    const std::size_t count = std::exchange(borne_[i].end, placed);
-    borne_[i].begin = placed;
+  for (Borne& borne : borne_) {
+    const std::size_t count = std::exchange(borne.end, placed);
+    borne.begin = placed;
     placed += count;
   }
   rows_.resize(placed);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (upper_[i] >= 0) rows_[borne_[at(scratch.place[at(upper_[i])])].end++] = i;
+    if (const int body = order.borneBy(rows[i]); body >= 0) rows_[borne_[at(order.placeOf(body))].end++] = i;
 }
 
 void UpwardPass::findLevels(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies,
@@ -133,9 +104,9 @@ void UpwardPass::order(std::span<const ContactRow> rows, std::span<const Impulse
     return bodies[at(row.a)].inverse_mass == 0.0 || bodies[at(row.b)].inverse_mass == 0.0;
   };
   if (up.isZero(0.0) || std::none_of(rows.begin(), rows.end(), stands)) return;
-  scratch.place.resize(bodies.size());
   scratch.level.resize(bodies.size());
-  placeRows(rows, bodies, up, scratch);
+  scratch.order.find(rows, bodies, up);
+  placeRows(rows, scratch.order);
   findLevels(rows, bodies, scratch);
 }
 

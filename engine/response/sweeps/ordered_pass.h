@@ -1,14 +1,15 @@
 #pragma once
-// A pass over contact rows from the supports upwards. Every body is brought to the bounds of all its rows
-// with bodies below it, which stay as they are: so a tower is opened from its foot to its top in one pass,
-// where sweeps that move both bodies of a row carry a correction up by one body each. What wedges bodies from
-// above as well stays unsolved. For velocities that are paths only: the impulses do not act back. Tested in
-// tests/engine/response/sweeps/ordered_pass_test.cpp.
+// A pass over contact rows from the supports on. Every body is brought to the bounds of all its rows with
+// those that bear it, which stay as they are: so a tower is opened from its foot to its top in one pass, and
+// a chain from its hook to its end, where sweeps that move both bodies of a row carry a correction on by one
+// body each. What is wedged from the other side as well stays unsolved. For velocities that are paths only:
+// the impulses do not act back. Tested in tests/engine/response/sweeps/ordered_pass_test.cpp.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "engine/response/sweeps/bearing_order.h"
 #include "engine/response/sweeps/contact_solver.h"
 
 namespace carom {
@@ -20,7 +21,7 @@ class UpwardPass {
  public:
   /// Of bodies, by index; kept for its room. What other rows left in it does not matter.
   struct Scratch {
-    std::vector<int> place;  ///< Among the bodies of the rows.
+    BearingOrder order;
     std::vector<int> level;
   };
 
@@ -44,14 +45,12 @@ class UpwardPass {
     std::size_t end = 0;
     std::size_t rows = 0;
   };
-  void placeRows(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, const Vec3& up,
-                 Scratch& scratch);
+  void placeRows(std::span<const ContactRow> rows, const BearingOrder& order);
   void findLevels(std::span<const ContactRow> rows, std::span<const ImpulseBody> bodies, Scratch& scratch);
 
-  std::vector<Borne> borne_;       // by level, then from below
+  std::vector<Borne> borne_;       // by level, then in the order of bearing
   std::vector<std::size_t> rows_;  // indices, those of a body together
   std::vector<Level> levels_;
-  std::vector<int> upper_;  // scratch: of each row the body that it bears
 };
 
 }  // namespace carom
