@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string>
 
 #include "demos/budget/replays.h"
 #include "demos/format/progress.h"
@@ -9,7 +11,9 @@
 #include "demos/motion/phase_stopwatch.h"
 #include "demos/motion/simulation_check.h"
 #include "demos/scene/drawn_water.h"
+#include "demos/scene/scene_caption.h"
 #include "demos/system/interrupt.h"
+#include "demos/video/caption_painter.h"
 #include "renderer/image/png.h"
 
 namespace carom::demos {
@@ -38,6 +42,7 @@ struct DrawnFrame {
   std::span<const renderer::Instance> instances;
   renderer::Camera camera;
   std::span<const renderer::WaterVolume> water;
+  std::string caption;  // empty: none
 };
 
 /// Adds what there was to draw and to pack.
@@ -50,8 +55,14 @@ void drawAndEncode(const DrawnFrame& frame, PhaseStopwatch& watch, renderer::Fra
   };
   const renderer::Image& image = pictures.draw(frame.instances, frame.camera, drawn, frame.water);
   watch.end();
+  std::optional<renderer::Image> captioned;
+  if (!frame.caption.empty()) {
+    const FramePhaseScope phase(watch, FramePhase::kDraw);
+    captioned = withCaption(image, frame.caption);
+  }
   const FramePhaseScope phase(watch, FramePhase::kEncode);
-  cost.worked(Work::kBytes) = static_cast<std::int64_t>(files.encode(image, {}).size());
+  const std::size_t bytes = files.encode(captioned ? *captioned : image, {}).size();
+  cost.worked(Work::kBytes) = static_cast<std::int64_t>(bytes);
   cost.worked(Work::kBands) = files.packedBands();
   const renderer::DrawWork& work = pictures.work();
   cost.worked(Work::kTriangles) = work.triangles;
@@ -72,6 +83,7 @@ struct FrameLoop::Parts {
       : plan(asked),
         pictures(pictures_),
         scene(makeSceneWorld(plan.scene, plan.mesh, plan.threads)),
+        caption(plan.scene, scene),
         watch(plan.clock_s, plan.keeps_slices),
         states(
             scene.world, plan.clock,
@@ -83,12 +95,14 @@ struct FrameLoop::Parts {
             &watch) {
     pictures.draw(drawnInstances(scene, scene.world.states()), plan.camera.at(0.0, scene.world.states()), {},
                   drawnWater(plan.scene, 0.0));
+    pictures.drawAnew();  // shaders are compiled; the first frame is a frame as any other
   }
 
   const ReplayPlan& plan;
   renderer::FrameRenderer& pictures;
   renderer::PngSequence files;
   SceneWorld scene;
+  SceneCaption caption;
   PhaseStopwatch watch;
   RunFacts facts;
   FrameCost cost;
@@ -109,7 +123,9 @@ FrameCost FrameLoop::next() {
   const std::vector<renderer::Instance> instances = drawnInstances(p.scene, bodies);
   const double time_s = p.plan.clock.time(p.frame);
   const auto water = drawnWater(p.plan.scene, time_s);
-  drawAndEncode({instances, p.plan.camera.at(time_s, bodies), water}, p.watch, p.pictures, p.files, p.cost);
+  const std::string caption = p.caption.empty() ? std::string() : p.caption.at(time_s, bodies);
+  drawAndEncode({instances, p.plan.camera.at(time_s, bodies), water, caption}, p.watch, p.pictures, p.files,
+                p.cost);
   p.watch.endFrame(p.cost);
   p.cost.time_s = time_s;
   p.cost.state_hash = p.scene.world.stateHash();

@@ -119,14 +119,18 @@ auto distanceOf(const Comparison& c) {
 Comparison compared(const ImagePair& pair, const Gate& gate) {
   Comparison nearest = comparedOnce(pair, gate);
   if (!pair.has_actual || !pair.has_golden) return nearest;
+  std::optional<Comparison> damaged;  // it might have been the one that passes
   for (const std::filesystem::path& variant : goldenVariants(pair.golden)) {
     if (nearest.passes()) break;
     ImagePair other = pair;
     other.golden = variant;
     Comparison c = comparedOnce(other, gate);
-    if (distanceOf(c) < distanceOf(nearest)) nearest = std::move(c);
+    if (c.verdict == Verdict::kUnreadable)
+      damaged = std::move(c);
+    else if (distanceOf(c) < distanceOf(nearest))
+      nearest = std::move(c);
   }
-  return nearest;
+  return damaged && !nearest.passes() ? *damaged : nearest;
 }
 
 const char* verdictName(Verdict verdict) {

@@ -37,7 +37,7 @@ Json namesJson(const std::vector<std::string>& names) {
 /// A name in the list, which must lead to below the root.
 fs::path within(const fs::path& root, const Json& name) {
   const fs::path relative = fs::path(name.asString()).lexically_normal();
-  if (relative.is_absolute() || relative.empty() || *relative.begin() == "..")
+  if (relative.is_absolute() || relative.empty() || relative == "." || *relative.begin() == "..")
     name.fail("is " + name.shown() + "; accepted: a file below the golden folder");
   return root / relative;
 }

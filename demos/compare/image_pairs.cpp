@@ -34,16 +34,26 @@ bool holdsNoPairs(const fs::path& folder) {
   return folder.filename() == kUndoFolder || folder.extension() == kVariants;
 }
 
+/// Whether a folder is a link to one that it is in: there is nothing new below it.
+bool leadsBack(const fs::directory_entry& entry) {
+  std::error_code unknown;
+  if (!entry.is_symlink(unknown)) return false;
+  const fs::path to = fs::canonical(entry.path(), unknown);
+  const fs::path in = fs::canonical(entry.path().parent_path(), unknown);
+  return !unknown && std::mismatch(to.begin(), to.end(), in.begin(), in.end()).first == to.end();
+}
+
 /// The relative names of the PNG files below a folder; none when there is no folder.
 std::vector<std::string> pngNames(const fs::path& folder, Kind kind) {
   std::vector<std::string> names;
   if (kind == Kind::kNothing) return names;
   std::error_code failed;
-  fs::recursive_directory_iterator entries(folder, failed);
+  fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink, failed);
   // What is no folder is a pair's, even a link that leads nowhere, which is that pair's failure alone.
   std::error_code unknown;
   for (; !failed && entries != fs::recursive_directory_iterator(); entries.increment(failed)) {
-    if (entries->is_directory(unknown) && holdsNoPairs(entries->path())) entries.disable_recursion_pending();
+    if (entries->is_directory(unknown) && (holdsNoPairs(entries->path()) || leadsBack(*entries)))
+      entries.disable_recursion_pending();
     if (isPng(entries->path()) && !entries->is_directory(unknown))
       names.push_back(entries->path().lexically_relative(folder).generic_string());
   }

@@ -116,14 +116,13 @@ std::string galleryIndex(std::span<const GalleryEntry> entries) {
   }
   const std::vector<WebSource>& web = gallerySources();
   const std::size_t count = entries.size();
-  std::string page(textOf(web, "index.html"));
-  page = withPart(std::move(page), "/*STYLE*/", textOf(web, "index.css"));
-  page = withPart(std::move(page), "/*SCRIPT*/", textOf(web, "index.js"));
-  page =
-      withPart(std::move(page), "<!--COUNT-->", std::to_string(count) + (count == 1 ? " scene" : " scenes"));
-  page = withPart(std::move(page), "<!--PROGRAM-->", markupText("carom " + programVersion()));
-  page = withPart(std::move(page), "<!--GROUPS-->", chips);
-  return withPart(std::move(page), "<!--SCENES-->", sections);
+  return withParts(textOf(web, "index.html"),
+                   {{"/*STYLE*/", std::string(textOf(web, "index.css"))},
+                    {"<!--COUNT-->", std::to_string(count) + (count == 1 ? " scene" : " scenes")},
+                    {"<!--GROUPS-->", chips},
+                    {"<!--SCENES-->", sections},
+                    {"<!--PROGRAM-->", markupText("carom " + programVersion())},
+                    {"/*SCRIPT*/", std::string(textOf(web, "index.js"))}});
 }
 
 }  // namespace carom::demos

@@ -306,17 +306,16 @@ std::string PlayerPage::html() const {
   writeCameras(data);
   contacts_.write(data);
   const std::vector<WebSource>& web = playerSources();
-  const std::string title = scene_.name;
-  std::string page(textOf(web, "player.html"));
-  page = withPart(std::move(page), "<!--TITLE-->", markupText(title));
-  page = withPart(std::move(page), "<!--DESCRIPTION-->", markupText(scene_.description));
-  page = withPart(std::move(page), "/*STYLE*/", textOf(web, "player.css"));
-  page = withPart(std::move(page), "<!--SHADERS-->", shaderElements());
-  page = withPart(std::move(page), "/*SCRIPT*/",
-                  bundledScript(web, {"geometry.js", "stream.js", "contacts.js", "recording.js", "program.js",
-                                      "offscreen.js", "sunlight.js", "water.js", "graphics.js", "view.js",
-                                      "link.js", "overlays.js", "facts.js", "player.js"}));
-  return withPart(std::move(page), "<!--DATA-->", packedBase64(data.bytes()));
+  return withParts(textOf(web, "player.html"),
+                   {{"<!--DESCRIPTION-->", markupText(scene_.description)},
+                    {"<!--TITLE-->", markupText(scene_.name)},
+                    {"/*STYLE*/", std::string(textOf(web, "player.css"))},
+                    {"<!--SHADERS-->", shaderElements()},
+                    {"<!--DATA-->", packedBase64(data.bytes())},
+                    {"/*SCRIPT*/", bundledScript(web, {"geometry.js", "stream.js", "contacts.js",
+                                                       "recording.js", "program.js", "offscreen.js",
+                                                       "sunlight.js", "water.js", "graphics.js", "view.js",
+                                                       "link.js", "overlays.js", "facts.js", "player.js"})}});
 }
 
 }  // namespace carom::demos

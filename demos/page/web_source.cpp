@@ -40,10 +40,16 @@ std::string bundledScript(const std::vector<WebSource>& sources, const std::vect
   return script;
 }
 
-std::string withPart(std::string page, std::string_view mark, std::string_view text) {
-  const std::size_t at = page.find(mark);
-  REQUIRE(at != std::string::npos && page.find(mark, at + 1) == std::string::npos, std::string(mark));
-  return page.replace(at, mark.size(), text);
+std::string withParts(std::string_view page, const std::vector<PagePart>& parts) {
+  std::string whole;
+  for (const PagePart& part : parts) {
+    const std::size_t at = page.find(part.mark);
+    REQUIRE(at != std::string_view::npos, std::string(part.mark));
+    whole.append(page.substr(0, at)).append(part.text);
+    page.remove_prefix(at + part.mark.size());
+    REQUIRE(page.find(part.mark) == std::string_view::npos, std::string(part.mark));
+  }
+  return whole.append(page);
 }
 
 std::string scriptSafe(std::string json) {

@@ -21,8 +21,15 @@ std::string_view textOf(const std::vector<WebSource>& sources, std::string_view 
 /// `names` are in the order of use, what is imported first.
 std::string bundledScript(const std::vector<WebSource>& sources, const std::vector<std::string_view>& names);
 
-/// `page` with `text` in place of "<!--NAME-->" (or "/*NAME*/"), which must be in it once.
-std::string withPart(std::string page, std::string_view mark, std::string_view text);
+/// What a page is to hold in place of a mark, such as "<!--NAME-->" or "/*NAME*/".
+struct PagePart {
+  std::string_view mark;
+  std::string text;
+};
+
+/// `page` with its parts, which are in the order of their marks; each mark must be in it once. A part may
+/// hold what looks like a mark.
+std::string withParts(std::string_view page, const std::vector<PagePart>& parts);
 
 /// JSON that may stand in a script element: no "</" or "<!--" is left in it.
 std::string scriptSafe(std::string json);

@@ -52,9 +52,8 @@ FfmpegVideo::FfmpegVideo(const fs::path& path, const VideoShape& shape) : path_(
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
   if (failed) fail(failed.message());
   // ffmpeg chooses the format by the ending.
-  std::string name = ".";
-  name.append(path.stem().string()).append(".").append(std::to_string(::getpid())).append(".partial");
-  temporary_ = path.parent_path() / name.append(path.extension().string());
+  temporary_.emplace(path, TemporaryFile::Ending::kOfTarget);
+  if (temporary_->descriptor() < 0) fail(std::strerror(errno));
   complaints_.reset(std::tmpfile());
   std::array<int, 2> pipe{};
   if (!complaints_ || ::pipe2(pipe.data(), O_CLOEXEC) != 0) fail(std::strerror(errno));
@@ -70,12 +69,12 @@ FfmpegVideo::FfmpegVideo(const fs::path& path, const VideoShape& shape) : path_(
 void FfmpegVideo::runFfmpeg(const VideoShape& shape, int input) const {
   const std::string size = std::to_string(shape.width) + "x" + std::to_string(shape.height);
   const std::string rate = Json(shape.fps).text();  // the same bits when read back
-  std::vector<std::string> words{kProgram, "-nostdin",   "-loglevel", "error", "-y",
-                                 "-f",     "rawvideo",   "-pix_fmt",  "rgb24", "-s",
-                                 size,     "-framerate", rate,        "-i",    "pipe:0"};
+  std::vector<std::string> words{kProgram,     "-nostdin", "-xerror",  "-loglevel", "error", "-y",
+                                 "-f",         "rawvideo", "-pix_fmt", "rgb24",     "-s",    size,
+                                 "-framerate", rate,       "-i",       "pipe:0"};
   const std::vector<std::string> coding = codingWords(path_.extension().string());
   words.insert(words.end(), coding.begin(), coding.end());
-  words.push_back(fs::absolute(temporary_).string());
+  words.push_back(fs::absolute(temporary_->path()).string());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -95,8 +94,6 @@ FfmpegVideo::~FfmpegVideo() {
     endInput();
   }
   if (input_ >= 0) ::close(input_);
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
 /// Closes its input and waits; its exit code, or 128 + the signal that ended it.
@@ -134,11 +131,10 @@ void FfmpegVideo::write(std::span<const std::uint8_t> rgb) {
 
 void FfmpegVideo::commit() {
   const int code = endInput();
-  if (code != 0) failAfter(code);
-  std::error_code failed;
-  fs::rename(temporary_, path_, failed);
+  // Of a disk that is full, ffmpeg may only complain.
+  if (code != 0 || !lastComplaint().empty()) failAfter(code);
+  const std::error_code failed = temporary_->renameTo(path_);
   if (failed) fail(failed.message());
-  temporary_.clear();
 }
 
 void FfmpegVideo::failAfter(int code) const {

@@ -13,6 +13,7 @@
 
 #include <sys/types.h>
 
+#include "demos/system/atomic_file.h"
 #include "demos/system/pipe_writer.h"
 
 namespace carom::demos {
@@ -48,7 +49,7 @@ class FfmpegVideo {
   std::string lastComplaint() const;
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  std::optional<TemporaryFile> temporary_;            // ffmpeg writes it; it is held here
   std::unique_ptr<std::FILE, CloseFile> complaints_;  // what ffmpeg says on stderr
   pid_t child_ = -1;
   int input_ = -1;

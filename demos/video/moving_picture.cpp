@@ -47,6 +47,7 @@ bool isMovingPicture(const std::filesystem::path& path) {
 
 std::unique_ptr<MovingPicture> makeMovingPicture(const std::filesystem::path& path, const VideoShape& shape,
                                                  int frames, const renderer::PngText& text) {
+  removeAbandoned(path.parent_path(), {path.filename().string()});
   if (path.extension() == kAnimatedPng) return std::make_unique<AnimatedPng>(path, shape, frames, text);
   return std::make_unique<Video>(path, shape);
 }

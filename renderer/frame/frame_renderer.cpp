@@ -483,6 +483,11 @@ const Image& FrameRenderer::draw(std::span<const Instance> instances, const Came
                                  std::span<const std::vector<Instance>> moments) {
   return impl_->draw(instances, camera, drawn, water, moments);
 }
+void FrameRenderer::drawAnew() {
+  impl_->view_drawn = false;
+  impl_->in_targets.reset();
+}
+
 int FrameRenderer::exposures() const {
   return static_cast<int>(impl_->samples.size());
 }

@@ -49,6 +49,9 @@ class FrameRenderer {
                     const std::function<void()>& drawn = {}, std::span<const WaterVolume> water = {},
                     std::span<const std::vector<Instance>> moments = {});
 
+  /// The next `draw` draws all of its frame, as if it were the first.
+  void drawAnew();
+
   /// How many exposures a frame has.
   int exposures() const;
 

@@ -47,9 +47,14 @@ TEST(GoldenUndo, OfAListThatLeadsElsewhereTouchesNothing) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "golden" / kUndoFolder);
   folder.file("kept", "kept");
-  folder.file("golden/.carom-undo/list.json", R"({ "replaced": [], "added": ["../kept"] })");
-  EXPECT_THROW(undoUpdate(folder.path() / "golden"), InputError);
-  EXPECT_TRUE(fs::exists(folder.path() / "kept"));
+  folder.file("golden/kept.png", "kept");
+  for (const char* name : {"../kept", ".", "a/..", "", "/"}) {
+    folder.file("golden/.carom-undo/list.json",
+                std::string(R"({ "replaced": [], "added": [")") + name + "\"] }");
+    EXPECT_THROW(undoUpdate(folder.path() / "golden"), InputError) << name;
+    EXPECT_TRUE(fs::exists(folder.path() / "kept")) << name;
+    EXPECT_TRUE(fs::exists(folder.path() / "golden/kept.png")) << name;
+  }
 }
 
 }  // namespace

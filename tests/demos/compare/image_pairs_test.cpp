@@ -36,6 +36,14 @@ TEST_F(Folders, PairFilesOfTheSameRelativeNameInByteOrder) {
   EXPECT_EQ(imagePairs({at("a"), at("g")})[3].golden, at("g/sub/x.PNG"));
 }
 
+TEST_F(Folders, WhatLiesInALinkedFolderIsPairedAndNoLoopIsFollowed) {
+  for (const char* name : {"a/f.png", "elsewhere/x.png", "g/f.png", "g/sub/x.png"}) add(name);
+  fs::create_directory_symlink("../elsewhere", at("a/sub"));
+  fs::create_directory_symlink("..", at("elsewhere/up"));
+  fs::create_directory_symlink(".", at("a/again"));
+  EXPECT_EQ(names({at("a"), at("g")}), "f.pngag sub/x.pngag ");
+}
+
 TEST_F(Folders, TwoFilesArePairedWhateverTheirNames) {
   add("new.png");
   add("old.png");

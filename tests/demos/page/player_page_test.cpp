@@ -12,11 +12,13 @@
 namespace carom::demos {
 namespace {
 
-std::string pageOf(const std::string& name, double duration_s) {
+std::string pageOf(const std::string& name, double duration_s,
+                   const std::optional<std::string>& description = std::nullopt) {
   SceneChoice choice;
   choice.scene = name;
   choice.duration_s = duration_s;
-  const Scene scene = chosenScene(choice);
+  Scene scene = chosenScene(choice);
+  if (description) scene.description = *description;
   SceneWorld made = makeSceneWorld(scene, std::nullopt);
   const FrameClock clock({60.0, scene.rate_hz});
   const int frames = clock.frameCount(scene.duration_s);
@@ -63,6 +65,16 @@ TEST(PlayerPage, HasTheWholePlayerAndNoMarkLeft) {
         << name;
   }
   EXPECT_EQ(std::count(page.begin(), page.end(), '\0'), 0);
+}
+
+TEST(PlayerPage, WhatIsWrittenInASceneIsNoMark) {
+  const std::string page = pageOf("sliding", 0.1, "/*STYLE*/ and /*SCRIPT*/");
+  EXPECT_NE(page.find("content=\"/*STYLE*/ and /*SCRIPT*/\""), std::string::npos);
+}
+
+TEST(PageParts, StandWhereTheirMarksStood) {
+  EXPECT_EQ(withParts("<a><!--A--></a>/*B*/.", {{"<!--A-->", "/*B*/"}, {"/*B*/", "<!--A-->"}}),
+            "<a>/*B*/</a><!--A-->.");
 }
 
 TEST(BundledScript, LeavesOutImportsAndTakesExportsAsNames) {

@@ -122,6 +122,15 @@ TEST_F(Gate, TakesTheNearestOfSeveralAcceptedImages) {
   EXPECT_NE(readTextFile(at("r.html")).find("near.png"), std::string::npos);
 }
 
+// It might have been the one that passes.
+TEST_F(Gate, AnAcceptedImageThatIsDamagedIsNoDifference) {
+  std::filesystem::create_directories(at("golden/a.variants"));
+  std::ofstream(at("golden/a.variants/broken.png")) << "no PNG";
+  const ProgramEnd end = compare({});
+  EXPECT_EQ(end.code, 3) << end.out;
+  EXPECT_NE(end.out.find("broken.png"), std::string::npos) << end.out;
+}
+
 TEST_F(Gate, MasksWhatIsNotLookedAt) {
   EXPECT_EQ(compare({"--mask", "rect:3,4,1,1"}).code, 0);
   EXPECT_EQ(compare({"--mask", "rect:4,4,1,1"}).code, 1);

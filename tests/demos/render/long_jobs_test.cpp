@@ -14,6 +14,7 @@
 #include <sys/inotify.h>
 
 #include "demos/format/json.h"
+#include "demos/system/atomic_file.h"
 #include "renderer/image/png.h"
 
 namespace carom::demos {
@@ -296,19 +297,15 @@ TEST_F(LongJob, KilledWhileAFrameIsBeingWrittenLeavesNoTruncatedFile) {
 
 TEST_F(LongJob, ResumeTidiesUpAfterTheKilledButNotAfterTheLiving) {
   render("frames");
-  const pid_t gone = fork();
-  if (gone == 0) _exit(0);
-  waitpid(gone, nullptr, 0);
-  const std::string dead = "." + std::to_string(gone) + ".partial";
+  const std::string dead = ".0123abcd.partial";
   folder.file("frames/.f_0003.png" + dead, "half");
   folder.file("frames/.manifest.json" + dead, "half");
   folder.file("frames/.other.png" + dead, "of somebody else");
-  const std::string living = ".f_0004.png." + std::to_string(getpid()) + ".partial";
-  folder.file("frames/" + living, "in the making");
+  const TemporaryFile living(folder.path() / "frames" / "f_0004.png", TemporaryFile::Ending::kPartial);
   render("frames", {"--resume"});
   const Files left = files("frames");
   EXPECT_EQ(left.size(), kFrames + 2u);
-  EXPECT_TRUE(left.contains(living));
+  EXPECT_TRUE(left.contains(living.path().filename().string()));
   EXPECT_TRUE(left.contains(".other.png" + dead));
 }
 

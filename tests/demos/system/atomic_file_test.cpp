@@ -77,6 +77,38 @@ TEST(AtomicFile, APipeOrDeviceIsWrittenToAndStays) {
   EXPECT_EQ(filesIn(folder.path()), 1u);
 }
 
+// Two processes of one number, as in two containers, are told apart by neither's files.
+TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "data.csv";
+  AtomicFile first(path), second(path);
+  first.write("first");
+  second.write("second");
+  EXPECT_EQ(filesIn(folder.path()), 2u);
+  second.commit();
+  first.commit();
+  EXPECT_EQ(readTextFile(path), "first");
+  EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(Abandoned, IsWhatNobodyHolds) {
+  const TemporaryFolder folder;
+  folder.file(".data.csv.77.partial", "of an earlier version");
+  folder.file(".data.csv.0123abcd.partial", "half");
+  folder.file(".v.0123abcd.partial.mp4", "half");
+  folder.file(".other.csv.0123abcd.partial", "of somebody else");
+  folder.file(".data.csv.partial", "of nobody");
+  const AtomicFile held(folder.path() / "data.csv");
+  const TemporaryFile video(folder.path() / "v.mp4", TemporaryFile::Ending::kOfTarget);
+  EXPECT_EQ(video.path().extension(), ".mp4");
+  EXPECT_EQ(filesIn(folder.path()), 7u);
+  removeAbandoned(folder.path(), {"data.csv", "v.mp4"});
+  EXPECT_EQ(filesIn(folder.path()), 4u);
+  EXPECT_TRUE(fs::exists(video.path()));
+  EXPECT_TRUE(fs::exists(folder.path() / ".other.csv.0123abcd.partial"));
+  EXPECT_TRUE(fs::exists(folder.path() / ".data.csv.partial"));
+}
+
 TEST(AtomicFile, SaysWhichFileAndWhy) {
   const TemporaryFolder folder;
   const fs::path blocker = folder.file("plain", "not a folder");

@@ -65,6 +65,21 @@ TEST(FfmpegVideo, ItsOwnWordsTellWhyItFailed) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+// As it ends when it cannot write what closes the file.
+TEST(FfmpegVideo, AComplaintIsAFailureEvenWithCode0) {
+  const StandIn program("cat > \"$out\"; echo 'Error writing trailer: No space left on device' >&2");
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("v.mp4", "an older one");
+  const std::string message = thrownMessage<CannotWrite>([&] {
+    FfmpegVideo video(file, kShape);
+    video.write(kFrame);
+    video.commit();
+  });
+  EXPECT_NE(message.find("Error writing trailer: No space left on device"), std::string::npos) << message;
+  EXPECT_EQ(readTextFile(file), "an older one");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
 TEST(FfmpegVideo, EndingBeforeTheLastFrameIsAFailureEvenWithCode0) {
   const StandIn program("echo half > \"$out\"; exec 0<&-; exit 0");
   const TemporaryFolder folder;
