@@ -89,6 +89,7 @@ struct World::Impl {
   void finishStep(PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
+  std::vector<char> glidingBodies();
   void dampSwings();
   void restIslands();
   void publish();
@@ -206,7 +207,7 @@ void World::Impl::finishStep(PhaseClock* clock) {
   finite = std::all_of(active.list().begin(), active.list().end(),
                        [this](int i) { return isFinite(bodies[at(i)]); });
   if (!finite) return;
-  event_memory.lifts.pay(bodies, active.list(), planner, event_memory.closed);
+  event_memory.lifts.pay(bodies, active.list(), table, planner, event_memory.closed);
   event_memory.closed.restore(bodies, planner);
   const PhaseScope phase(clock, StepPhase::kClosestFeatures);
   table.requery(pairedWorld(), counters);
@@ -220,7 +221,25 @@ void World::Impl::accumulateStillness() {
   }
 }
 
+// Of each body, whether no friction holds it or those that touch it to what does not move: then nothing slows
+// its sliding. None are told where all are held.
+std::vector<char> World::Impl::glidingBodies() {
+  std::vector<char> gliding;
+  const auto holds = [this](const ContactRow& row) {
+    return row.impulse.x() > 0.0 && row.coefficient > 0.0 &&
+           !(bodies[at(row.a)].moves() && bodies[at(row.b)].moves());
+  };
+  for (const LastingContacts::Island& island : contacts.islands) {
+    const std::span<const ContactRow> rows = contacts.rowsOf(island);
+    if (std::any_of(rows.begin(), rows.end(), holds)) continue;
+    gliding.resize(bodies.size(), 0);
+    for (const ContactRow& row : rows) gliding[at(row.a)] = gliding[at(row.b)] = 1;
+  }
+  return gliding;
+}
+
 void World::Impl::dampSwings() {
+  const std::vector<char> gliding = glidingBodies();
   for (const int i : active.list()) {
     Body& body = bodies[at(i)];
     // What touches only what flies with it has no rest to swing about, and keeps its momentum.
@@ -233,6 +252,10 @@ void World::Impl::dampSwings() {
     const double weight_N = body.inertia.mass_kg * settings.gravity.norm();
     body.swing.follow(body.velocity, body.radius_m, energy_J / weight_N, substep.step_s);
     const double keeps = body.swing.keeps(substep.step_s);
+    if (!gliding.empty() && gliding[at(i)] != 0) {
+      slowAlong(body, keeps, planner.pull(i, body).normalized());
+      continue;
+    }
     body.velocity.linear *= keeps;
     body.velocity.angular *= keeps;
   }

@@ -30,6 +30,21 @@ double energyOf(const Body& body) {
   return kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
 }
 
+// In which they touch nothing.
+PairTable tableOf(const std::vector<Body>& bodies) {
+  static const Solid cube = Solid::box({1.0, 1.0, 1.0});
+  std::vector<Shape> shapes;
+  std::vector<int> all;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    all.push_back(static_cast<int>(i));
+    shapes.push_back({all.back(), &cube.parts()[0], 1.0, 1.0});
+  }
+  PairTable table;
+  Crew alone;
+  table.updateBounds(bodies, shapes, all, 0.0, alone);
+  return table;
+}
+
 void pay(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& led,
          const AppliedLoad& load = {}) {
   PathLifts lifts;
@@ -39,7 +54,7 @@ void pay(std::vector<Body>& bodies, const std::vector<std::pair<int, int>>& led,
   for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(static_cast<int>(i));
   ClosedIslands closed;
   closed.begin(bodies.size());
-  lifts.pay(bodies, all, plannerOf(std::vector<AppliedLoad>(bodies.size(), load)), closed);
+  lifts.pay(bodies, all, tableOf(bodies), plannerOf(std::vector<AppliedLoad>(bodies.size(), load)), closed);
 }
 
 TEST(PathLifts, TheFallingSpeedPaysToTheJoule) {
@@ -116,7 +131,7 @@ TEST(PathLifts, WhatOnlyMeetsItselfPaysToTheJouleAndKeepsItsMomentum) {
   closed.meet(0, 1, bodies);
   lifts.join(0, 1, bodies);
   closed.measure(bodies, planner);
-  lifts.pay(bodies, std::vector<int>{0, 1}, planner, closed);
+  lifts.pay(bodies, std::vector<int>{0, 1}, tableOf(bodies), planner, closed);
   closed.restore(bodies, planner);
   EXPECT_LT((momentum() - before).norm(), 1e-14 * before.norm());
   EXPECT_NEAR(energyOf(bodies[0]) + energyOf(bodies[1]), energy - 0.3 - 4.0 * 0.05, 1e-12);
@@ -133,7 +148,7 @@ TEST(PathLifts, WhereNothingPullsNobodyPays) {
   lifts.begin(1);
   ClosedIslands closed;
   closed.begin(1);
-  lifts.pay(bodies, std::vector<int>{0}, planner, closed);
+  lifts.pay(bodies, std::vector<int>{0}, tableOf(bodies), planner, closed);
   EXPECT_EQ(bodies[0].velocity.linear, Vec3(3.0, 0.0, -2.0));
 }
 
