@@ -7,6 +7,8 @@
 #include "tests/explore/random_shapes.h"
 #include "tests/explore/worlds/coarse_worlds.h"
 #include "tests/explore/worlds/driven_heaps.h"
+#include "tests/explore/worlds/hanging_worlds.h"
+#include "tests/explore/worlds/ice_worlds.h"
 #include "tests/explore/worlds/loaded_worlds.h"
 #include "tests/explore/worlds/moved_worlds.h"
 
@@ -377,6 +379,8 @@ class WorldMaker {
 }  // namespace
 
 ExploredWorld randomWorld(std::uint64_t seed) {
+  if (seed >= kIceWorlds) return iceWorld(seed);
+  if (seed >= kHangingWorlds) return hangingWorld(seed);
   if (seed >= kCoarseWorlds) return coarseWorld(seed);
   if (seed >= kLoadedWorlds) return loadedWorld(seed);
   if (seed >= kDrivenHeaps) return drivenHeap(seed);

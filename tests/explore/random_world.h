@@ -30,6 +30,10 @@ inline constexpr std::uint64_t kDrivenHeaps = 2'000'000'000;
 inline constexpr std::uint64_t kLoadedWorlds = 3'000'000'000;
 /// And from here on of small bodies in coarse steps, or under a great weight (coarse_worlds.h).
 inline constexpr std::uint64_t kCoarseWorlds = 4'000'000'000;
+/// And from here on of chains and nets with a load (hanging_worlds.h).
+inline constexpr std::uint64_t kHangingWorlds = 5'000'000'000;
+/// And from here on of bodies over a floor without friction (ice_worlds.h).
+inline constexpr std::uint64_t kIceWorlds = 6'000'000'000;
 
 ExploredWorld randomWorld(std::uint64_t seed);
 

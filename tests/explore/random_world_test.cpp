@@ -42,10 +42,10 @@ TEST(RandomWorld, ComesInAllFamiliesAndKeepsItsLimits) {
   EXPECT_EQ(families.size(), 13u);
 }
 
-// 60 worlds of the seeds from `first` on, which are so many families.
-void expectWorldsOf(std::uint64_t first, std::size_t families_there) {
+// Worlds of the seeds from `first` on, which are so many families.
+void expectWorldsOf(std::uint64_t first, std::size_t families_there, std::uint64_t worlds = 60) {
   std::set<std::string> families;
-  for (std::uint64_t seed = first; seed < first + 60; ++seed) {
+  for (std::uint64_t seed = first; seed < first + worlds; ++seed) {
     const ExploredWorld world = randomWorld(seed);
     families.insert(world.family);
     const std::string text = sceneText(world.scene);
@@ -121,6 +121,64 @@ TEST(CoarseWorld, HasLongStepsOrGreatWeightAndConcaveBodies) {
   }
   EXPECT_NEAR(long_steps, 150, 30);
   EXPECT_NEAR(concave, bodies / 6, bodies / 15);
+}
+
+TEST(HangingWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kHangingWorlds, 1, 20);
+}
+
+// Links hang in one another: none can be taken out along any straight line, so that a link that falls by its
+// own height and more meets another. Their load is up to a thousand links.
+TEST(HangingWorld, HasLinksThatHoldEachOtherAndALoadAtTheEnd) {
+  int free = 0, nets = 0, weights = 0;
+  for (std::uint64_t seed = kHangingWorlds; seed < kHangingWorlds + 100; ++seed) {
+    demos::Scene scene = randomWorld(seed).scene;
+    EXPECT_GE(scene.bodies.size(), 2u) << seed;
+    EXPECT_LE(scene.bodies.size(), 17u) << seed;
+    const demos::Body& load = scene.bodies.back();
+    ASSERT_TRUE(load.mass_kg) << seed;
+    weights += std::get<demos::CompoundShape>(load.shape.form).parts.size() == 5;
+    free += !scene.bodies[0].is_static;
+    const auto beside = [&load](const demos::Body& body) {
+      return std::abs(body.X_WS.position.x()) > 0.1 * reachOf(load.shape);
+    };
+    nets += std::any_of(scene.bodies.begin(), scene.bodies.end(), beside);
+    const auto& ring = std::get<demos::CompoundShape>(load.shape.form);
+    const auto* side = std::get_if<demos::BoxShape>(&ring.parts[1].shape.form);
+    scene.bodies.erase(scene.bodies.begin(), scene.bodies.end() - 2);  // but for one that it hangs in
+    if (side == nullptr || std::holds_alternative<demos::HullShape>(scene.bodies[0].shape.form)) continue;
+    bool meets = false;
+    for (int i = 0; i < 25 && !meets; ++i) {
+      scene.bodies.back().X_WS.position.z() -= 0.02 * side->size_m.z();
+      meets = overlapOfStart(scene).has_value();
+    }
+    EXPECT_TRUE(meets) << seed;
+  }
+  EXPECT_NEAR(weights, 67, 20);
+  EXPECT_NEAR(free, 17, 12);
+  EXPECT_NEAR(nets, 33, 20);
+}
+
+TEST(IceWorld, IsTheSameAgainReadsBackAndDoesNotOverlapAtTheStart) {
+  expectWorldsOf(kIceWorlds, 1);
+}
+
+// Nothing rubs on their floor; few of them are slopes.
+TEST(IceWorld, HasAFloorWithoutFrictionAndGravityAlongItsNormal) {
+  int level = 0, several = 0;
+  for (std::uint64_t seed = kIceWorlds; seed < kIceWorlds + 200; ++seed) {
+    const demos::Scene scene = randomWorld(seed).scene;
+    const demos::Body& floor = scene.bodies[0];
+    EXPECT_TRUE(floor.is_static) << seed;
+    EXPECT_EQ(floor.material.static_friction, 0.0) << seed;
+    const Vec3 n = floor.X_WS.rotation * Vec3::UnitZ();
+    level += n.cross(scene.gravity).norm() < 1e-14 * scene.gravity.norm();
+    several += scene.bodies.size() > 2;
+    EXPECT_LT(n.dot(scene.gravity), 0.0) << seed;
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) EXPECT_FALSE(scene.bodies[i].is_static) << seed;
+  }
+  EXPECT_NEAR(level, 175, 15);
+  EXPECT_NEAR(several, 100, 30);
 }
 
 TEST(RandomWorld, DoesNotOverlapAtTheStart) {

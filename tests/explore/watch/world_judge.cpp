@@ -34,6 +34,7 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
       kinetic_before_J_(start_.kinetic_J),
       moved_(world),
       loads_(world, bodies_),
+      momentum_(world, bodies_, start_),
       apart_(world) {
   const Air& air = world.settings().air;
   const bool dry = world.settings().fluids.empty();
@@ -41,8 +42,6 @@ WorldJudge::WorldJudge(const demos::Scene& scene, const World& world)
   const auto all = [&world](bool (*has)(const BodyDescription&)) {
     return std::all_of(world.bodies().begin(), world.bodies().end(), has);
   };
-  keeps_momentum_ = dry && !(air.density_kgpm3 > 0.0) && bodies_.size() == world.bodies().size() &&
-                    all([](const BodyDescription& d) { return !d.locks.any(); });
   knows_work_ = loads_.any() && dry && !(air.density_kgpm3 > 0.0) &&
                 all([](const BodyDescription& d) { return !d.is_kinematic && !d.load.bends(); });
   checkMasses();
@@ -65,7 +64,7 @@ bool WorldJudge::look(std::span<const BodyState> states, const StepCounters& cou
     leap_.after(states, kinetic_before_J_ + now.kinetic_J + std::abs(Real{counters.work_J}), step, findings_);
   }
   kinetic_before_J_ = now.kinetic_J;
-  if (keeps_momentum_) checkMomentum(now, step);
+  momentum_.after(now, states, {step, counters.rest_test_rows > 0, loads_.sum()}, findings_);
   glide_.look(states, step, findings_);
   moved_.look(states, world_.audit().kinematic_late_s, step, findings_);
   return true;
@@ -128,27 +127,6 @@ Real WorldJudge::workOfStep(const StepCounters& counters, int step) {
                   shown(static_cast<double>(told_J_)) + " J told, " +
                       shown(static_cast<double>(pushed.work_J)) + " J on the paths");
   return pushed.work_J - std::exchange(pushed_J_, pushed.work_J);
-}
-
-// Of all bodies together: the momentum that gravity and loads give, and the angular momentum about their
-// common centre.
-void WorldJudge::checkMomentum(const Mechanics& now, int step) {
-  Real mass = 0;
-  for (const OwnBody& body : bodies_) mass += body.mass;
-  const Pushed& pushed = loads_.sum();
-  const Vec3R fallen = step * Real{world_.settings().step_s} * mass * world_.settings().gravity.cast<Real>();
-  momentum_scale_ = std::max({momentum_scale_, start_.momentum_scale, now.momentum_scale});
-  angular_scale_ = std::max({angular_scale_, start_.angular_scale, now.angular_scale});
-  const Real linear_scale = momentum_scale_ + pushed.impulse_scale;
-  const Real angular_scale = angular_scale_ + pushed.angular_scale;
-  const Real rounding = kRounding * step;
-  const Real off = (now.momentum - start_.momentum - fallen - pushed.impulse).norm();
-  if (off > rounding * linear_scale + pushed.impulse_unknown)
-    findings_.add("momentum", static_cast<double>(off / linear_scale), step, "of sum m |v| + |F| t");
-  const Real turned = (now.angular - start_.angular - pushed.angular).norm();
-  if (turned > rounding * angular_scale + pushed.angular_unknown)
-    findings_.add("angular", static_cast<double>(turned / angular_scale), step,
-                  "of sum m r |v| + I w + r |F| t + |torque| t");
 }
 
 }  // namespace carom::explore

@@ -6,7 +6,7 @@
 #include "tests/explore/watch/flight_watch.h"
 #include "tests/explore/watch/glide_watch.h"
 #include "tests/explore/watch/leap_watch.h"
-#include "tests/explore/watch/load_watch.h"
+#include "tests/explore/watch/momentum_watch.h"
 #include "tests/explore/watch/moved_watch.h"
 
 namespace carom::explore {
@@ -47,16 +47,14 @@ class WorldJudge {
   void checkMasses();
   void lookForOverlap(std::span<const BodyState> states, const char* kind, int step);
   void count(const StepCounters& counters, int step);
-  void checkMomentum(const Mechanics& now, int step);
   Real workOfStep(const StepCounters& counters, int step);
 
   const demos::Scene& scene_;
   const World& world_;
   std::vector<OwnBody> bodies_;
   Mechanics start_;
-  bool keeps_energy_ = false;    ///< Nothing but gravity can add to it.
-  bool keeps_momentum_ = false;  ///< No static body, nothing around: only loads and gravity change it.
-  bool knows_work_ = false;      ///< Nothing does any but forces that are constant in the world.
+  bool keeps_energy_ = false;  ///< Nothing but gravity can add to it.
+  bool knows_work_ = false;    ///< Nothing does any but forces that are constant in the world.
   EnergyWatch energy_;
   FlightWatch flight_;
   GlideWatch glide_;
@@ -64,10 +62,10 @@ class WorldJudge {
   Real kinetic_before_J_ = 0;
   MovedWatch moved_;
   LoadWatch loads_;
+  MomentumWatch momentum_;
   Real pushed_J_ = 0;  ///< By loads, before the step.
   Real told_J_ = 0;    ///< The engine's own account of that.
   ApartWatch apart_;
-  Real momentum_scale_ = 0, angular_scale_ = 0;
   Findings findings_;
   TrialTotals totals_;
 };
