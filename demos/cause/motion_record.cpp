@@ -197,6 +197,7 @@ std::string recordText(const MotionRecord& r, const Thinning& kept) {
                              {"camera", cameraText(s.camera)},
                              {"width", s.width},
                              {"height", s.height},
+                             {"text", hexText(s.text_print)},
                              {"bodies", kept.pixels ? runsText(s.bodies) : ""}}));
     poses.push_back(&s.poses);
   }
@@ -247,6 +248,9 @@ RecordedShot readShot(const Json& json) {
   shot.file = json.at("file").asString();
   shot.time_s = json.at("time_s").asNumber();
   shot.state_hash = std::strtoull(json.at("state").asString().c_str(), nullptr, 16);
+  // Records from before it was written have none.
+  if (const Json* print = json.find("text"))
+    shot.text_print = std::strtoull(print->asString().c_str(), nullptr, 16);
   shot.camera = readCamera(json.at("camera").asString());
   shot.width = std::min(wholeNumber(json.at("width")), 1 << 14);
   shot.height = std::min(wholeNumber(json.at("height")), 1 << 14);
@@ -257,9 +261,28 @@ RecordedShot readShot(const Json& json) {
 
 }  // namespace
 
-const RecordedShot* MotionRecord::shotOf(const std::string& file) const {
+std::string textOf(const renderer::PngText& text, std::string_view key) {
+  for (const auto& [name, value] : text)
+    if (name == key) return value;
+  return "";
+}
+
+std::uint64_t textPrint(const renderer::PngText& text) {
+  constexpr std::string_view kNotShown[] = {"Software", "Build", "Renderer", "Pixels"};
+  ContentHash hash;
+  for (const auto& [key, value] : text)
+    if (std::find(std::begin(kNotShown), std::end(kNotShown), key) == std::end(kNotShown))
+      hash.add(key).add(value);
+  return hash.value();
+}
+
+bool RecordedShot::isOf(const renderer::PngText& text) const {
+  return hexText(state_hash) == textOf(text, "State") && (text_print == 0 || text_print == textPrint(text));
+}
+
+const RecordedShot* MotionRecord::shotOf(const std::string& file, const renderer::PngText& text) const {
   for (const RecordedShot& shot : shots)
-    if (shot.file == file) return &shot;
+    if (shot.file == file && shot.isOf(text)) return &shot;
   return nullptr;
 }
 

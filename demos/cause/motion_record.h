@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "engine/simulation/world.h"
 #include "renderer/image/color.h"
+#include "renderer/image/png.h"
 #include "renderer/view/projection.h"
 
 namespace carom::demos {
@@ -66,7 +68,17 @@ struct RecordedShot {
   int width = 0;
   int height = 0;
   std::vector<std::int32_t> bodies;  ///< Behind each pixel, -1: none; empty: not known.
+  std::uint64_t text_print = 0;      ///< Of what the frame's file says of itself; 0: not known.
+
+  /// Whether it is of the frame whose file says this of itself: a later run may have drawn another one under
+  /// the same name.
+  bool isOf(const renderer::PngText& text) const;
 };
+
+/// Of all that a frame's file says of what it shows, but not of the program that drew it.
+std::uint64_t textPrint(const renderer::PngText& text);
+/// What it says under that key; empty: nothing.
+std::string textOf(const renderer::PngText& text, std::string_view key);
 
 struct MotionRecord {
   std::string scene;
@@ -82,8 +94,8 @@ struct MotionRecord {
   std::vector<RecordedStrike> strikes;
   std::vector<RecordedShot> shots;
 
-  /// The shot of that file; null where there is none.
-  const RecordedShot* shotOf(const std::string& file) const;
+  /// The shot of the file of that name which says this of itself; null where there is none.
+  const RecordedShot* shotOf(const std::string& file, const renderer::PngText& text) const;
 };
 
 RoundedPose roundedPose(const Pose& X_WB, double length_quantum_m);

@@ -2,6 +2,8 @@
 // Where in the picture a difference lies: on which bodies, from what the two records say is behind each
 // pixel. Tested in tests/demos/compare/cause_test.cpp.
 
+#include <string>
+
 #include "demos/cause/cause_facts.h"
 #include "demos/cause/motion_record.h"
 #include "renderer/image/raster.h"
@@ -17,6 +19,7 @@ struct ComparedPictures {
 struct RecordedPicture {
   const MotionRecord& record;
   const RecordedShot& shot;
+  std::string scene = {};  ///< What the frame's file says of it: name and hash. Empty: nothing.
 };
 struct RecordedPictures {
   RecordedPicture actual;

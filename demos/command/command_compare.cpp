@@ -91,12 +91,15 @@ void noteUnseen(const std::vector<Comparison>& comparisons, RecordShelf& shelf) 
   std::set<fs::path> told;
   for (const Comparison& c : comparisons)
     if (!c.passes()) told.insert(c.pair.golden.parent_path());
+  std::map<fs::path, std::vector<RecordedPictures>> folders;
   for (const Comparison& c : comparisons) {
     const fs::path folder = c.pair.golden.parent_path();
-    if (!told.insert(folder).second) continue;
-    const MotionRecord *actual = shelf.of(c.pair.actual), *golden = shelf.of(c.pair.golden);
-    if (actual == nullptr || golden == nullptr) continue;
-    const Cause cause = causeInRecords(*actual, *golden);
+    if (told.contains(folder)) continue;
+    const std::optional<RecordedPicture> actual = shelf.ofActual(c.pair), golden = shelf.ofGolden(c.pair);
+    if (actual && golden) folders[folder].push_back({*actual, *golden});
+  }
+  for (const auto& [folder, frames] : folders) {
+    const Cause cause = causeInRecords(frames);
     if (cause.known())
       std::cerr << "note: " << printable(folder.string() + " passes, but " + cause.headline) << '\n';
   }
@@ -142,25 +145,44 @@ void requireKnown(const CompareOptions& options, const std::vector<Comparison>& 
       throw UsageError("--accept " + name + ": there is no such pair" + acceptedNames(name, names));
 }
 
-std::vector<Update> updateAll(const CompareOptions& options, const std::vector<Comparison>& comparisons) {
+/// The golden folders, each with a pair, whose record is to be replaced by that of the frames. A record that
+/// an earlier run left beside them is not accepted.
+std::map<fs::path, ImagePair> newRecords(const CompareOptions& options,
+                                         const std::vector<Comparison>& comparisons, RecordShelf& shelf) {
+  std::map<fs::path, ImagePair> folders;
+  for (const Comparison& c : comparisons)
+    if (isChosen(options, c) && shelf.ofActual(c.pair))
+      folders.try_emplace(c.pair.golden.parent_path(), c.pair);
+  std::erase_if(folders, [](const auto& folder) { return !hasOtherRecord(folder.second); });
+  return folders;
+}
+
+/// Whether a golden image, though it passes, shows another state or scene than the new record tells of.
+bool isOfOtherRecord(const Comparison& c, RecordShelf& shelf) {
+  const std::optional<RecordedPicture> actual = shelf.ofActual(c.pair);
+  return c.passes() && actual && !actual->shot.isOf(renderer::readPngText(c.pair.golden));
+}
+
+std::vector<Update> updateAll(const CompareOptions& options, const std::vector<Comparison>& comparisons,
+                              RecordShelf& shelf) {
+  const std::map<fs::path, ImagePair> records = newRecords(options, comparisons, shelf);
+  std::vector<Update> updates;
   GoldenUndo undo(goldenRoot(options));
-  std::map<fs::path, const ImagePair*> folders;
   for (const Comparison& c : comparisons) {
-    if (!isChosen(options, c)) continue;
-    folders.try_emplace(c.pair.golden.parent_path(), &c.pair);
-    const Update planned = plannedUpdate(c);
-    if (planned == Update::kReplaced || planned == Update::kAdded) undo.keep(c.pair.golden);
+    Update update = isChosen(options, c) ? plannedUpdate(c) : Update::kNone;
+    if (isChosen(options, c) && records.contains(c.pair.golden.parent_path()) && isOfOtherRecord(c, shelf))
+      update = Update::kReplaced;
+    if (update == Update::kReplaced || update == Update::kAdded) undo.keep(c.pair.golden);
+    updates.push_back(update);
   }
-  std::erase_if(folders, [](const auto& folder) { return !hasOtherRecord(*folder.second); });
-  for (const auto& [folder, pair] : folders) undo.keep(folder / kRecordName);
+  for (const auto& [folder, pair] : records) undo.keep(folder / kRecordName);
   undo.commit();
-  std::vector<Update> done;
-  for (const Comparison& c : comparisons) {
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
     throwIfInterrupted();
-    done.push_back(isChosen(options, c) ? updateGolden(c) : Update::kNone);
+    if (updates[i] == Update::kReplaced || updates[i] == Update::kAdded) replaceGolden(comparisons[i].pair);
   }
-  for (const auto& [folder, pair] : folders) updateRecord(*pair);
-  return done;
+  for (const auto& [folder, pair] : records) updateRecord(pair);
+  return updates;
 }
 
 /// The pairs that do not pass, worst first, and the counts.
@@ -306,7 +328,7 @@ ExitCode compare(const CompareOptions& options) {
     outcome.report = writeReport(options, comparisons, gate).string();
     if (!options.differences.empty()) writeDifferences(options, comparisons, gate);
     if (!options.junit.empty()) writeJunit(options, comparisons, gate);
-    if (isUpdate(options)) outcome.updates = updateAll(options, comparisons);
+    if (isUpdate(options)) outcome.updates = updateAll(options, comparisons, shelf);
   } catch (const CannotWrite&) {
     unwritten = std::current_exception();
   }

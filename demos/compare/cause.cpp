@@ -33,6 +33,27 @@ bool onlyProgram(const std::vector<Change>& look) {
                      [](const Change& c) { return c.part == "renderer" || c.part == "program"; });
 }
 
+/// Whether the frames' files name two versions of the scene. What of it no record knows (forces, locked axes,
+/// paths, meshes and pictures that are drawn) may then have changed.
+bool isEdited(const RecordedPicture& actual, const RecordedPicture& golden) {
+  return !actual.scene.empty() && !golden.scene.empty() && actual.scene != golden.scene;
+}
+
+/// The states differ, and nothing that the records know of the world does.
+void blameUnknown(const RecordedPicture& actual, const RecordedPicture& golden, int step, Cause& cause) {
+  const bool edited = isEdited(actual, golden);
+  cause.headline = edited ? "physics moved: the scene was edited" : "physics moved: the same scene";
+  if (edited) cause.changes.push_back({"scene", actual.record.scene, "the scene was edited"});
+  if (step >= 0)
+    cause.headline += ", other states from step " + std::to_string(step) + " (" +
+                      formatted("%.3g", cause.since_s) + " s) on";
+  const std::vector<Change> sources = changedSources(actual.record, golden.record, true);
+  cause.headline += sources.empty() ? "" : "; " + joined(sources);
+  append(cause.changes, sources);
+  if (sources.empty() && !edited)
+    cause.changes.push_back({"engine", "engine", "the same sources of the engine, other states"});
+}
+
 /// The states differ.
 void blameMotion(const RecordedPicture& actual, const RecordedPicture& golden, const Differences& found,
                  Cause& cause) {
@@ -43,19 +64,9 @@ void blameMotion(const RecordedPicture& actual, const RecordedPicture& golden, c
   if (!found.world.empty()) {
     cause.headline = "physics moved: " + joined(found.world);
     append(cause.changes, found.world);
-    if (!onlyProgram(found.look)) cause.headline += "; also " + found.look.front().text;
-    append(cause.changes, found.look);
-    return;
+  } else {
+    blameUnknown(actual, golden, step, cause);
   }
-  const std::vector<Change> sources = changedSources(actual.record, golden.record, true);
-  cause.headline = "physics moved: the same scene";
-  if (step >= 0)
-    cause.headline += ", other states from step " + std::to_string(step) + " (" +
-                      formatted("%.3g", cause.since_s) + " s) on";
-  cause.headline += sources.empty() ? "" : "; " + joined(sources);
-  append(cause.changes, sources);
-  if (sources.empty())
-    cause.changes.push_back({"engine", "engine", "the same sources of the engine, other states"});
   if (!onlyProgram(found.look)) cause.headline += "; also " + found.look.front().text;
   append(cause.changes, found.look);
 }
@@ -73,6 +84,14 @@ void blamePicture(const RecordedPicture& actual, const RecordedPicture& golden, 
     return;
   }
   const std::vector<Change> sources = changedSources(actual.record, golden.record, false);
+  if (isEdited(actual, golden)) {
+    cause.headline = "the same motion, another look: the scene was edited";
+    if (!sources.empty()) cause.headline += "; " + joined(sources);
+    cause.changes.push_back({"scene", actual.record.scene, "the scene was edited"});
+    append(cause.changes, sources);
+    append(cause.changes, found.look);
+    return;
+  }
   append(cause.changes, sources);
   append(cause.changes, found.look);
   cause.headline = "the renderer changed: the same states and look";
@@ -105,12 +124,6 @@ Cause causeAtShots(const RecordedPicture& actual, const RecordedPicture& golden)
   else
     blamePicture(actual, golden, found, cause);
   return cause;
-}
-
-std::string textOf(const renderer::PngText& text, const char* key) {
-  for (const auto& [name, value] : text)
-    if (name == key) return value;
-  return "";
 }
 
 /// Whether the pixels are those that the frame's text signs; true where it signs none.
@@ -191,7 +204,7 @@ Cause causeByText(const renderer::DecodedRaster& actual, const renderer::Decoded
       "the renderer changed: same state " + state + (differs("Renderer") ? ", " + change("Renderer") : ""));
 }
 
-const MotionRecord* RecordShelf::of(const std::filesystem::path& frame) {
+const MotionRecord* RecordShelf::recordBeside(const std::filesystem::path& frame) {
   std::filesystem::path folder = frame.parent_path();
   if (folder.extension() == ".variants") folder = folder.parent_path();
   const std::filesystem::path file = folder / kRecordName;
@@ -207,14 +220,29 @@ const MotionRecord* RecordShelf::of(const std::filesystem::path& frame) {
   return at->second ? &*at->second : nullptr;
 }
 
-Cause causeInRecords(const MotionRecord& actual, const MotionRecord& golden) {
-  if (actual.scene != golden.scene) return {};
+std::optional<RecordedPicture> RecordShelf::pictureOf(const std::filesystem::path& frame,
+                                                      const std::string& name) {
+  const MotionRecord* record = recordBeside(frame);
+  if (record == nullptr) return std::nullopt;
+  const renderer::PngText text = renderer::readPngText(frame);
+  const RecordedShot* shot = record->shotOf(name, text);
+  if (shot == nullptr) return std::nullopt;
+  return RecordedPicture{*record, *shot, textOf(text, "Scene")};
+}
+
+std::optional<RecordedPicture> RecordShelf::ofActual(const ImagePair& pair) {
+  return pictureOf(pair.actual, pair.actual.filename().string());
+}
+
+std::optional<RecordedPicture> RecordShelf::ofGolden(const ImagePair& pair) {
+  return pictureOf(pair.golden, std::filesystem::path(pair.name).filename().string());  // or a variant's
+}
+
+Cause causeInRecords(const std::vector<RecordedPictures>& frames) {
   Cause unseen;
-  for (const RecordedShot& was : golden.shots) {
-    const RecordedShot* is = actual.shotOf(was.file);
-    if (is == nullptr || is->time_s != was.time_s) continue;
-    const RecordedPicture a{actual, *is}, g{golden, was};
-    if (is->state_hash != was.state_hash) return causeAtShots(a, g);
+  for (const auto& [a, g] : frames) {
+    if (a.record.scene != g.record.scene || a.shot.time_s != g.shot.time_s) continue;
+    if (a.shot.state_hash != g.shot.state_hash) return causeAtShots(a, g);
     if (unseen.known()) continue;
     append(unseen.changes, differencesOf(a, g).world);
     if (!unseen.changes.empty())
@@ -228,18 +256,13 @@ Cause causeOfDifference(const Comparison& c, const Gate& gate, RecordShelf& shel
   const renderer::DecodedRaster golden = renderer::readPngRaster(c.pair.golden);
   const Cause by_text = causeByText(actual, golden);
   if (!by_text.changes.empty() && by_text.changes.front().part == "encoder") return by_text;
-  const MotionRecord *a = shelf.of(c.pair.actual), *g = shelf.of(c.pair.golden);
-  if (a == nullptr || g == nullptr) return by_text;
-  const RecordedShot* shot_a = a->shotOf(c.pair.actual.filename().string());
-  const RecordedShot* shot_g = g->shotOf(std::filesystem::path(c.pair.name).filename().string());
-  // A record that an earlier run left says nothing of this frame.
-  if (shot_a == nullptr || shot_g == nullptr || hexText(shot_a->state_hash) != textOf(actual.text, "State"))
-    return by_text;
-  Cause cause = causeAtShots({*a, *shot_a}, {*g, *shot_g});
+  const std::optional<RecordedPicture> a = shelf.ofActual(c.pair), g = shelf.ofGolden(c.pair);
+  if (!a || !g) return by_text;
+  Cause cause = causeAtShots(*a, *g);
   renderer::Raster looked_at = actual.raster;
   if (gate.mask != nullptr) gate.mask->apply(c.pair, looked_at, golden.raster);
-  addPictureEvidence({looked_at, golden.raster, gate.toleranceOf(actual.raster.fullScale())},
-                     {{*a, *shot_a}, {*g, *shot_g}}, cause);
+  addPictureEvidence({looked_at, golden.raster, gate.toleranceOf(actual.raster.fullScale())}, {*a, *g},
+                     cause);
   return cause;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "demos/cause/motion_record.h"
+#include "demos/cause/picture_evidence.h"
 #include "demos/compare/comparison.h"
 #include "renderer/image/png.h"
 
@@ -18,11 +19,17 @@ namespace carom::demos {
 /// The records beside the frames, each read once.
 class RecordShelf {
  public:
-  /// Null where there is none, or none that can be read; then `problems` says why.
-  const MotionRecord* of(const std::filesystem::path& frame);
+  /// What the records say of the pair's frames. Nothing where there is no record, or none that can be read
+  /// (then `problems` says why), and where it is not of the frame as it is: a run without a record leaves
+  /// that of the run before beside its frames.
+  std::optional<RecordedPicture> ofActual(const ImagePair& pair);
+  std::optional<RecordedPicture> ofGolden(const ImagePair& pair);
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
+  const MotionRecord* recordBeside(const std::filesystem::path& frame);
+  std::optional<RecordedPicture> pictureOf(const std::filesystem::path& frame, const std::string& name);
+
   std::map<std::filesystem::path, std::optional<MotionRecord>> records_;
   std::vector<std::string> problems_;
 };
@@ -33,8 +40,8 @@ Cause causeOfDifference(const Comparison& comparison, const Gate& gate, RecordSh
 /// Of two frames' texts alone.
 Cause causeByText(const renderer::DecodedRaster& actual, const renderer::DecodedRaster& golden);
 
-/// Of two records of one scene without a look at the pictures: what differs in the world up to the first
-/// frame whose states differ. Empty: nothing.
-Cause causeInRecords(const MotionRecord& actual, const MotionRecord& golden);
+/// Of the frames of two runs without a look at their pixels: what differs in the world up to the first frame
+/// whose states differ. Empty: nothing, or another scene.
+Cause causeInRecords(const std::vector<RecordedPictures>& frames);
 
 }  // namespace carom::demos

@@ -34,9 +34,12 @@ Update plannedUpdate(const Comparison& comparison) {
 
 Update updateGolden(const Comparison& comparison) {
   const Update update = plannedUpdate(comparison);
-  if (update == Update::kReplaced || update == Update::kAdded)
-    copyWhole(comparison.pair.actual, comparison.pair.golden);
+  if (update == Update::kReplaced || update == Update::kAdded) replaceGolden(comparison.pair);
   return update;
+}
+
+void replaceGolden(const ImagePair& pair) {
+  copyWhole(pair.actual, pair.golden);
 }
 
 bool hasOtherRecord(const ImagePair& pair) {

@@ -1,7 +1,8 @@
 #pragma once
-// Golden images replaced by what was rendered: only those that the gate refuses, each whole or not at all,
-// byte for byte, so that text chunks with the frame's identity come along. A golden image whose counterpart
-// is missing is never deleted. Tested in tests/demos/compare/golden_update_test.cpp.
+// Golden images replaced by what was rendered: those that the gate refuses, and those that a new record is
+// not of, each whole or not at all, byte for byte, so that text chunks with the frame's identity come along.
+// A golden image whose counterpart is missing is never deleted. Tested in
+// tests/demos/compare/golden_update_test.cpp.
 
 #include <string>
 
@@ -22,6 +23,9 @@ Update plannedUpdate(const Comparison& comparison);
 /// Writes the golden file where that is called for. Throws CannotWrite, and InputError when the actual file
 /// has gone since it was compared.
 Update updateGolden(const Comparison& comparison);
+
+/// Puts the actual file in the golden one's place. Throws as updateGolden.
+void replaceGolden(const ImagePair& pair);
 
 /// Whether the actual frames have a record beside them (cause/motion_record.h) that is not, byte for byte,
 /// that of the golden ones.

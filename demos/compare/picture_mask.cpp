@@ -69,20 +69,20 @@ void PictureMask::maskBody(const std::string& body, const ImagePair& pair, std::
                            int width) const {
   const std::lock_guard lock(reading_);
   bool known = false;
-  for (const auto& path : {pair.actual, pair.golden}) {
-    const MotionRecord* record = shelf_.of(path);
-    const RecordedShot* shot =
-        record != nullptr ? record->shotOf(std::filesystem::path(pair.name).filename().string()) : nullptr;
-    if (shot == nullptr || shot->width != width || shot->bodies.size() != masked.size()) continue;
-    for (std::size_t b = 0; b < record->bodies.size(); ++b) {
-      if (record->bodies[b].name != body) continue;
+  for (const std::optional<RecordedPicture>& picture : {shelf_.ofActual(pair), shelf_.ofGolden(pair)}) {
+    if (!picture) continue;
+    const RecordedShot& shot = picture->shot;
+    if (shot.width != width || shot.bodies.size() != masked.size()) continue;
+    const std::vector<RecordedBody>& bodies = picture->record.bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (bodies[b].name != body) continue;
       known = true;
-      markBody(*shot, static_cast<std::int32_t>(b), [&](std::size_t i) { masked[i] = true; });
+      markBody(shot, static_cast<std::int32_t>(b), [&](std::size_t i) { masked[i] = true; });
     }
   }
   if (!known)
-    throw InputError("--mask body:" + body + ": no record beside " + pair.name +
-                     " knows it; accepted: a body of frames drawn with --states or --portable");
+    throw InputError("--mask body:" + body + ": no record of " + pair.name +
+                     " as it is knows it; accepted: a body of frames drawn with --states or --portable");
 }
 
 std::vector<bool> PictureMask::maskedPixels(const ImagePair& pair, int width, int height) const {

@@ -108,6 +108,13 @@ void addPresence(const MotionRecord& actual, const MotionRecord& golden, std::ve
   };
   tell(missing, " is missing", " are missing");
   tell(added, " is new", " are new");
+  if (!missing.empty() || !added.empty()) return;
+  const auto [at, was_at] =
+      std::mismatch(actual.bodies.begin(), actual.bodies.end(), golden.bodies.begin(), golden.bodies.end(),
+                    [](const RecordedBody& a, const RecordedBody& g) { return a.name == g.name; });
+  // The engine goes through the bodies in the order of the scene.
+  if (at != actual.bodies.end())
+    changes.push_back({"body", at->name, "the bodies are in another order from " + at->name + " on"});
 }
 
 /// What differs in the bodies: in how they move, and in how they look alone.

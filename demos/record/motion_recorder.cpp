@@ -9,6 +9,7 @@
 #include "demos/format/formatted.h"
 #include "demos/system/atomic_file.h"
 #include "demos/system/build_info.h"
+#include "engine/foundation/contract.h"
 
 namespace carom::demos {
 namespace {
@@ -160,6 +161,17 @@ std::map<std::pair<int, int>, double> touchesOf(const std::vector<ContactView>& 
   return touches;
 }
 
+/// None where there is none, or none that can be read.
+std::optional<MotionRecord> recordIn(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(folder / kRecordName, ignored)) return std::nullopt;
+  try {
+    return readRecord(folder / kRecordName);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 MotionRecorder::MotionRecorder(const Scene& scene, SceneWorld& made, const renderer::Settings& settings)
@@ -217,9 +229,30 @@ void MotionRecorder::follow(const World& world) {
   view_.collisions.clear();
 }
 
-void MotionRecorder::addShot(const std::string& file, double time_s, const FrameState& state,
+void MotionRecorder::addShot(const ShotFile& file, double time_s, const FrameState& state,
                              const renderer::Camera& camera) {
-  record_.shots.push_back({file, time_s, state.state_hash, camera, posesOf(state.bodies), 0, 0, {}});
+  record_.shots.push_back(
+      {file.name, time_s, state.state_hash, camera, posesOf(state.bodies), 0, 0, {}, textPrint(file.text)});
+}
+
+void MotionRecorder::recall(const std::filesystem::path& folder) {
+  former_ = recordIn(folder);
+}
+
+bool MotionRecorder::recallPixels(int width, int height) {
+  if (!former_) return false;
+  RecordedShot& shot = record_.shots.back();
+  for (const RecordedShot& was : former_->shots) {
+    const bool same = was.file == shot.file && was.state_hash == shot.state_hash &&
+                      was.text_print == shot.text_print && was.width == width && was.height == height;
+    if (!same || was.bodies.empty()) continue;
+    shot.width = width;
+    shot.height = height;
+    shot.bodies = was.bodies;
+    pixels_ += was.bodies.size();
+    return true;
+  }
+  return false;
 }
 
 bool MotionRecorder::wantsPixels(int width, int height) const {
@@ -241,6 +274,14 @@ void MotionRecorder::write(const std::filesystem::path& folder, const renderer::
   AtomicFile file(folder / kRecordName);
   file.write(recordBytes(record));
   file.commit();
+}
+
+bool recordIsOfOthers(const std::filesystem::path& folder, const std::set<std::string>& files) {
+  const std::optional<MotionRecord> record = recordIn(folder);
+  if (!record) return false;
+  return std::any_of(record->shots.begin(), record->shots.end(), [&](const RecordedShot& shot) {
+    return !files.contains(shot.file) && shot.isOf(renderer::readPngText(folder / shot.file));
+  });
 }
 
 }  // namespace carom::demos

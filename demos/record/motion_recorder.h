@@ -4,6 +4,8 @@
 // tests/demos/program/cause_program_test.cpp.
 
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "demos/cause/motion_record.h"
@@ -23,11 +25,20 @@ class MotionRecorder {
 
   /// A fact of how frames look that is not in the settings.
   void addLook(const std::string& name, const std::string& value) { record_.look.emplace_back(name, value); }
+  /// Takes what is behind the pixels of frames that are kept from the record that a run before left there, if
+  /// any.
+  void recall(const std::filesystem::path& folder);
   /// After every step.
   void follow(const World& world);
+  /// A frame's file and what it says of itself, which tells the moment and the state.
+  struct ShotFile {
+    std::string name;
+    renderer::PngText text;
+  };
   /// Before the frame is drawn.
-  void addShot(const std::string& file, double time_s, const FrameState& state,
-               const renderer::Camera& camera);
+  void addShot(const ShotFile& file, double time_s, const FrameState& state, const renderer::Camera& camera);
+  /// What is behind the pixels of the shot added last, from the record recalled; false where it does not say.
+  bool recallPixels(int width, int height);
   /// What is behind the pixels of the shot added last; beyond kMostPixels in all it is left out.
   void addPixels(const renderer::SurfaceImage& surfaces, int width, int height);
   bool wantsPixels(int width, int height) const;
@@ -50,8 +61,12 @@ class MotionRecorder {
   SceneWorld& made_;
   StepView view_;
   MotionRecord record_;
+  std::optional<MotionRecord> former_;
   int moment_stride_ = 1;
   std::size_t pixels_ = 0;
 };
+
+/// Whether the record in a folder is of frames there, as they are, beside these.
+bool recordIsOfOthers(const std::filesystem::path& folder, const std::set<std::string>& files);
 
 }  // namespace carom::demos

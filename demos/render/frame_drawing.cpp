@@ -41,6 +41,10 @@ void drawOutputs(const RenderRun& run, renderer::FrameRenderer& pictures, FrameT
     frame.outputs[i].raster = outputRaster(run.plan.outputs[i], pictures.surfaces(), run.scale);
 }
 
+bool wantsPixels(const RenderRun& run) {
+  return run.recorder != nullptr && run.recorder->wantsPixels(run.manifest.width, run.manifest.height);
+}
+
 }  // namespace
 
 bool keepFrame(const RenderRun& run, FrameToWrite& frame) {
@@ -75,6 +79,21 @@ FrameToWrite plannedFrame(const RenderRun& run, const FrameJob& job) {
   return next;
 }
 
+void recordShot(const RenderRun& run, const FrameJob& job, const FrameToWrite& next) {
+  if (run.recorder == nullptr) return;
+  const double time_s = next.record.time_s;
+  run.recorder->addShot({next.record.file, next.text}, time_s, job.state,
+                        run.camera.at(time_s, job.state.bodies));
+}
+
+void recordKept(const RenderRun& run, renderer::FrameRenderer& pictures, const FrameJob& job) {
+  const int width = run.manifest.width, height = run.manifest.height;
+  if (!wantsPixels(run) || run.recorder->recallPixels(width, height)) return;
+  const double time_s = run.plan.clock.time(job.frame);
+  pictures.draw(drawnInstances(run.scene, job.state.bodies), run.camera.at(time_s, job.state.bodies));
+  run.recorder->addPixels(pictures.surfaces(), width, height);
+}
+
 void drawFrame(const RenderRun& run, renderer::FrameRenderer& pictures, const FrameJob& job,
                FrameToWrite& next) {
   Stopwatch watch;
@@ -91,8 +110,7 @@ void drawFrame(const RenderRun& run, renderer::FrameRenderer& pictures, const Fr
   if (run.caption != nullptr)
     next.image = withCaption(std::move(next.image), run.caption->at(next.record.time_s, job.state.bodies));
   drawOutputs(run, pictures, next);
-  if (run.recorder != nullptr && run.recorder->wantsPixels(run.manifest.width, run.manifest.height))
-    run.recorder->addPixels(pictures.surfaces(), run.manifest.width, run.manifest.height);
+  if (wantsPixels(run)) run.recorder->addPixels(pictures.surfaces(), run.manifest.width, run.manifest.height);
   next.record.timings.draw_ms = watch.lap_ms();
 }
 
@@ -108,11 +126,6 @@ FrameJob nextJob(RenderRun& run, int frame) {
     }
   } else {
     state = run.overlays.advance(run.source, frame);
-  }
-  if (run.recorder != nullptr) {
-    const double time_s = run.plan.clock.time(frame);
-    run.recorder->addShot(run.names->file(frame).filename().string(), time_s, state,
-                          run.camera.at(time_s, state.bodies));
   }
   return {frame, state, watch.lap_ms(), std::move(moments)};
 }

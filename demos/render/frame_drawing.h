@@ -43,6 +43,12 @@ FrameToWrite plannedFrame(const RenderRun& run, const FrameJob& job);
 /// Whether an earlier run has drawn it: then its record says so.
 bool keepFrame(const RenderRun& run, FrameToWrite& frame);
 
+/// Tells the recorder, if there is one, of the frame that comes next.
+void recordShot(const RenderRun& run, const FrameJob& job, const FrameToWrite& next);
+
+/// Tells it what is behind the pixels of a frame that is kept: as it was recorded, or else looked at afresh.
+void recordKept(const RenderRun& run, renderer::FrameRenderer& pictures, const FrameJob& job);
+
 void drawFrame(const RenderRun& run, renderer::FrameRenderer& pictures, const FrameJob& job,
                FrameToWrite& next);
 

@@ -61,7 +61,9 @@ void drawHere(RenderRun& run, renderer::FrameRenderer& pictures, FrameWriter& wr
   for (const int frame : run.plan.frames) {
     const FrameJob job = nextJob(run, frame);
     FrameToWrite next = plannedFrame(run, job);
+    recordShot(run, job, next);
     if (keepFrame(run, next)) {
+      recordKept(run, pictures, job);
       run.kept.push_back(next.record);
     } else {
       drawFrame(run, pictures, job, next);
@@ -135,7 +137,7 @@ void noteOlderFrames(const FrameNames& names, int count) {
 
 /// What an earlier run that was killed left of the files that this one is to write, and of nobody else's.
 void removeLeftOvers(const RenderRun& run, const std::string& manifest_name) {
-  std::set<std::string> names{manifest_name};
+  std::set<std::string> names{manifest_name, kRecordName};
   for (const int frame : run.plan.frames) {
     names.insert(run.names->file(frame).filename().string());
     for (const FrameOutput output : run.plan.outputs)
@@ -281,11 +283,23 @@ Sink sinkOf(const RenderOptions& options) {
           {}};
 }
 
-/// A record tells of a whole run: parts, streams, recordings and overlays, which watch the world themselves,
-/// have none.
+/// A record tells of a run as it goes: shards, streams, recordings and overlays, which watch the world
+/// themselves, have none.
 bool hasRecord(const RenderOptions& options, const Overlays& overlays) {
   return options.states && options.shard.empty() && options.from.empty() && options.stream.empty() &&
          options.moving.empty() && options.sheet.empty() && !options.at_s && !overlays.any();
+}
+
+/// Whether a part of the frames is drawn into a folder whose record is of others there too: it stays.
+bool leavesRecord(const RenderOptions& options, const RenderPlan& plan, const FrameNames& names) {
+  if (options.frames.empty()) return false;
+  std::set<std::string> files;
+  for (const int frame : plan.frames) files.insert(names.file(frame).filename().string());
+  if (!recordIsOfOthers(names.folder(), files)) return false;
+  if (!options.telling.quiet)
+    std::cerr << "note: " << (names.folder() / kRecordName).string()
+              << " is of other frames, too, and stays as it is; the whole run makes it anew\n";
+  return true;
 }
 
 /// Overlays need the engine itself, and so does a still. A record holds pixels, which are drawn where it is
@@ -346,8 +360,9 @@ ExitCode render(const RenderOptions& options) {
   }
   RunFacts facts;
   std::optional<MotionRecorder> recorder;
-  if (hasRecord(options, overlays)) {
+  if (hasRecord(options, overlays) && !leavesRecord(options, plan, *names)) {
     recorder.emplace(plan.scene, made, settings);
+    if (options.resume) recorder->recall(names->folder());
     if (manifest.has_caption) recorder->addLook("caption", "on");
     if (manifest.shutter_degrees > 0.0)
       recorder->addLook("shutter", formatted("%.9g degrees", manifest.shutter_degrees));

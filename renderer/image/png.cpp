@@ -569,6 +569,16 @@ DecodedRaster readPngRaster(const std::filesystem::path& path) {
   return decodePngRaster(file, path.string());
 }
 
+PngText readPngText(const std::filesystem::path& path) {
+  InputFile file = tryInputFile(path);
+  if (!file.problem.empty() || !readClaimed(file.stream)) return {};
+  try {
+    return readText(file.stream, path.string());
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 std::int64_t pngPixels(const std::filesystem::path& path) {
   InputFile file = tryInputFile(path);
   if (!file.problem.empty()) return 0;

@@ -99,6 +99,10 @@ DecodedRaster readPngRaster(const std::filesystem::path& path);
 DecodedPng decodePng(std::istream& in, const std::string& name);
 DecodedRaster decodePngRaster(std::istream& in, const std::string& name);
 
+/// The text chunks alone, as readPngRaster gives them; the pixels are passed over, whole or not. Empty where
+/// it cannot be read or is no PNG.
+PngText readPngText(const std::filesystem::path& path);
+
 /// How many pixels the file says it has; 0 where it cannot be read or is no PNG.
 std::int64_t pngPixels(const std::filesystem::path& path);
 

@@ -36,7 +36,8 @@ MotionRecord sampleRecord(int moments) {
               {poseAt(0), poseAt(9)},
               4,
               2,
-              {-1, -1, -1, 1, 1, 0, 0, 0}}};
+              {-1, -1, -1, 1, 1, 0, 0, 0},
+              0x123456789abcdef0u}};
   return r;
 }
 
@@ -61,6 +62,7 @@ TEST(MotionRecord, ComesBackFromItsFile) {
   }
   EXPECT_EQ(back.strikes[0].impulse_Ns, 1.5);
   EXPECT_EQ(back.shots[0].state_hash, r.shots[0].state_hash);
+  EXPECT_EQ(back.shots[0].text_print, r.shots[0].text_print);
   EXPECT_EQ(back.shots[0].poses, r.shots[0].poses);
   EXPECT_EQ(back.shots[0].bodies, r.shots[0].bodies);
   EXPECT_EQ(back.shots[0].camera.eye, r.shots[0].camera.eye);
@@ -75,6 +77,26 @@ TEST(MotionRecord, IsThinnedOutUntilItFitsAndKeepsTheShotsAndTheBodies) {
   EXPECT_EQ(back.moments[1].poses, r.moments[static_cast<std::size_t>(back.moments[1].step)].poses);
   EXPECT_EQ(back.shots[0].poses, r.shots[0].poses);
   EXPECT_EQ(back.bodies.size(), 2u);
+}
+
+TEST(MotionRecord, AShotIsOfTheFrameWhoseFileSaysTheSameWhoeverDrewIt) {
+  MotionRecord r = sampleRecord(2);
+  const renderer::PngText text = {{"Build", "gcc"}, {"Scene", "sample 01"}, {"State", "fedcba9876543210"}};
+  renderer::PngText other_build = text, other_scene = text, other_state = text, other_camera = text;
+  other_build[0].second = "clang";
+  other_scene[1].second = "sample 02";
+  other_state[2].second = "fedcba9876543211";
+  other_camera.emplace_back("Camera", "side");
+  r.shots[0].text_print = textPrint(text);
+  const std::string file = r.shots[0].file;
+  EXPECT_EQ(r.shotOf(file, text), &r.shots[0]);
+  EXPECT_EQ(r.shotOf(file, other_build), &r.shots[0]);
+  EXPECT_EQ(r.shotOf("frame_0002.png", text), nullptr);
+  for (const renderer::PngText& other : {other_scene, other_state, other_camera, renderer::PngText{}})
+    EXPECT_EQ(r.shotOf(file, other), nullptr);
+  r.shots[0].text_print = 0;  // of an earlier version: the state must do
+  EXPECT_EQ(r.shotOf(file, other_scene), &r.shots[0]);
+  EXPECT_EQ(r.shotOf(file, other_state), nullptr);
 }
 
 TEST(MotionRecord, OfOtherBodiesThanItsPosesIsRefusedWithItsPlace) {

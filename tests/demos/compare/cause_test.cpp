@@ -46,8 +46,12 @@ void divert(MotionRecord& r) {
   r.strikes[0].impulse_Ns = 1.5;
 }
 
-Cause causeOf(const MotionRecord& actual) {
-  return causeInRecords(actual, usual());
+constexpr char kSceneText[] = "crates 01", kEditedText[] = "crates 02";
+
+Cause causeOf(const MotionRecord& actual, const std::string& scene = kSceneText) {
+  const MotionRecord golden = usual();
+  return causeInRecords(
+      {RecordedPictures{{actual, actual.shots[0], scene}, {golden, golden.shots[0], kSceneText}}});
 }
 
 TEST(Cause, OfTheSameRunIsUnknown) {
@@ -86,6 +90,29 @@ TEST(Cause, OfOtherStatesOfTheSameSceneIsTheEnginesSource) {
   EXPECT_EQ(causeOf(now).headline,
             "physics moved: the same scene, other states from step 24 (0.1 s) on; "
             "engine/response/one_point/impulse.cpp changed");
+}
+
+// Forces, locked axes and paths are in no record: it said "the same scene, other states" of them.
+TEST(Cause, OfOtherStatesOfAnEditedSceneIsTheEdit) {
+  MotionRecord now = usual();
+  divert(now);
+  const Cause cause = causeOf(now, kEditedText);
+  EXPECT_EQ(cause.headline, "physics moved: the scene was edited, other states from step 24 (0.1 s) on");
+  EXPECT_EQ(cause.changes[0].part, "scene");
+  now.sources[0].second = "00000000";
+  EXPECT_EQ(causeOf(now, kEditedText).headline,
+            "physics moved: the scene was edited, other states from step 24 (0.1 s) on; "
+            "engine/response/one_point/impulse.cpp changed");
+  now.bodies[2].stuff[0].second = "0.5";
+  EXPECT_EQ(causeOf(now, kEditedText).headline, "physics moved: restitution of crate[1] is 0.5, was 0.2");
+}
+
+TEST(Cause, NamesAnotherOrderOfTheSameBodies) {
+  MotionRecord now = usual();
+  divert(now);
+  std::swap(now.bodies[1], now.bodies[2]);
+  EXPECT_EQ(causeOf(now, kEditedText).headline,
+            "physics moved: the bodies are in another order from crate[1] on");
 }
 
 TEST(Cause, NamesAMissingBodyThoughAllIndicesShift) {
@@ -130,12 +157,14 @@ class FramePair : public testing::Test {
     return causeOfDifference(c, {}, shelf);
   }
   void write(const std::string& side, const renderer::Raster& raster, const MotionRecord& record) {
-    writePng(folder_.path() / side / "f.png", raster,
-             {{"Scene", "crates 01"}, {"State", hexText(record.shots[0].state_hash)}});
+    writePng(
+        folder_.path() / side / "f.png", raster,
+        {{"Scene", side == "a" ? scene_now_ : kSceneText}, {"State", hexText(record.shots[0].state_hash)}});
     const std::vector<std::uint8_t> bytes = recordBytes(record);
     folder_.file(side + "/states.carom", std::string(bytes.begin(), bytes.end()));
   }
   TemporaryFolder folder_;
+  std::string scene_now_ = kSceneText;
 };
 
 TEST_F(FramePair, OfTheSameStatesNamesTheLookAndWhereItLies) {
@@ -156,6 +185,21 @@ TEST_F(FramePair, OfTheSameLookNamesTheRenderersSource) {
   EXPECT_EQ(cause.headline,
             "the renderer changed: the same states and look; renderer/passes/surface_pass.cpp changed");
   EXPECT_EQ(cause.changes[0].part, "shader");
+}
+
+// The mesh that is drawn and its picture are in no record: it said "the renderer changed" of them.
+TEST_F(FramePair, OfAnEditedSceneIsTheEditBeforeTheRenderer) {
+  scene_now_ = kEditedText;
+  MotionRecord now = usual();
+  const Cause cause = compareWith(now);
+  EXPECT_EQ(cause.headline, "the same motion, another look: the scene was edited");
+  EXPECT_EQ(cause.changes[0].part, "scene");
+  now.sources[1].second = "00000000";
+  EXPECT_EQ(compareWith(now).headline,
+            "the same motion, another look: the scene was edited; renderer/passes/surface_pass.cpp changed");
+  now.bodies[2].look[0].second = "#0072b2";
+  EXPECT_EQ(compareWith(now).headline,
+            "the same motion, another look: color of crate[1] is #0072b2, was #d55e00");
 }
 
 TEST_F(FramePair, NamesCameraLightPresetSceneAndMoment) {
@@ -184,8 +228,27 @@ TEST_F(FramePair, TakesNoRecordOfAnotherRunForTheFrames) {
   const std::vector<std::uint8_t> bytes = recordBytes(now);
   folder_.file("a/states.carom", std::string(bytes.begin(), bytes.end()));
   Comparison c = compared({"f.png", folder_.path() / "a/f.png", folder_.path() / "g/f.png", true, true}, {});
-  RecordShelf shelf;
-  EXPECT_EQ(causeOfDifference(c, {}, shelf).headline, "the renderer changed: same state 000000000000004d");
+  const auto headline = [&] {
+    RecordShelf shelf;
+    return causeOfDifference(c, {}, shelf).headline;
+  };
+  const auto record = [&](const std::string& side, const MotionRecord& of) {
+    const std::vector<std::uint8_t> written = recordBytes(of);
+    folder_.file(side + "/states.carom", std::string(written.begin(), written.end()));
+  };
+  const std::string by_text = "the renderer changed: same state 000000000000004d";
+  EXPECT_EQ(headline(), by_text);
+  record("a", usual());
+  record("g", now);
+  EXPECT_EQ(headline(), by_text) << "that of the golden frames";
+  now.shots[0].state_hash = usual().shots[0].state_hash;
+  now.shots[0].text_print = 1;
+  record("g", usual());
+  record("a", now);
+  EXPECT_EQ(headline(), by_text) << "of the same state, seen by another camera";
+  now.shots[0].text_print = 0;
+  record("a", now);
+  EXPECT_NE(headline(), by_text);
 }
 
 TEST(Cause, OfPixelsThatNobodyDrewIsTheFile) {

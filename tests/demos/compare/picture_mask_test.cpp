@@ -22,22 +22,27 @@ class Masked : public testing::Test {
     mask.apply({"f.png", folder_.path() / "a/f.png", folder_.path() / "g/f.png", true, true}, actual, golden);
     return renderer::differenceOf(actual, golden, 2).pixels_beyond;
   }
-  void writeRecord() {
+  /// A frame of that state in `side`, and beside it a record of state 1 with the crate at column `x`.
+  void writeFrame(const std::string& side, int state, int x) {
+    writePng(folder_.path() / side / "f.png", flatRaster(20, 10, 50),
+             {{"State", "000000000000000" + std::to_string(state)}});
+    writeRecord(side, x);
+  }
+  void writeRecord(const std::string& side, int x) {
     MotionRecord record;
     for (const char* name : {"floor", "crate"}) record.bodies.push_back({name, {}, {}, {}, {}});
     RecordedShot shot{"f.png", 0.0, 1, {}, {{}, {}}, 20, 10, std::vector<std::int32_t>(200, 0)};
-    shot.bodies[5 * 20 + 10] = 1;
+    shot.bodies[static_cast<std::size_t>(5 * 20 + x)] = 1;
     record.shots = {shot};
-    std::filesystem::create_directories(folder_.path() / "a");
     const std::vector<std::uint8_t> bytes = recordBytes(record);
-    folder_.file("a/states.carom", std::string(bytes.begin(), bytes.end()));
+    folder_.file(side + "/states.carom", std::string(bytes.begin(), bytes.end()));
   }
   TemporaryFolder folder_;
   RecordShelf shelf_;
 };
 
 TEST_F(Masked, RectanglesBodiesAndImagesAreNotLookedAt) {
-  writeRecord();
+  writeFrame("a", 1, 10);
   EXPECT_EQ(left({}), 200);
   EXPECT_EQ(left({"rect:2,3,4,5"}), 180);
   EXPECT_EQ(left({"rect:15,5,100,100"}), 175);
@@ -45,6 +50,18 @@ TEST_F(Masked, RectanglesBodiesAndImagesAreNotLookedAt) {
   EXPECT_EQ(left({"body:crate", "rect:0,0,1,1"}), 174);
   const auto png = writePng(folder_.path() / "mask.png", changed(flatRaster(20, 10, 0), 3, 3, 255));
   EXPECT_EQ(left({"png:" + png.string()}), 199);
+}
+
+// A run without a record leaves that of the run before: its crate hid what was new elsewhere.
+TEST_F(Masked, ABodyIsWhereTheRecordsOfTheseVeryFramesHaveIt) {
+  writeFrame("g", 1, 3);
+  writeFrame("a", 1, 16);
+  EXPECT_EQ(left({"body:crate"}), 150) << "now and then";
+  writeFrame("a", 2, 16);
+  EXPECT_EQ(left({"body:crate"}), 175) << "then alone";
+  writeFrame("g", 2, 3);
+  EXPECT_NE(thrownMessage<InputError>([&] { left({"body:crate"}); }).find("no record of f.png as it is"),
+            std::string::npos);
 }
 
 // Grey against colours, and no alpha against alpha, are compared; so masks hold there as well.
@@ -69,7 +86,7 @@ TEST_F(Masked, WhatCannotBeMaskedIsSaid) {
     EXPECT_NE(thrownMessage<UsageError>([&] { left({text}); }).find("accepted: body:NAME"), std::string::npos)
         << text;
   EXPECT_NE(thrownMessage<InputError>([&] { left({"body:crate"}); }).find("--states"), std::string::npos);
-  writeRecord();
+  writeFrame("a", 1, 10);
   EXPECT_THROW(left({"body:barrel"}), InputError);
   const auto png = writePng(folder_.path() / "mask.png", flatRaster(4, 4, 255));
   EXPECT_NE(thrownMessage<InputError>([&] { left({"png:" + png.string()}); }).find("accepted: the size"),

@@ -300,6 +300,7 @@ TEST_F(LongJob, ResumeTidiesUpAfterTheKilledButNotAfterTheLiving) {
   const std::string dead = ".0123abcd.partial";
   folder.file("frames/.f_0003.png" + dead, "half");
   folder.file("frames/.manifest.json" + dead, "half");
+  folder.file("frames/.states.carom" + dead, "half");
   folder.file("frames/.other.png" + dead, "of somebody else");
   const TemporaryFile living(folder.path() / "frames" / "f_0004.png", TemporaryFile::Ending::kPartial);
   render("frames", {"--resume"});

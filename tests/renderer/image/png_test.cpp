@@ -148,6 +148,7 @@ TEST_F(PngFile, TextSurvivesTheRoundTrip) {
   const PngText text = {
       {"Software", "carom 0.1.0"}, {"Scene", "Klötzchen auf Rampe"}, {"Empty", ""}, {"Scene", "twice"}};
   EXPECT_EQ(readPng(write(encodePng(noise(5, 4), text))).text, text);
+  EXPECT_EQ(readPngText(write(encodePng(noise(5, 4), text))), text);
 }
 
 TEST(Png, AsciiTextIsPlainAndOtherTextUnicode) {
@@ -285,6 +286,7 @@ TEST_F(PngFile, APipeADeviceAndALinkToItselfAreRefusedAtOnce) {
   EXPECT_NE(refusal("/dev/zero").find("it is a device"), std::string::npos);
   EXPECT_NE(refusal(link).find("symbolic link"), std::string::npos);
   EXPECT_EQ(pngPixels(pipe), 0);
+  EXPECT_TRUE(readPngText(pipe).empty());
   EXPECT_EQ(pngPixels(write(encodePng(noise(20, 10)))), 200);
 }
 
