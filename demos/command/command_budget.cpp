@@ -12,6 +12,7 @@
 #include "demos/budget/budget_run.h"
 #include "demos/format/content_hash.h"
 #include "demos/format/progress.h"
+#include "demos/frames/picture_settings.h"
 #include "demos/report/budget_json.h"
 #include "demos/report/budget_plot.h"
 #include "demos/report/budget_report.h"
@@ -237,10 +238,9 @@ ExitCode budget(const BudgetOptions& options) {
 
   BudgetSubject subject = subjectOf(options, scene, camera.name, frames);
   const SceneWorld made = makeSceneWorld(scene, options.choice.mesh);
-  renderer::Settings settings{.width = options.width, .height = options.height};
-  settings.backend = renderer::backendOf(options.gl);
-  settings.preset = renderer::presetOf(options.preset);
-  settings.light = chosenLight(scene.light, options.light, {}).light;
+  const renderer::Settings settings =
+      pictureSettings(chosenLight(scene.light, options.light, {}),
+                      {options.width, options.height, options.gl, renderer::presetOf(options.preset)});
   renderer::FrameRenderer pictures(settings, made.drawnSolids());
   subject.renderer = pictures.info().renderer + ", " + pictures.info().version;
   // Work is the same on every machine; times are not.

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <iostream>
+#include <string>
+
+#include <unistd.h>
 
 #include "demos/asset/asset_path.h"
+#include "demos/format/content_hash.h"
 #include "demos/format/formatted.h"
 #include "demos/format/printable.h"
 #include "demos/format/progress.h"
+#include "demos/frames/folder_claim.h"
 #include "demos/gallery/gallery_index.h"
 #include "demos/gallery/gallery_run.h"
 #include "demos/gallery/gallery_scene.h"
@@ -53,6 +58,8 @@ ExitCode gallery(const GalleryOptions& options) {
   GalleryPlan plan{options.scenes, shape, options.jobs > 0 ? options.jobs : processors()};
   if (plan.scenes.empty())
     for (const std::filesystem::path& scene : shippedScenes()) plan.scenes.push_back(scene.stem().string());
+  // Two at a time would each remove what the other makes.
+  const FolderClaim claim({options.output, "gallery", ContentHash().add(std::to_string(::getpid())).value()});
   GalleryOutcome outcome;
   {
     const ProgressStyle style = progressStyle(options.telling.progress, options.telling.quiet);

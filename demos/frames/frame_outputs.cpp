@@ -30,6 +30,13 @@ std::uint16_t normalSample(float component) {
   return static_cast<std::uint16_t>(shifted);
 }
 
+/// From its origin, also of what is drawn in the solid's place.
+double reachOf(const Solid& solid) {
+  double reach_m = solid.radius();
+  for (const Vec3& p_B : solid.surface().mesh.vertices) reach_m = std::max(reach_m, p_B.norm());
+  return reach_m;
+}
+
 }  // namespace
 
 const std::string& nameOf(FrameOutput output) {
@@ -58,7 +65,7 @@ OutputScale outputScale(std::span<const renderer::Instance> start, std::span<con
   for (const renderer::Instance& instance : start) {
     if (instance.checker) continue;
     const double depth_m = (instance.X_WB.position - camera.eye).dot(axes.forward);
-    reach_m = std::max(reach_m, depth_m + solids[static_cast<std::size_t>(instance.solid)].radius());
+    reach_m = std::max(reach_m, depth_m + reachOf(solids[static_cast<std::size_t>(instance.solid)]));
   }
   double decade = 1e-6;
   for (; decade < 1e12; decade *= 10.0)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "demos/format/content_hash.h"
+#include "demos/frames/picture_settings.h"
 #include "demos/motion/frame_source.h"
 #include "demos/page/player_page.h"
 #include "demos/scene/drawn_water.h"
@@ -71,11 +72,9 @@ GalleryEntry makeGalleryScene(const SceneChoice& choice, const GalleryShape& sha
       scene, made,
       {.fps = fps, .frames = frames, .recorded = false, .command = command, .index = "../index.html"});
 
-  const renderer::Settings settings{.width = shape.width,
-                                    .height = shape.height,
-                                    .backend = renderer::backendOf(shape.gl),
-                                    .gl_threads = 1};
-  renderer::FrameRenderer pictures(settings, made.world.solids());
+  renderer::Settings settings = pictureSettings(scene.light, {shape.width, shape.height, shape.gl});
+  settings.gl_threads = 1;
+  renderer::FrameRenderer pictures(settings, made.drawnSolids());
   const CameraPath camera(chosenCamera(scene, "").camera, made,
                           static_cast<double>(shape.width) / shape.height);
   const std::vector<int> drawn = drawnFrames(shape, fps, frames);

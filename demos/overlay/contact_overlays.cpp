@@ -88,7 +88,7 @@ void paintImpulses(OverlayPainter& painter, const OverlayFrame& frame, const Pen
   for (const ShownImpulse& shown : shownImpulses(frame)) {
     const renderer::Color& color = shown.is_collision ? overlay_color::kRed : overlay_color::kOrange;
     const double width_px = (shown.is_collision ? 1.3 : 1.0) * pen.thick_px();
-    painter.setLift(2.0 * frame.solid(shown.body).radius());  // it stands inside the body that it pushes
+    painter.setLift(2.0 * frame.drawnRadius(shown.body));  // it stands inside the body that it pushes
     painter.arrow(shown.p_W, shown.p_W + shown.length_m * shown.impulse_W.normalized(),
                   {{color}, width_px, 0.0, 0.6});
     painter.setLift(0.0);
@@ -164,7 +164,7 @@ void paintSupports(OverlayPainter& painter, const OverlayFrame& frame, const Pen
         shownSupport(frame, body, frame.scene.world.settings().gravity);
     if (!support) continue;
     const renderer::Color color = support->holds ? overlay_color::kGreen : overlay_color::kRed;
-    painter.setLift(2.0 * frame.solid(body).radius());  // the body stands on it
+    painter.setLift(2.0 * frame.drawnRadius(body));  // the body stands on it
     if (support->corners_W.size() > 2) painter.area(support->corners_W, {color, 0.35});
     if (support->corners_W.size() > 1)
       painter.line(support->corners_W, {{color}, pen.thick_px(), 0.0, 0.5}, support->corners_W.size() > 2);

@@ -66,7 +66,7 @@ void paintVelocities(OverlayPainter& painter, const OverlayFrame& frame, const P
   for (int body = 0; body < static_cast<int>(frame.bodies.size()); ++body) {
     if (frame.isStatic(body) || !frame.focus.has(body)) continue;
     const BodyState& state = frame.state(body);
-    const double radius = frame.solid(body).radius();
+    const double radius = frame.drawnRadius(body);
     painter.setLift(2.0 * radius);
     if (state.angular_velocity.norm() > kShownSpin_radps)
       paintVector(painter, state.X_WB.position, kSpinTime_s * radius * state.angular_velocity,
@@ -82,7 +82,7 @@ void paintTrails(OverlayPainter& painter, const OverlayFrame& frame, const Pen& 
   for (int body = 0; body < static_cast<int>(frame.trails.size()); ++body) {
     const std::vector<Vec3>& trail = frame.trails[static_cast<std::size_t>(body)];
     if (frame.isStatic(body) || !frame.focus.has(body) || trail.size() < 2) continue;
-    painter.setLift(2.0 * frame.solid(body).radius());
+    painter.setLift(2.0 * frame.drawnRadius(body));
     for (std::size_t shade = 0; shade < kTrailShades; ++shade) {
       const std::size_t begin = (trail.size() - 1) * shade / kTrailShades;
       const std::size_t end = (trail.size() - 1) * (shade + 1) / kTrailShades;
@@ -103,7 +103,7 @@ void paintLabels(OverlayPainter& painter, const OverlayFrame& frame, const Pen& 
   const auto ahead = [&](int body) { return painter.axes().forward.dot(frame.state(body).X_WB.position); };
   std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return ahead(x) < ahead(y); });
   for (int body : order) {
-    painter.setLift(frame.solid(body).radius());
+    painter.setLift(frame.drawnRadius(body));
     painter.label(frame.state(body).X_WB.position, frame.scene.names[static_cast<std::size_t>(body)],
                   {pen.text_px, {overlay_color::kBlack}, renderer::Align::kLeft, false, 0.9});
     painter.setLift(0.0);

@@ -29,6 +29,8 @@ struct OverlayFrame {
     const BodyDescription& description = scene.world.bodies()[static_cast<std::size_t>(body)];
     return scene.world.solids()[static_cast<std::size_t>(description.solid)];
   }
+  /// How far the body reaches as it is drawn, metres: lines within it are lifted over its surface by that.
+  double drawnRadius(int body) const { return scene.drawnRadius(static_cast<std::size_t>(body)); }
   const BodyState& state(int body) const { return bodies[static_cast<std::size_t>(body)]; }
   bool isStatic(int body) const { return scene.world.bodies()[static_cast<std::size_t>(body)].is_static; }
   /// The smaller of two bodies' radii, metres: a scale for what is drawn at their contact.

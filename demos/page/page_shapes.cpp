@@ -19,6 +19,8 @@ constexpr double kGrid = 65535.0;
 constexpr double kNormalGrid = 1023.0;  // Normals are at most 0.1 degree off.
 constexpr double kLevelTop = 0.9999;    // Cosine between a ground's own axis and the vertical.
 
+constexpr double kPlaceGrid = 65536.0;  // On a picture's side.
+
 double bevelCap(std::span<const Solid> solids) {
   std::vector<double> widths;
   for (const Solid& solid : solids) widths.push_back(renderer::thinnestPart(solid));
@@ -27,18 +29,21 @@ double bevelCap(std::span<const Solid> solids) {
   return kBevelCapFraction * *middle;
 }
 
-/// As fine as the triangles of all bodies allow.
-std::vector<renderer::TriangleMesh> meshesOf(const World& world) {
-  std::vector<renderer::TriangleMesh> meshes;
-  const double cap = bevelCap(world.solids());
+/// Of each of the solids that are drawn, as fine as the triangles of all bodies allow.
+std::map<int, renderer::TriangleMesh> meshesOf(const SceneWorld& scene, std::span<const int> of_bodies) {
+  std::map<int, renderer::TriangleMesh> meshes;
+  const double cap = bevelCap(scene.drawnSolids());
   for (const int segments : kSegments) {
     meshes.clear();
-    for (const Solid& solid : world.solids())
-      meshes.push_back(renderer::buildMesh(
-          solid, {renderer::Edges::kBevelled, renderer::bevelWidth(solid, cap), segments}));
     double triangles = 0.0;
-    for (const BodyDescription& body : world.bodies())
-      triangles += static_cast<double>(meshes[static_cast<std::size_t>(body.solid)].indices.size()) / 3.0;
+    for (const int number : of_bodies) {
+      const auto [mesh, is_new] = meshes.try_emplace(number);
+      const Solid& solid = scene.drawnSolids()[static_cast<std::size_t>(number)];
+      if (is_new)
+        mesh->second = renderer::buildMesh(
+            solid, {renderer::Edges::kBevelled, renderer::bevelWidth(solid, cap), segments});
+      triangles += static_cast<double>(mesh->second.indices.size()) / 3.0;
+    }
     if (triangles <= kMostTriangles) break;
   }
   return meshes;
@@ -65,29 +70,44 @@ void addDifferences(ByteStream& out, std::span<const std::int64_t> column) {
   }
 }
 
-WrittenMesh written(const renderer::TriangleMesh& mesh, const PlacedMesh& placed) {
+bool isTinted(const renderer::MeshVertex& v) {
+  return v.tint[0] != 255 || v.tint[1] != 255 || v.tint[2] != 255;
+}
+
+/// `layers`: of the solid's pictures.
+void addPlaces(const renderer::TriangleMesh& mesh, std::span<const int> layers, WrittenMesh& out) {
+  for (const renderer::MeshVertex& v : mesh.vertices) {
+    const int layer = v.picture[2] < 0.0f ? -1 : layers[static_cast<std::size_t>(v.picture[2])];
+    for (std::size_t i = 0; i < 2; ++i)
+      out.places[i].push_back(layer < 0 ? 0 : std::llround(kPlaceGrid * static_cast<double>(v.picture[i])));
+    out.places[2].push_back(layer);
+  }
+}
+
+WrittenMesh written(const renderer::TriangleMesh& mesh, const PlacedMesh& placed,
+                    std::span<const int> layers) {
   WrittenMesh out;
-  out.has_colors = std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [](const renderer::MeshVertex& v) {
-    return v.tint[0] != 255 || v.tint[1] != 255 || v.tint[2] != 255;
-  });
   const Vec3 size = (placed.high - placed.low).cwiseMax(1e-300);
   for (const renderer::MeshVertex& v : mesh.vertices) {
     const Vec3 p = kGrid * (vectorOf(v.position) - placed.low).cwiseQuotient(size);
     const Vec2 n = kNormalGrid * folded(vectorOf(v.normal));
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
       out.columns[i].push_back(std::llround(p[static_cast<Eigen::Index>(i)]));
-      out.columns[5 + i].push_back(v.tint[i]);
-    }
     out.columns[3].push_back(std::llround(n.x()));
     out.columns[4].push_back(std::llround(n.y()));
   }
+  if (std::any_of(mesh.vertices.begin(), mesh.vertices.end(), isTinted))
+    for (const renderer::MeshVertex& v : mesh.vertices)
+      for (std::size_t i = 0; i < 3; ++i) out.colors[i].push_back(v.tint[i]);
+  if (std::any_of(layers.begin(), layers.end(), [](int layer) { return layer >= 0; }))
+    addPlaces(mesh, layers, out);
   out.corners.assign(mesh.indices.begin(), mesh.indices.end());
   return out;
 }
 
 /// But for a step of rounding: single precision does not scale exactly.
 bool areAlike(const WrittenMesh& a, const WrittenMesh& b) {
-  if (a.corners != b.corners || a.has_colors != b.has_colors) return false;
+  if (a.corners != b.corners || a.colors != b.colors || a.places != b.places) return false;
   for (std::size_t c = 0; c < a.columns.size(); ++c) {
     if (a.columns[c].size() != b.columns[c].size()) return false;
     for (std::size_t i = 0; i < a.columns[c].size(); ++i)
@@ -108,16 +128,20 @@ PlacedMesh placedMesh(const renderer::TriangleMesh& mesh) {
 
 }  // namespace
 
-PageShapes::PageShapes(const SceneWorld& scene) {
-  for (const BodyDescription& body : scene.world.bodies()) solids_.push_back(body.solid);
-  for (const renderer::TriangleMesh& mesh : meshesOf(scene.world)) {
+PageShapes::PageShapes(const SceneWorld& scene, PagePictures& pictures) {
+  for (std::size_t i = 0; i < scene.names.size(); ++i) solids_.push_back(scene.drawnSolid(i));
+  for (const auto& [solid, mesh] : meshesOf(scene, solids_)) {
+    std::vector<int> layers;
+    for (const SurfacePicture& picture :
+         scene.drawnSolids()[static_cast<std::size_t>(solid)].surface().pictures)
+      layers.push_back(pictures.add(picture));
     PlacedMesh placed = placedMesh(mesh);
-    WrittenMesh numbers = written(mesh, placed);
+    WrittenMesh numbers = written(mesh, placed, layers);
     const auto same = std::find_if(meshes_.begin(), meshes_.end(),
-                                   [&](const WrittenMesh& known) { return areAlike(known, numbers); });
+                                   [&numbers](const WrittenMesh& known) { return areAlike(known, numbers); });
     placed.mesh = static_cast<int>(same - meshes_.begin());
     if (same == meshes_.end()) meshes_.push_back(std::move(numbers));
-    placed_.push_back(placed);
+    placed_.emplace(solid, placed);
   }
 }
 
@@ -126,8 +150,11 @@ void PageShapes::write(ByteStream& out) const {
   for (const WrittenMesh& mesh : meshes_) {
     out.add(static_cast<std::int64_t>(mesh.columns[0].size()));
     out.add(static_cast<std::int64_t>(mesh.corners.size() / 3));
-    out.add(mesh.has_colors ? 1 : 0);
-    for (std::size_t c = 0; c < (mesh.has_colors ? 8 : 5); ++c) addDifferences(out, mesh.columns[c]);
+    out.add(mesh.colors[0].empty() ? 0 : 1);
+    out.add(mesh.places[0].empty() ? 0 : 1);
+    for (const std::vector<std::int64_t>& column : mesh.columns) addDifferences(out, column);
+    for (const std::vector<std::int64_t>& column : mesh.colors) addDifferences(out, column);
+    for (const std::vector<std::int64_t>& column : mesh.places) addDifferences(out, column);
     addDifferences(out, mesh.corners);
   }
 }
@@ -136,8 +163,8 @@ std::optional<PageGround> pageGround(const SceneWorld& scene) {
   std::optional<PageGround> ground;
   for (std::size_t i = 0; i < scene.looks.size(); ++i) {
     const BodyDescription& body = scene.world.bodies()[i];
-    const Solid& solid = scene.world.solids()[static_cast<std::size_t>(body.solid)];
-    if (!scene.looks[i].checker || !body.is_static || solid.parts().front().core.faceCount() == 0) continue;
+    const Solid& solid = scene.drawn(i);
+    if (!scene.looks[i].checker || !body.is_static || renderer::hasRoundPart(solid)) continue;
     const Pose& X_WB = scene.world.states()[i].X_WB;
     const Vec3 up_B = X_WB.rotation.conjugate() * Vec3::UnitZ();
     if (up_B.cwiseAbs().maxCoeff() < kLevelTop) continue;

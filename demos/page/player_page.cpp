@@ -138,10 +138,9 @@ Json looksJson(std::span<const SurfaceLook> looks) {
 }
 
 /// Of the coordinates in which the surface is drawn (renderer/glsl/surface.glsl).
-Json finishJson(const renderer::Surface& surface, const Solid& solid) {
-  const renderer::SurfaceFrame frame = renderer::surfaceFrame(surface, renderer::solidExtent(solid).half);
-  const bool is_ball = solid.parts().size() == 1 && solid.parts().front().core.vertexCount() == 1;
-  return Json::array({1.0 / surface.scale_m, frame.axis, frame.number, is_ball ? 1 : 0});
+Json finishJson(const renderer::Surface& surface, const Solid& drawn) {
+  const renderer::SurfaceFrame frame = renderer::surfaceFrame(surface, renderer::solidExtent(drawn).half);
+  return Json::array({1.0 / surface.scale_m, frame.axis, frame.number, renderer::isBall(drawn) ? 1 : 0});
 }
 
 /// A line a frame; one line where all are the same.
@@ -176,7 +175,7 @@ PlayerPage::PlayerPage(const Scene& scene, SceneWorld& made, PageChoice choice)
       made_(made),
       choice_(std::move(choice)),
       quanta_(pageQuanta(made.world)),
-      shapes_(made),
+      shapes_(made, pictures_),
       ground_(pageGround(made)),
       motion_(made.world, quanta_),
       contacts_(made, {quanta_.contact_m, choice_.recorded, choice_.frames}),
@@ -229,18 +228,19 @@ Json PlayerPage::bodiesJson() const {
   for (std::size_t i = 0; i < made_.names.size(); ++i) {
     const BodyDescription& description = made_.world.bodies()[i];
     const Solid& solid = made_.world.solids()[static_cast<std::size_t>(description.solid)];
+    const Solid& drawn = made_.drawn(i);
     const SurfaceLook& look = made_.looks[i];
     const PlacedMesh& mesh = shapes_.of(i);
     Json body = Json::object({{"name", made_.names[i]},
                               {"mesh", mesh.mesh},
                               {"low", numbers(mesh.low)},
                               {"high", numbers(mesh.high)},
-                              {"radius", solid.radius()},
+                              {"radius", made_.drawnRadius(i)},
                               {"color", hexColor(look.color)}});
     if (look.checker) body.set("checker", true);
     body.set("look", lookName(look));
-    body.set("finish", finishJson(made_.surfaces[i], solid));
-    if (solid.parts().size() == 1) body.set("boxy", true);
+    body.set("finish", finishJson(made_.surfaces[i], drawn));
+    if (!made_.looksOtherwise(i) && solid.parts().size() == 1) body.set("boxy", true);
     if (!look.material.empty()) body.set("material", look.material);
     if (description.is_static) body.set("static", true);
     if (description.is_kinematic) body.set("kinematic", true);
@@ -302,20 +302,22 @@ std::string PlayerPage::html() const {
   ByteStream data;
   data.addText(factsJson().text());
   shapes_.write(data);
+  pictures_.write(data);
   motion_.write(data);
   writeCameras(data);
   contacts_.write(data);
   const std::vector<WebSource>& web = playerSources();
-  return withParts(textOf(web, "player.html"),
-                   {{"<!--DESCRIPTION-->", markupText(scene_.description)},
-                    {"<!--TITLE-->", markupText(scene_.name)},
-                    {"/*STYLE*/", std::string(textOf(web, "player.css"))},
-                    {"<!--SHADERS-->", shaderElements()},
-                    {"<!--DATA-->", packedBase64(data.bytes())},
-                    {"/*SCRIPT*/", bundledScript(web, {"geometry.js", "stream.js", "contacts.js",
-                                                       "recording.js", "program.js", "offscreen.js",
-                                                       "sunlight.js", "water.js", "graphics.js", "view.js",
-                                                       "link.js", "overlays.js", "facts.js", "player.js"})}});
+  return withParts(
+      textOf(web, "player.html"),
+      {{"<!--DESCRIPTION-->", markupText(scene_.description)},
+       {"<!--TITLE-->", markupText(scene_.name)},
+       {"/*STYLE*/", std::string(textOf(web, "player.css"))},
+       {"<!--SHADERS-->", shaderElements()},
+       {"<!--DATA-->", packedBase64(data.bytes())},
+       {"/*SCRIPT*/",
+        bundledScript(web, {"geometry.js", "stream.js", "pictures.js", "contacts.js", "recording.js",
+                            "program.js", "offscreen.js", "sunlight.js", "water.js", "graphics.js", "view.js",
+                            "link.js", "overlays.js", "facts.js", "player.js"})}});
 }
 
 }  // namespace carom::demos

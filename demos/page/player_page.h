@@ -13,6 +13,7 @@
 #include "demos/language/scene_choice.h"
 #include "demos/page/page_contacts.h"
 #include "demos/page/page_motion.h"
+#include "demos/page/page_pictures.h"
 #include "demos/page/page_shapes.h"
 #include "demos/scene/camera_path.h"
 #include "demos/scene/scene.h"
@@ -59,6 +60,7 @@ class PlayerPage {
   SceneWorld& made_;
   PageChoice choice_;
   PageQuanta quanta_;
+  PagePictures pictures_;
   PageShapes shapes_;
   std::optional<PageGround> ground_;
   PageMotion motion_;

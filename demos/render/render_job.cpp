@@ -22,6 +22,7 @@
 #include "demos/frames/frame_stream.h"
 #include "demos/frames/frame_writer.h"
 #include "demos/frames/manifest.h"
+#include "demos/frames/picture_settings.h"
 #include "demos/motion/frame_clock.h"
 #include "demos/motion/frame_source.h"
 #include "demos/overlay/overlays.h"
@@ -343,13 +344,11 @@ ExitCode render(const RenderOptions& options) {
   const OutputScale scale = outputScale(drawnInstances(made, made.world.states()), made.drawnSolids(),
                                         camera.at(0.0, made.world.states()));
   if (!plan.outputs.empty()) manifest.outputs = outputsJson(plan.outputs, scale, made.names);
-  renderer::Settings settings{.width = options.width, .height = options.height};
-  settings.preset = plan.preset;
+  renderer::Settings settings =
+      pictureSettings(plan.light, {options.width, options.height, options.gl, plan.preset});
   settings.style = plan.style;
-  settings.light = plan.light.light;
   settings.cutout = plan.cutout;
   if (options.portable) settings.pixels = renderer::PixelPolicy::kPortable;
-  settings.backend = renderer::backendOf(options.gl);
   const int workers_wanted = workersOf(options, plan, overlays);
   std::optional<FolderClaim> claim;
   if (names) claim.emplace(folderClaim(options, manifest, *names));

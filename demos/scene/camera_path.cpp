@@ -22,16 +22,6 @@ double radians(double degrees) {
   return degrees * pi / 180.0;
 }
 
-std::vector<Vec3> cornersOf(const Solid& solid, const Pose& X_WB) {
-  const renderer::Extent extent = renderer::solidExtent(solid);
-  std::vector<Vec3> corners;
-  for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
-      for (const double z : {-1.0, 1.0})
-        corners.push_back(X_WB * Vec3(extent.center + extent.half.cwiseProduct(Vec3(x, y, z))));
-  return corners;
-}
-
 double highest(const std::vector<Vec3>& points) {
   double z = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) z = std::max(z, p.z());
@@ -97,8 +87,8 @@ std::vector<Vec3> fittedPoints(const SceneWorld& start) {
   double ground_z = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < start.names.size(); ++i) {
     const BodyDescription& body = start.world.bodies()[i];
-    const std::vector<Vec3> corners =
-        cornersOf(start.world.solids()[static_cast<std::size_t>(body.solid)], start.world.states()[i].X_WB);
+    std::vector<Vec3> corners;
+    renderer::addCorners(renderer::solidExtent(start.drawn(i)), start.world.states()[i].X_WB, corners);
     if (body.is_static && start.looks[i].checker) {
       ground_z = std::min(ground_z, highest(corners));
       continue;
@@ -114,9 +104,8 @@ std::vector<Vec3> fittedPoints(const SceneWorld& start) {
 CameraPath::CameraPath(const SceneCamera& camera, const SceneWorld& start, double aspect) : camera_(camera) {
   if (auto* follow = std::get_if<FollowBody>(&camera_.motion)) {
     body_ = bodyNamed(follow->body, start.names);
-    const auto solid = static_cast<std::size_t>(start.world.bodies()[body_].solid);
     if (!follow->offset_m)
-      follow->offset_m = kRadiiAway * start.world.solids()[solid].radius() * FitView().direction.normalized();
+      follow->offset_m = kRadiiAway * start.drawnRadius(body_) * FitView().direction.normalized();
   } else if (const auto* dolly = std::get_if<Dolly>(&camera_.motion)) {
     if (dolly->body) body_ = bodyNamed(*dolly->body, start.names);
     curve_.emplace(dolly->points);

@@ -14,16 +14,6 @@ constexpr int kMostMoments = 96;
 constexpr int kFewestMoments = 8;
 constexpr int kMostBoxes = 100000;  // of all moments: 19 MB of corners
 
-void addCorners(const World& world, std::size_t body, std::vector<Vec3>& points) {
-  const Pose& X_WB = world.states()[body].X_WB;
-  const auto solid = static_cast<std::size_t>(world.bodies()[body].solid);
-  const renderer::Extent extent = renderer::solidExtent(world.solids()[solid]);
-  for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
-      for (const double z : {-1.0, 1.0})
-        points.push_back(X_WB * Vec3(extent.center + extent.half.cwiseProduct(Vec3(x, y, z))));
-}
-
 }  // namespace
 
 std::vector<Vec3> pointsOfTheRun(const Scene& scene, const std::optional<std::filesystem::path>& mesh,
@@ -31,8 +21,12 @@ std::vector<Vec3> pointsOfTheRun(const Scene& scene, const std::optional<std::fi
   SceneWorld made = makeSceneWorld(scene, mesh, threads);
   const World& world = made.world;
   std::vector<std::size_t> moving;
-  for (std::size_t i = 0; i < world.bodies().size(); ++i)
-    if (!world.bodies()[i].is_static) moving.push_back(i);
+  std::vector<renderer::Extent> extents;
+  for (std::size_t i = 0; i < world.bodies().size(); ++i) {
+    if (world.bodies()[i].is_static) continue;
+    moving.push_back(i);
+    extents.push_back(renderer::solidExtent(made.drawn(i)));
+  }
   const int steps = static_cast<int>(std::lround(scene.written_duration_s * scene.rate_hz));
   const int affordable = kMostBoxes / std::max(1, static_cast<int>(moving.size()));
   const int moments = std::clamp(std::min(affordable, steps), kFewestMoments, kMostMoments);
@@ -41,7 +35,8 @@ std::vector<Vec3> pointsOfTheRun(const Scene& scene, const std::optional<std::fi
   for (int step = 0; step <= steps; ++step) {
     // Moment k is at step round(k steps / moments), in whole numbers.
     if (static_cast<long long>(step) * moments >= static_cast<long long>(next) * steps) {
-      for (const std::size_t body : moving) addCorners(world, body, points);
+      for (std::size_t i = 0; i < moving.size(); ++i)
+        renderer::addCorners(extents[i], world.states()[moving[i]].X_WB, points);
       ++next;
     }
     if (step == steps) break;

@@ -252,6 +252,14 @@ void addMeshFiles(ContentHash& hash, const Shape& shape, const Mesh& mesh) {
 
 }  // namespace
 
+double SceneWorld::drawnRadius(std::size_t body) const {
+  const Solid& solid = drawn(body);
+  if (!looksOtherwise(body)) return solid.radius();
+  double radius = 0.0;
+  for (const Vec3& p_B : solid.surface().mesh.vertices) radius = std::max(radius, p_B.norm());
+  return radius;
+}
+
 SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   if (mesh) requireReplaceableHull(scene);
   WorldSettings settings;
@@ -263,12 +271,9 @@ SceneWorld makeSceneWorld(const Scene& scene, const Mesh& mesh, int threads) {
   SceneWorld made{World(settings), {}, {}, {}, {}};
   SceneMeshes meshes;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) addBodies(made, scene, i, mesh, meshes);
-  for (std::size_t i = 0; i < made.names.size(); ++i) {
-    const int solid = made.world.bodies()[i].solid;
-    made.surfaces.push_back(
-        surfaceOf(made.looks[i], made.world.solids()[static_cast<std::size_t>(solid)], made.names[i]));
-  }
   numberLooks(made);
+  for (std::size_t i = 0; i < made.names.size(); ++i)
+    made.surfaces.push_back(surfaceOf(made.looks[i], made.drawn(i), made.names[i]));
   requireFewParts(made, scene);
   const std::vector<Overlap> overlaps = startedWith(made, scene);
   if (!overlaps.empty()) refuseOverlaps(made, scene, overlaps);

@@ -39,6 +39,13 @@ struct SceneWorld {
   int drawnSolid(std::size_t body) const {
     return drawn_as.empty() ? world.bodies()[body].solid : drawn_as[body];
   }
+  /// The body's solid as it is drawn: for all that is shown, framed or measured on pictures.
+  const Solid& drawn(std::size_t body) const {
+    return drawnSolids()[static_cast<std::size_t>(drawnSolid(body))];
+  }
+  bool looksOtherwise(std::size_t body) const { return drawnSolid(body) != world.bodies()[body].solid; }
+  /// The largest distance of any point of it from the body's centre of mass, metres.
+  double drawnRadius(std::size_t body) const;
 };
 
 /// A scene whose bodies overlap, or that touch and have no room to part.

@@ -24,15 +24,11 @@ constexpr std::array<Level, kDetailLevels> kLevels = {
 constexpr double kBevelCapFraction =
     0.05;  // Of the typical solid's width: large grounds get no wider bevels.
 
-bool hasRoundPart(const Solid& solid) {
-  return std::any_of(solid.parts().begin(), solid.parts().end(),
-                     [](const ConvexPart& part) { return part.core.faceCount() == 0; });
-}
-
 // Whether some part has triangles by `segments`.
 bool hasRounding(const Solid& solid) {
-  return std::any_of(solid.parts().begin(), solid.parts().end(),
-                     [](const ConvexPart& part) { return part.radius_m > 0.0; });
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i) && solid.parts()[i].radius_m > 0.0) return true;
+  return false;
 }
 
 // A twentieth of the median of the solids' narrowest parts.
@@ -71,7 +67,7 @@ SolidGeometry addSolid(Pool& pool, const Solid& solid, double bevel_cap_m) {
   SolidGeometry geometry;
   geometry.extent = solidExtent(solid);
   geometry.is_round = hasRoundPart(solid);
-  geometry.is_ball = solid.parts().size() == 1 && solid.parts().front().core.vertexCount() == 1;
+  geometry.is_ball = isBall(solid);
   geometry.boxes = occludingBoxes(solid);
   geometry.flat_parts = pool.add(buildFlatMesh(solid));
   const double bevel = bevelWidth(solid, bevel_cap_m);

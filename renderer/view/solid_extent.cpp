@@ -62,6 +62,23 @@ Extent solidExtent(const Solid& solid) {
   return {0.5 * (corners.low + corners.high), 0.5 * (corners.high - corners.low)};
 }
 
+void addCorners(const Extent& extent, const Pose& X_WB, std::vector<Vec3>& corners_W) {
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0})
+        corners_W.push_back(X_WB * Vec3(extent.center + extent.half.cwiseProduct(Vec3(x, y, z))));
+}
+
+bool isBall(const Solid& solid) {
+  return solid.parts().size() == 1 && !solid.isPiece(0) && solid.parts().front().core.vertexCount() == 1;
+}
+
+bool hasRoundPart(const Solid& solid) {
+  for (std::size_t i = 0; i < solid.parts().size(); ++i)
+    if (!solid.isPiece(i) && solid.parts()[i].core.faceCount() == 0) return true;
+  return false;
+}
+
 RoundedBox roundedBox(const ConvexPart& part) {
   if (part.core.faceCount() == 0) return boxOfSegment(part);
   Corners corners;

@@ -15,6 +15,12 @@ struct Extent {
   Vec3 half = Vec3::Zero();
 };
 Extent solidExtent(const Solid& solid);
+/// Appends the box's eight corners, placed by the pose.
+void addCorners(const Extent& extent, const Pose& X_WB, std::vector<Vec3>& corners_W);
+
+/// Whether it is drawn as one ball; whether a ball or capsule is drawn among its parts.
+bool isBall(const Solid& solid);
+bool hasRoundPart(const Solid& solid);
 
 /// A box with half sizes `half`, grown by `radius`, in a frame R of its own.
 struct RoundedBox {

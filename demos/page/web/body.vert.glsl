@@ -1,5 +1,5 @@
 // Bodies, as the renderer's body_vertex.glsl from a page's packed numbers. SHADOW (depths seen from the sun), OUTLINE (a
-// little thicker), SURFACE and GLASS as there.
+// little thicker), PICTURES, SURFACE and GLASS as there.
 layout(location = 0) in vec4 corner;      // 0 to 1 over the mesh's box
 layout(location = 1) in vec2 folded;      // the normal on the unfolded octahedron
 layout(location = 2) in vec4 tint;
@@ -10,6 +10,10 @@ layout(location = 6) in vec4 rotation;
 layout(location = 7) in vec4 color;       // of each body, linear; w: negative for a checker, else how near the ground darkens it
 layout(location = 8) in float number;
 layout(location = 9) in vec4 finish;      // 1 / scale, the axis of the body that is z, its number in [0, 1); w: a ball
+#ifdef PICTURES
+layout(location = 10) in vec3 picture;
+out vec3 on_picture;
+#endif
 out vec3 p_E;
 out vec3 n_E;
 flat out vec3 bend;  // Bevels are in the mesh.
@@ -43,6 +47,9 @@ void main() {
   nearness = 0.0;
   albedo = vec4(color.rgb * tint.rgb, color.w);
   body = number;
+#ifdef PICTURES
+  on_picture = picture;
+#endif
 #ifdef SURFACE
   p_S = finish.x * alongLongest(p_B);
   n_S = alongLongest(n_B);

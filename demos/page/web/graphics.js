@@ -3,6 +3,7 @@
 
 import { channels, dot, linearLight, sub } from "./geometry.js";
 import { Offscreen } from "./offscreen.js";
+import { uploadPictures } from "./pictures.js";
 import { linked } from "./program.js";
 import { checkerSquare, fitShadow, nearDepth } from "./sunlight.js";
 import { Water } from "./water.js";
@@ -24,6 +25,7 @@ export class Graphics {
     this.makePrograms();
     this.makeBuffers();
     this.makeShadowMap();
+    if (recording.pictures) uploadPictures(gl, recording.pictures);
     if (this.isFinished) return;
     this.offscreen = new Offscreen(gl);
     this.water = new Water(gl, water, this.light.lines);
@@ -48,16 +50,18 @@ export class Graphics {
     this.nothing = gl.createVertexArray();
   }
 
-  /** The program of bodies of that look, and that of their shadows. */
-  programsOf(look) {
-    if (!this.looks.has(look)) {
-      const lines = this.lines + (this.recording.facts.looks[look] ?? ""), { gl, programs } = this;
-      this.looks.set(look, look === GLASS
+  /** The program of bodies of that look, of a mesh with places on pictures or without, and that of their shadows. */
+  programsOf(look, pictured) {
+    const name = pictured ? look + " with pictures" : look;
+    if (!this.looks.has(name)) {
+      const lines = this.lines + (pictured ? "#define PICTURES\n" : "") + (this.recording.facts.looks[look] ?? "");
+      const { gl, programs } = this;
+      this.looks.set(name, look === GLASS
         ? { body: linked(gl, "body.vert", "glass_fragment", { lines: "#define GLASS\n" + lines }),
             shadow: linked(gl, "body.vert", "shadow_fragment", { lines: "#define SHADOW\n#define GLASS\n", shades: false }) }
         : { body: linked(gl, "body.vert", "body_fragment", { lines }), shadow: programs.shadow });
     }
-    return this.looks.get(look);
+    return this.looks.get(name);
   }
 
   /** Bodies in the order of their meshes and looks: one draw call for all that have the same. */
@@ -112,13 +116,13 @@ export class Graphics {
 
   meshGroup(number, first, count) {
     const { gl } = this, { mesh, buffers } = this.meshBuffers(number), array = this.vertexArray(first);
-    buffers.vertices.forEach(([buffer, size, kind], location) => {
+    buffers.vertices.forEach(([location, buffer, size, kind]) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(location);
       gl.vertexAttribPointer(location, size, kind, true, 0, 0);
     });
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.corners);
-    const programs = this.programsOf(this.drawn[first].look);
+    const programs = this.programsOf(this.drawn[first].look, mesh.places !== null);
     return { array, first, count, programs, indices: mesh.indices.length, kind: buffers.kind };
   }
 
@@ -136,9 +140,10 @@ export class Graphics {
       gl.bindVertexArray(null);
       const small = mesh.vertices < 65536;
       this.buffers.set(number, {
-        vertices: [[filled(gl.ARRAY_BUFFER, mesh.positions), 4, gl.UNSIGNED_SHORT],
-                   [filled(gl.ARRAY_BUFFER, mesh.normals), 2, gl.SHORT],
-                   [filled(gl.ARRAY_BUFFER, mesh.tints), 4, gl.UNSIGNED_BYTE]],
+        vertices: [[0, filled(gl.ARRAY_BUFFER, mesh.positions), 4, gl.UNSIGNED_SHORT],
+                   [1, filled(gl.ARRAY_BUFFER, mesh.normals), 2, gl.SHORT],
+                   [2, filled(gl.ARRAY_BUFFER, mesh.tints), 4, gl.UNSIGNED_BYTE],
+                   ...(mesh.places ? [[10, filled(gl.ARRAY_BUFFER, mesh.places), 3, gl.FLOAT]] : [])],
         corners: filled(gl.ELEMENT_ARRAY_BUFFER, small ? new Uint16Array(mesh.indices) : mesh.indices),
         kind: small ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT,
       });

@@ -21,7 +21,8 @@ export function linked(gl, vertex, fragment, { lines = "", shades = true } = {})
   const block = gl.getUniformBlockIndex(program, "Frame");
   if (block !== gl.INVALID_INDEX) gl.uniformBlockBinding(program, block, 0);
   gl.useProgram(program);
-  for (const [name, unit] of [["shadow_map", 0], ["scene_copy", 1], ["scene_color", 1], ["scene_depth", 2]]) {
+  for (const [name, unit] of [["shadow_map", 0], ["scene_copy", 1], ["scene_color", 1], ["scene_depth", 2],
+                              ["pictures", 3]]) {
     const place = gl.getUniformLocation(program, name);
     if (place) gl.uniform1i(place, unit);
   }

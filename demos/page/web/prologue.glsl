@@ -5,4 +5,5 @@
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+precision highp sampler2DArray;
 precision highp sampler2DShadow;

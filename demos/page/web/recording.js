@@ -1,17 +1,23 @@
 // The run: facts, shapes, poses, velocities, modes and cameras of every frame, and what lies between two frames.
 
 import { Contacts } from "./contacts.js";
+import { readPictures } from "./pictures.js";
 import { Stream } from "./stream.js";
 
+const PICTURE_QUANTUM = 2 ** -16;  // Of places on pictures, in their sides.
+
 function readMesh(stream) {
-  const vertices = stream.whole(), triangles = stream.whole(), colored = stream.whole() === 1;
+  const vertices = stream.whole(), triangles = stream.whole();
+  const colored = stream.whole() === 1, pictured = stream.whole() === 1;
   const positions = new Uint16Array(4 * vertices), normals = new Int16Array(2 * vertices);
   const tints = new Uint8Array(4 * vertices).fill(255), indices = new Uint32Array(3 * triangles);
   for (let i = 0; i < 3; ++i) stream.differences(positions, i, 4, vertices);
   for (let i = 0; i < 2; ++i) stream.differences(normals, i, 2, vertices);
   for (let i = 0; colored && i < 3; ++i) stream.differences(tints, i, 4, vertices);
+  const places = pictured ? new Float32Array(3 * vertices) : null;
+  for (let i = 0; pictured && i < 3; ++i) stream.differences(places, i, 3, vertices, i < 2 ? PICTURE_QUANTUM : 1);
   stream.differences(indices, 0, 1, 3 * triangles);
-  return { vertices, positions, normals, tints, indices };
+  return { vertices, positions, normals, tints, places, indices };
 }
 
 /** Positions and velocities as rows of three, rotations as rows of four numbers; one row, or one a frame. */
@@ -51,6 +57,7 @@ export class Recording {
     const facts = JSON.parse(stream.text());
     Object.assign(this, { facts, fps: facts.fps, frames: facts.frames, bodies: facts.bodies });
     this.meshes = Array.from({ length: stream.whole() }, () => readMesh(stream));
+    this.pictures = readPictures(stream);
     this.tracks = this.bodies.map(() => readTrack(stream, this.frames, facts.quanta));
     const still = new Uint8Array(this.frames);
     this.modes = this.bodies.map(body => (body.static ? still : readModes(stream, this.frames)));

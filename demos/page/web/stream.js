@@ -23,6 +23,10 @@ export class Stream {
     return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
   }
 
+  byte() {
+    return this.bytes[this.at++];
+  }
+
   wholes(count) {
     return Array.from({ length: count }, () => this.whole());
   }
@@ -42,11 +46,11 @@ export class Stream {
     }
   }
 
-  /** A column of first differences. */
-  differences(out, first, stride, count) {
+  /** A column of first differences, in units of `quantum`. */
+  differences(out, first, stride, count, quantum = 1) {
     for (let i = 0, at = first, last = 0; i < count; ++i, at += stride) {
       last += this.whole();
-      out[at] = last;
+      out[at] = last * quantum;
     }
   }
 

@@ -59,6 +59,16 @@ TEST(FrameOutputs, TheRangeHoldsTwiceTheFarthestBodyButNotTheGround) {
   EXPECT_DOUBLE_EQ(outputScale(std::span(start).first(1), solids, camera).depth_range_m, 20.0);
 }
 
+TEST(FrameOutputs, TheRangeHoldsWhatIsDrawnInPlaceOfABody) {
+  BoundingSurface leaf;
+  leaf.mesh.vertices = {Vec3(0, 0, 0), Vec3(0, 30, 0), Vec3(1, 0, 0)};
+  leaf.mesh.triangles = {{0, 1, 2}};
+  const std::vector<Solid> solids = {Solid::ball(0.5).shownAs(leaf)};
+  const renderer::Camera camera{Vec3(0, -10, 0), Vec3(0, 0, 0), 40.0};
+  const std::vector<renderer::Instance> start = {{0, {Quat::Identity(), Vec3(3, 12, 1)}, {}, false}};
+  EXPECT_DOUBLE_EQ(outputScale(start, solids, camera).depth_range_m, 200.0);  // 2 x 52 m
+}
+
 TEST(FrameOutputs, ListsAreReadOnceEachAndMisspellingsRefused) {
   EXPECT_TRUE(readOutputs("").empty());
   EXPECT_EQ(readOutputs("id,depth,id"), (std::vector{FrameOutput::kDepth, FrameOutput::kId}));

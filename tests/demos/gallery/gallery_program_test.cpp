@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "demos/format/json.h"
+#include "demos/frames/folder_claim.h"
 #include "demos/gallery/gallery_index.h"
 #include "demos/gallery/gallery_scene.h"
+#include "renderer/image/png.h"
 #include "tests/demos/support/chromium.h"
 
 namespace carom::demos {
@@ -60,6 +62,41 @@ TEST_F(Gallery, HoldsAPageAndPicturesOfEachScene) {
   EXPECT_FALSE(fs::exists(out / ".making"));
 }
 
+/// The mean over all pixels of what their channels differ by; of 255.
+double meanDifference(const fs::path& a, const fs::path& b) {
+  const renderer::Image one = renderer::readPng(a).image, other = renderer::readPng(b).image;
+  EXPECT_EQ(one.rgb.size(), other.rgb.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < std::min(one.rgb.size(), other.rgb.size()); ++i)
+    sum += std::abs(int{one.rgb[i]} - int{other.rgb[i]});
+  return sum / static_cast<double>(one.rgb.size());
+}
+
+// The light, the ground, the surfaces, and what is drawn in place of bodies.
+TEST_F(Gallery, ShowsAScenesLooksAsRenderDoes) {
+  folder.file("leaf.obj", "v -2 0 -1\nv 2 0 -1\nv 0 0 2\nf 1 2 3\n");
+  const std::string bodies = R"("bodies": [
+    { "name": "floor", "shape": { "box": [9, 9, 1] }, "position": [0, 0, -0.5], "static": true,
+      "material": { "ground": "sand" } },
+    { "name": "sign", "shape": { "box": [0.2, 0.2, 0.2] }, "position": [0, 1, 2],
+      "visual": { "file": "leaf.obj" } },
+    { "name": "die", "shape": { "box": [1, 1, 1] }, "position": [0, -1.5, 0.7],
+      "material": { "surface": "wood" } } ],
+    "cameras": { "main": { "eye": [3, -9, 3], "target": [0, 0, 1] } } })";
+  for (const char* light : {R"("day")", R"("sunset")", R"({ "like": "overcast", "exposure": 0.4 })"}) {
+    one = folder.file("one.json",
+                      R"({ "format": 1, "duration": 0.1, "light": )" + std::string(light) + ", " + bodies);
+    const ProgramEnd end = runCarom({"gallery", one.string(), "-o", out.string(), "-q", "--size", "320x180"});
+    ASSERT_EQ(end.code, 0) << end.err;
+    const fs::path drawn = folder.path() / "drawn.png";
+    ASSERT_EQ(
+        runCarom({"render", one.string(), "--at", "0", "--size", "320x180", "-q", "-o", drawn.string()}).code,
+        0);
+    EXPECT_LT(meanDifference(out / galleryStill("one"), drawn), 1.5)
+        << light << ": a palette has 255 colours";
+  }
+}
+
 TEST_F(Gallery, MakesAgainOnlyWhatIsAnother) {
   ASSERT_EQ(runCarom(words()).code, 0);
   const std::string page = readTextFile(out / galleryPage("one"));
@@ -92,6 +129,16 @@ TEST_F(Gallery, TakesNoFolderWithAnIndexPageOfSomebodyElse) {
   std::ofstream(out / "index.html") << "mine";
   expectOneLine(runCarom(words()), 4, "it is there already");
   EXPECT_EQ(readTextFile(out / "index.html"), "mine");
+}
+
+TEST_F(Gallery, TakesNoFolderThatAnotherIsMaking) {
+  {
+    const FolderClaim another({out, "gallery", 1});
+    const ProgramEnd end = runCarom(words());
+    EXPECT_EQ(end.code, 4) << end.err;
+    EXPECT_NE(end.err.find("another carom is writing"), std::string::npos) << end.err;
+  }
+  EXPECT_EQ(runCarom(words()).code, 0);
 }
 
 TEST_F(Gallery, ASceneThatFailsIsNamedAndTheOthersAreThere) {

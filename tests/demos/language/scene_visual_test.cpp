@@ -36,6 +36,19 @@ TEST(Visual, IsDrawnInPlaceOfTheShape) {
   ASSERT_EQ(look.mesh.triangles.size(), 2u);
   EXPECT_NEAR((look.mesh.vertices[1] - Vec3(1.0, 0.0, 0.25)).norm(), 0.0, 1e-6);
   EXPECT_DOUBLE_EQ(made.drawnSolids()[2].volume(), 1.0) << "the body's own";
+  EXPECT_TRUE(made.looksOtherwise(0));
+  EXPECT_FALSE(made.looksOtherwise(1));
+  EXPECT_NEAR(made.drawnRadius(0), std::hypot(1.0, 0.25), 1e-6);
+  EXPECT_EQ(made.drawnRadius(1), 0.5);
+}
+
+// The surface's grain suits what is seen: a leaf of 2 cm in place of a cube of 1 m.
+TEST(Visual, HasASurfaceOfItsOwnScale) {
+  const TemporaryFolder folder;
+  folder.file("leaf.obj", kLeaf);
+  const SceneWorld made = worldOf(
+      folder, R"(, "material": { "surface": "wood" }, "visual": { "file": "leaf.obj", "scale": 0.01 })");
+  EXPECT_EQ(made.surfaces[0].scale_m, renderer::usualScale(0.02));
 }
 
 TEST(Visual, ChangesNoBitOfTheMotion) {

@@ -254,6 +254,18 @@ TEST_F(Block, VelocitiesPointWhereTheBodyGoes) {
   EXPECT_TRUE(run.inked(center + Vec3(0.0, 0.0, 0.04), kPurple)) << "the angular velocity, upwards";
 }
 
+// An arrow within a gem of 2.4 m that is drawn in place of the ball of 20 cm is as clear as one before it.
+TEST_F(Block, VelocitiesAreSeenThroughWhatIsDrawnInPlaceOfTheBody) {
+  ShownOverlays run(file(std::string(kBall).substr(0, std::string(kBall).rfind('}')) +
+                         R"(, "visual": { "file": "meshes/gem.obj", "fit": 2.4 } })"),
+                    "velocities", 3);
+  const BodyState& ball = run.state.bodies[2];
+  const Vec3 p = ball.X_WB.position + 0.6 * kVelocityTime_s * ball.linear_velocity;
+  renderer::FrameRenderer pictures({ShownOverlays::kWidth, ShownOverlays::kHeight}, run.made.drawnSolids());
+  const renderer::Image image = run.overlays.draw(pictures, run.state, 3, run.camera, {});
+  EXPECT_TRUE(inked(image, run.pixel(p), kGreen, 1, 20));
+}
+
 TEST_F(Block, TrailsPassWhereTheBodyWas) {
   const ShownOverlays run(file(kBall), "trails", 9);
   for (int frame = 1; frame < 9; ++frame) {

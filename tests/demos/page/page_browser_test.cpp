@@ -17,6 +17,7 @@
 #include "demos/motion/frame_source.h"
 #include "demos/scene/camera_path.h"
 #include "renderer/frame/frame_renderer.h"
+#include "renderer/image/png.h"
 #include "renderer/look/surface.h"
 #include "tests/demos/support/chromium.h"
 
@@ -76,7 +77,7 @@ Vec2 middleOf(const fs::path& file, const std::string& name, const std::string& 
   renderer::Settings settings;
   settings.width = width;
   settings.height = height;
-  renderer::FrameRenderer pictures(settings, made.world.solids());
+  renderer::FrameRenderer pictures(settings, made.drawnSolids());
   pictures.draw(drawnInstances(made, state.bodies), path.at(time_s, state.bodies));
   const renderer::SurfaceImage& surfaces = pictures.surfaces();
   const auto wanted = std::find(made.names.begin(), made.names.end(), name) - made.names.begin();
@@ -206,25 +207,16 @@ TEST_F(PageInChromium, ABodyIsWhereTheRendererPutsIt) {
   }
 }
 
-// The shaders are the same texts. What differs on a page: normals are rounded to a tenth of a degree, corners
-// to a 65535th of a side, light is a polynomial of the framebuffer there and a power here, four samples a
-// pixel stand for the filter of edges, and the shadow map has twice the texels. Away from edges the first
-// three are left.
-TEST_F(PageInChromium, SurfacesGroundsAndLightAreThoseOfAFrame) {
-  scene = folder.file("die.json", sceneOfEveryLook());
-  const std::vector<std::string> notes = noted(page(), R"js(
-    carom.setPlaying(false);
-    carom.seek(0);
-    carom.draw();
-    const { gl } = carom.graphics, { width, height } = carom.view, pixels = new Uint8Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    notes.push(String(width), String(height), String(gl.getError()), document.getElementById("caption").textContent,
-               Array.from(pixels, byte => byte.toString(16).padStart(2, "0")).join(""));
-  )js",
-                                               std::string(kWebGl));
-  ASSERT_EQ(notes.size(), 5u) << notes[0];
-  EXPECT_EQ(notes[2], "0") << "an error of WebGL";
-  EXPECT_EQ(notes[3], "t = 0.000 s");
+struct Count {
+  int pixels = 0, equal = 0;
+  double sum = 0.0;
+};
+
+/// Of each body and of the sky, by name: how a page's first picture, which is in the notes of kTakePicture,
+/// is that of `carom render`, away from edges.
+std::map<std::string, Count> comparedToRender(const std::vector<std::string>& notes, const fs::path& scene) {
+  std::map<std::string, Count> counts;
+  if (notes.size() != 5u) return counts;
   const int width = std::stoi(notes[0]), height = std::stoi(notes[1]);
   const Drawn drawn(scene, width, height);
   const auto shown = [&](int x, int y) {
@@ -233,11 +225,6 @@ TEST_F(PageInChromium, SurfacesGroundsAndLightAreThoseOfAFrame) {
     for (std::size_t c = 0; c < 3; ++c) color[c] = std::stoi(notes[4].substr(at + 2 * c, 2), nullptr, 16);
     return color;
   };
-  struct Count {
-    int pixels = 0, equal = 0;
-    double sum = 0.0;
-  };
-  std::map<std::string, Count> counts;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (!drawn.isInside(x, y)) continue;
@@ -248,9 +235,112 @@ TEST_F(PageInChromium, SurfacesGroundsAndLightAreThoseOfAFrame) {
       count.equal += difference <= 3 ? 1 : 0;
       count.sum += difference;
     }
+  return counts;
+}
+
+constexpr char kTakePicture[] = R"js(
+  carom.setPlaying(false);
+  carom.seek(0);
+  carom.draw();
+  const { gl } = carom.graphics, { width, height } = carom.view, pixels = new Uint8Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  notes.push(String(width), String(height), String(gl.getError()), document.getElementById("caption").textContent,
+             Array.from(pixels, byte => byte.toString(16).padStart(2, "0")).join(""));
+)js";
+
+// The shaders are the same texts. What differs on a page: normals are rounded to a tenth of a degree, corners
+// to a 65535th of a side, light is a polynomial of the framebuffer there and a power here, four samples a
+// pixel stand for the filter of edges, and the shadow map has twice the texels. Away from edges the first
+// three are left.
+TEST_F(PageInChromium, SurfacesGroundsAndLightAreThoseOfAFrame) {
+  scene = folder.file("die.json", sceneOfEveryLook());
+  const std::vector<std::string> notes = noted(page(), kTakePicture, kWebGl);
+  ASSERT_EQ(notes.size(), 5u) << notes[0];
+  EXPECT_EQ(notes[2], "0") << "an error of WebGL";
+  EXPECT_EQ(notes[3], "t = 0.000 s");
+  const std::map<std::string, Count> counts = comparedToRender(notes, scene);
   EXPECT_EQ(counts.size(), 1u + renderer::surfaceNames().size() + renderer::groundNames().size());
   for (const auto& [name, count] : counts) {
     EXPECT_GT(count.pixels, 100) << name;
+    EXPECT_GE(count.equal, 0.97 * count.pixels) << name << ": " << count.pixels << " pixels";
+    EXPECT_LE(count.sum, 1.0 * count.pixels) << name << ": the mean difference";
+  }
+}
+
+/// A picture of 6 x 4 squares of different colours, each of `side` pixels.
+std::string squaresPng(int side) {
+  renderer::Image image{6 * side, 4 * side, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int u = x / side, v = y / side;
+      for (const int channel : {40 * u + 20, 60 * v + 30, 255 - 40 * ((u + 2 * v) % 6)})
+        image.rgb.push_back(static_cast<std::uint8_t>(channel));
+    }
+  const std::vector<std::uint8_t> bytes = renderer::encodeSmallPng(image);
+  return std::string(bytes.begin(), bytes.end());
+}
+
+/// A cube of 1 m about its middle whose upper face and +x, -y sides are covered, the last by a picture that
+/// is there three times and a half.
+void writeCoveredCube(const TemporaryFolder& folder) {
+  folder.file("large.png", squaresPng(40));
+  folder.file("small.png", squaresPng(8));
+  folder.file("cube.mtl",
+              "newmtl plain\nKd 0.9 0.6 0.2\nnewmtl large\nKd 1 1 1\nmap_Kd large.png\n"
+              "newmtl small\nKd 0.9 0.9 1\nmap_Kd small.png\n");
+  folder.file("cube.obj", R"(mtllib cube.mtl
+v -0.5 -0.5 -0.5
+v 0.5 -0.5 -0.5
+v 0.5 0.5 -0.5
+v -0.5 0.5 -0.5
+v -0.5 -0.5 0.5
+v 0.5 -0.5 0.5
+v 0.5 0.5 0.5
+v -0.5 0.5 0.5
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+vt -0.5 0
+vt 3 0
+vt 3 1
+vt -0.5 1
+usemtl plain
+f 4 3 2 1
+f 3 4 8 7
+f 4 1 5 8
+usemtl large
+f 5/1 6/2 7/3 8/4
+f 2/1 3/2 7/3 6/4
+usemtl small
+f 1/5 2/6 6/7 5/8
+)");
+}
+
+TEST_F(PageInChromium, BodiesAreDrawnAsTheyLookWithTheirPictures) {
+  writeCoveredCube(folder);
+  scene = folder.file("die.json", R"({ "format": 1, "duration": 0.1, "gravity": [0, 0, 0], "bodies": [
+    { "name": "floor", "shape": { "box": [30, 30, 1] }, "position": [0, 0, -0.5], "static": true,
+      "material": { "ground": "concrete" } },
+    { "name": "covered", "shape": { "mesh": { "file": "cube.obj" } }, "position": [-1.7, 0, 1],
+      "rotation": { "axis": [0, 0, 1], "degrees": -30 } },
+    { "name": "tinted", "shape": { "mesh": { "file": "cube.obj" } }, "position": [0, 0.4, 1],
+      "rotation": { "axis": [0, 0, 1], "degrees": -40 }, "material": { "color": "#80c0ff" } },
+    { "name": "seen", "shape": { "sphere": { "radius": 0.1 } }, "position": [1.5, 0, 1],
+      "rotation": { "axis": [0, 0, 1], "degrees": -50 }, "material": { "surface": "wood" },
+      "visual": { "file": "cube.obj", "fit": 1.2 } },
+    { "name": "glass", "shape": { "sphere": { "radius": 0.2 } }, "position": [-0.7, -1.3, 0.6],
+      "rotation": { "axis": [0, 0, 1], "degrees": -20 }, "material": { "surface": "glass" },
+      "visual": { "file": "cube.obj", "fit": 0.5 } },
+    { "name": "plain", "shape": { "box": [0.5, 0.5, 0.5] }, "position": [0.3, -1.2, 1] } ],
+    "cameras": { "main": { "eye": [0.6, -5, 3.2], "target": [0, 0, 0.6], "fovDegrees": 44 } } })");
+  const std::vector<std::string> notes = noted(page(), kTakePicture, kWebGl);
+  ASSERT_EQ(notes.size(), 5u) << notes[0];
+  EXPECT_EQ(notes[2], "0") << "an error of WebGL";
+  const std::map<std::string, Count> counts = comparedToRender(notes, scene);
+  EXPECT_EQ(counts.size(), 6u + counts.count("sky"));
+  for (const auto& [name, count] : counts) {
+    EXPECT_GT(count.pixels, 1000) << name;
     EXPECT_GE(count.equal, 0.97 * count.pixels) << name << ": " << count.pixels << " pixels";
     EXPECT_LE(count.sum, 1.0 * count.pixels) << name << ": the mean difference";
   }

@@ -9,6 +9,7 @@
 #include "demos/asset/asset_path.h"
 #include "demos/language/scene_file.h"
 #include "engine/foundation/contract.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
 namespace carom::demos {
@@ -99,6 +100,31 @@ TEST(CameraPath, FollowKeepsTheBodyInTheMiddleAtItsOffset) {
   // Without an offset: six radii away.
   const renderer::Camera near = pathOf(R"({ "follow": "die" })", made).at(0.0, states);
   EXPECT_NEAR((near.eye - near.target).norm(), 6.0 * 0.5 * std::sqrt(0.36 + 0.25 + 0.16), 1e-12);
+}
+
+// A mesh of 4 m around (10, 0, 0) in place of a cube of 20 cm at the origin.
+TEST(CameraPath, FramesWhatIsDrawnInPlaceOfABody) {
+  const TemporaryFolder folder;
+  folder.file("leaf.obj", "v 8 0 -1\nv 12 0 -1\nv 12 0 1\nf 1 2 3\n");
+  const SceneWorld made = makeSceneWorld(parseScene(R"({ "format": 1, "bodies": [
+      { "name": "cube", "shape": { "box": [0.2, 0.2, 0.2] }, "visual": { "file": "leaf.obj" } } ] })",
+                                                    folder.path() / "scene.json"),
+                                         std::nullopt);
+  Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
+  for (const Vec3& p : fittedPoints(made)) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_LT((low - Vec3(8, 0, -1)).norm(), 1e-6);
+  EXPECT_LT((high - Vec3(12, 0, 1)).norm(), 1e-6);
+  SceneCamera all;
+  all.motion = FitView{};
+  const renderer::Camera fit = CameraPath(all, made, 16.0 / 9.0).at(0.0, {});
+  EXPECT_NEAR(fit.target.x(), 10.0, 2.0) << "on the leaf";
+  SceneCamera follow;
+  follow.motion = FollowBody{"cube", {}};
+  const renderer::Camera near = CameraPath(follow, made, 16.0 / 9.0).at(0.0, made.world.states());
+  EXPECT_NEAR((near.eye - near.target).norm(), 6.0 * std::sqrt(145.0), 1e-5);
 }
 
 TEST(CameraPath, OrbitCirclesAtItsSpeedAndComesRound) {

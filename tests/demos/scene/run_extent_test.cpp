@@ -8,6 +8,7 @@
 #include "demos/scene/camera_path.h"
 #include "demos/scene/scene_world.h"
 #include "renderer/view/projection.h"
+#include "tests/support/temporary_folder.h"
 
 namespace carom::demos {
 namespace {
@@ -29,6 +30,22 @@ TEST(RunExtent, HasTheBoxesOfWhatMovesFromTheFirstMomentToTheLast) {
   EXPECT_NEAR(low, 0.9, 1e-12);
   EXPECT_NEAR(high, 7.1, 1e-9);
   EXPECT_EQ(points.size() % 8, 0u);
+}
+
+TEST(RunExtent, HasTheBoxesOfWhatIsDrawnInPlaceOfABody) {
+  const TemporaryFolder folder;
+  folder.file("leaf.obj", "v 0 0 -2\nv 0 0 2\nv 5 0 2\nf 1 2 3\n");
+  const Scene scene = parseScene(R"({ "format": 1, "gravity": [0, 0, 0], "duration": 1, "bodies": [
+      { "name": "die", "shape": { "box": [0.2, 0.2, 0.2] }, "position": [1, 2, 3], "linearVelocity": [2, 0, 0],
+        "visual": { "file": "leaf.obj" } } ] })",
+                                 folder.path() / "scene.json");
+  Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
+  for (const Vec3& p : pointsOfTheRun(scene, std::nullopt, 1)) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_LT((low - Vec3(1, 2, 1)).norm(), 1e-6);
+  EXPECT_LT((high - Vec3(8, 2, 5)).norm(), 1e-6);
 }
 
 TEST(RunExtent, IsThatOfTheFilesDurationWhateverWasAskedFor) {

@@ -36,6 +36,10 @@ class WholeReader {
     for (std::int64_t last = 0; numbers.size() < count; numbers.push_back(last)) last += whole();
     return numbers;
   }
+  int byte() {
+    if (at_ == bytes_.size()) throw std::runtime_error("the stream is at its end");
+    return static_cast<unsigned char>(bytes_[at_++]);
+  }
   bool atEnd() const { return at_ == bytes_.size(); }
 
  private:

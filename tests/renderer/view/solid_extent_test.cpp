@@ -62,5 +62,19 @@ TEST(SolidExtent, EnclosesAllPartsTightly) {
   EXPECT_LT((extent.center - solid.origin_B() - Vec3(0.875, 0, 0)).norm(), 1e-9);
 }
 
+TEST(WhatIsDrawnOfASolid, IsRoundOnlyWhereItsPartsAreSeen) {
+  const Solid ball = Solid::ball(0.4);
+  EXPECT_TRUE(isBall(ball));
+  EXPECT_TRUE(hasRoundPart(ball));
+  EXPECT_FALSE(isBall(Solid::capsule(0.4, 1.0)));
+  EXPECT_TRUE(hasRoundPart(Solid::capsule(0.4, 1.0)));
+  BoundingSurface leaf;
+  leaf.mesh.vertices = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)};
+  leaf.mesh.triangles = {{0, 1, 2}};
+  const Solid shown = ball.shownAs(leaf);
+  EXPECT_FALSE(isBall(shown));
+  EXPECT_FALSE(hasRoundPart(shown));
+}
+
 }  // namespace
 }  // namespace carom::renderer

@@ -1,4 +1,4 @@
-#include "renderer/draw/picture_array.h"
+#include "renderer/mesh/picture_levels.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +29,7 @@ TEST(LayerSize, IsThatOfTheLargestAndHasABound) {
   const PictureSize bounded = layerSize(many);
   EXPECT_LE(4.0 * 64 * bounded.width * bounded.height, 0x1p27);
   EXPECT_EQ(bounded.width, 512);
+  EXPECT_EQ(layerSize(many, {1024, std::size_t{1} << 40}).width, 1024);
 }
 
 }  // namespace
