@@ -172,14 +172,14 @@ std::vector<Update> updateAll(const CompareOptions& options, const std::vector<C
     Update update = isChosen(options, c) ? plannedUpdate(c) : Update::kNone;
     if (isChosen(options, c) && records.contains(c.pair.golden.parent_path()) && isOfOtherRecord(c, shelf))
       update = Update::kReplaced;
-    if (update == Update::kReplaced || update == Update::kAdded) undo.keep(c.pair.golden);
+    if (writesGolden(update)) undo.keep(c.pair.golden);
     updates.push_back(update);
   }
   for (const auto& [folder, pair] : records) undo.keep(folder / kRecordName);
   undo.commit();
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     throwIfInterrupted();
-    if (updates[i] == Update::kReplaced || updates[i] == Update::kAdded) replaceGolden(comparisons[i].pair);
+    if (writesGolden(updates[i])) replaceGolden(comparisons[i].pair);
   }
   for (const auto& [folder, pair] : records) updateRecord(pair);
   return updates;

@@ -32,10 +32,8 @@ Update plannedUpdate(const Comparison& comparison) {
   return comparison.pair.has_golden ? Update::kReplaced : Update::kAdded;
 }
 
-Update updateGolden(const Comparison& comparison) {
-  const Update update = plannedUpdate(comparison);
-  if (update == Update::kReplaced || update == Update::kAdded) replaceGolden(comparison.pair);
-  return update;
+bool writesGolden(Update update) {
+  return update == Update::kReplaced || update == Update::kAdded;
 }
 
 void replaceGolden(const ImagePair& pair) {

@@ -17,14 +17,12 @@ enum class Update {
   kRefused  ///< There is no whole image to put in its place.
 };
 
-/// What updateGolden would do.
+/// What the gate's verdict calls for.
 Update plannedUpdate(const Comparison& comparison);
+bool writesGolden(Update update);
 
-/// Writes the golden file where that is called for. Throws CannotWrite, and InputError when the actual file
+/// Puts the actual file in the golden one's place. Throws CannotWrite, and InputError when the actual file
 /// has gone since it was compared.
-Update updateGolden(const Comparison& comparison);
-
-/// Puts the actual file in the golden one's place. Throws as updateGolden.
 void replaceGolden(const ImagePair& pair);
 
 /// Whether the actual frames have a record beside them (cause/motion_record.h) that is not, byte for byte,

@@ -19,6 +19,7 @@
 #include "engine/simulation/events/step_record.h"
 #include "engine/simulation/resting_islands.h"
 #include "engine/simulation/start_poses.h"
+#include "engine/simulation/swing_damping.h"
 #include "engine/simulation/world_contract.h"
 
 namespace carom {
@@ -89,8 +90,6 @@ struct World::Impl {
   void finishStep(PhaseClock* clock);
   void updateModes();
   void accumulateStillness();
-  std::vector<char> glidingBodies();
-  void dampSwings();
   void restIslands();
   void publish();
   double potentialOf(int body) const {
@@ -218,46 +217,6 @@ void World::Impl::accumulateStillness() {
     Body& body = bodies[at(i)];
     if (!body.moves()) continue;
     body.still_s = liesStill(body.velocity, body.radius_m) ? body.still_s + substep.step_s : 0.0;
-  }
-}
-
-// Of each body, whether no friction holds it or those that touch it to what does not move: then nothing slows
-// its sliding. None are told where all are held.
-std::vector<char> World::Impl::glidingBodies() {
-  std::vector<char> gliding;
-  const auto holds = [this](const ContactRow& row) {
-    return row.impulse.x() > 0.0 && row.coefficient > 0.0 &&
-           !(bodies[at(row.a)].moves() && bodies[at(row.b)].moves());
-  };
-  for (const LastingContacts::Island& island : contacts.islands) {
-    const std::span<const ContactRow> rows = contacts.rowsOf(island);
-    if (std::any_of(rows.begin(), rows.end(), holds)) continue;
-    gliding.resize(bodies.size(), 0);
-    for (const ContactRow& row : rows) gliding[at(row.a)] = gliding[at(row.b)] = 1;
-  }
-  return gliding;
-}
-
-void World::Impl::dampSwings() {
-  const std::vector<char> gliding = glidingBodies();
-  for (const int i : active.list()) {
-    Body& body = bodies[at(i)];
-    // What touches only what flies with it has no rest to swing about, and keeps its momentum.
-    const bool flies = planner.isVacuum() && event_memory.closed.isClosed(i);
-    if (!body.moves() || !contacts.touched[at(i)] || body.collided || flies) {
-      body.swing.forget();
-      continue;
-    }
-    const double energy_J = kineticEnergy(body.inertia, body.X_WB.rotation, body.velocity);
-    const double weight_N = body.inertia.mass_kg * settings.gravity.norm();
-    body.swing.follow(body.velocity, body.radius_m, energy_J / weight_N, substep.step_s);
-    const double keeps = body.swing.keeps(substep.step_s);
-    if (!gliding.empty() && gliding[at(i)] != 0) {
-      slowAlong(body, keeps, planner.pull(i, body).normalized());
-      continue;
-    }
-    body.velocity.linear *= keeps;
-    body.velocity.angular *= keeps;
   }
 }
 
@@ -396,7 +355,7 @@ void World::Impl::makeSubstep(double begin_s, PhaseClock* clock) {
   const PhaseScope phase(clock, StepPhase::kModes);
   accumulateStillness();
   if (settings.resting_mode) {
-    dampSwings();
+    dampSwings(lastingWorld(), contacts, planner, event_memory.closed);
     restIslands();
   }
   updateModes();

@@ -9,6 +9,7 @@
 
 namespace carom::explore {
 
+using demos::Body;
 using demos::BoxShape;
 using demos::CapsuleShape;
 using demos::CompoundShape;
@@ -36,6 +37,18 @@ double reachOf(const Shape& shape) {
     for (const demos::CompoundPart& part : compound->parts)
       reach = std::max(reach, part.X_SP.position.norm() + reachOf(part.shape));
   return reach;
+}
+
+Pose scatteredPose(Random& random, double reach_m, std::span<const Body> others, const ScatteredOver& over) {
+  Pose X{random.rotation(), Vec3::Zero()};
+  for (double wide = over.wide_m;; wide *= 1.1) {
+    const double x = random.uniform(-wide, wide), y = random.uniform(-wide, wide);
+    X.position = Vec3(x, y, reach_m + random.uniform(over.lowest, over.highest) * wide);
+    const bool clear = std::all_of(others.begin(), others.end(), [&](const Body& other) {
+      return (other.X_WS.position - X.position).norm() > reach_m + 1.001 * reachOf(other.shape);
+    });
+    if (clear) return X;
+  }
 }
 
 Shape boxOf(const Vec3& size) {

@@ -46,6 +46,13 @@ BearingOrder::Lifted BearingOrder::liftedBy(const ContactRow& row, const Vec3& u
   return {std::minmax({a, b}), b > a ? along : -along};
 }
 
+// Among `hanging_`; its size: they are not.
+std::size_t BearingOrder::hangingPlace(const Places& places) const {
+  const auto known = std::ranges::lower_bound(hanging_, places, {}, &Lifted::places);
+  const bool hang = known != hanging_.end() && known->places == places;
+  return hang ? static_cast<std::size_t>(known - hanging_.begin()) : hanging_.size();
+}
+
 void BearingOrder::findHanging(std::span<const ContactRow> rows, const Vec3& up) {
   hanging_.clear();
   for (const ContactRow& row : rows)
@@ -57,8 +64,8 @@ void BearingOrder::findHanging(std::span<const ContactRow> rows, const Vec3& up)
   for (const ContactRow& row : rows) {
     const Lifted lifted = liftedBy(row, up);
     if (lifted.up == 0.0) continue;
-    const auto known = std::ranges::lower_bound(hanging_, lifted.places, {}, &Lifted::places);
-    if (known != hanging_.end() && known->places == lifted.places) known->up += lifted.up;
+    if (const std::size_t known = hangingPlace(lifted.places); known < hanging_.size())
+      hanging_[known].up += lifted.up;
   }
   std::erase_if(hanging_, [](const Lifted& lifted) { return lifted.up >= 0.0; });
 }
@@ -67,9 +74,7 @@ void BearingOrder::findHanging(std::span<const ContactRow> rows, const Vec3& up)
 BearingOrder::Places BearingOrder::bearingOf(const ContactRow& row) const {
   const auto [lower, upper] = std::minmax({placeOf(row.a), placeOf(row.b)});
   const Places places{lower, upper};
-  const auto known = std::ranges::lower_bound(hanging_, places, {}, &Lifted::places);
-  const bool hangs = known != hanging_.end() && known->places == places;
-  return hangs ? Places{upper, lower} : places;
+  return hangingPlace(places) < hanging_.size() ? Places{upper, lower} : places;
 }
 
 void BearingOrder::listBorne(std::span<const ContactRow> rows) {

@@ -38,6 +38,7 @@ class BearingOrder {
   bool joinsMoving(const ContactRow& row) const { return placeOf(row.a) >= 0 && placeOf(row.b) >= 0; }
   Lifted liftedBy(const ContactRow& row, const Vec3& up) const;
   void findHanging(std::span<const ContactRow> rows, const Vec3& up);
+  std::size_t hangingPlace(const Places& places) const;
   Places bearingOf(const ContactRow& row) const;
   void listBorne(std::span<const ContactRow> rows);
   void putBearersFirst();

@@ -16,6 +16,11 @@ class GoldenUpdate : public testing::Test {
   Comparison comparisonOf(bool has_actual, bool has_golden) const {
     return compared({"f.png", actual_, golden_, has_actual, has_golden}, {});
   }
+  static Update updated(const Comparison& comparison) {
+    const Update update = plannedUpdate(comparison);
+    if (writesGolden(update)) replaceGolden(comparison.pair);
+    return update;
+  }
   TemporaryFolder folder_;
   fs::path actual_ = writePng(folder_.path() / "a/f.png", flatRaster(5, 4, 90), {{"State", "ab"}});
   fs::path golden_ = folder_.path() / "g/sub/f.png";
@@ -23,7 +28,7 @@ class GoldenUpdate : public testing::Test {
 
 TEST_F(GoldenUpdate, ReplacesByteForByteWhatTheGateRefuses) {
   writePng(golden_, flatRaster(5, 4, 10));
-  EXPECT_EQ(updateGolden(comparisonOf(true, true)), Update::kReplaced);
+  EXPECT_EQ(updated(comparisonOf(true, true)), Update::kReplaced);
   EXPECT_EQ(readTextFile(golden_), readTextFile(actual_));
   EXPECT_EQ(std::distance(fs::directory_iterator(golden_.parent_path()), fs::directory_iterator()), 1);
 }
@@ -41,36 +46,36 @@ TEST_F(GoldenUpdate, TakesARecordOnlyWhereItIsAnother) {
 }
 
 TEST_F(GoldenUpdate, AddsANewFileAndItsFolder) {
-  EXPECT_EQ(updateGolden(comparisonOf(true, false)), Update::kAdded);
+  EXPECT_EQ(updated(comparisonOf(true, false)), Update::kAdded);
   EXPECT_EQ(readTextFile(golden_), readTextFile(actual_));
 }
 
 TEST_F(GoldenUpdate, LeavesWhatPassesAsItIs) {
   writePng(golden_, flatRaster(5, 4, 91));
   const std::string before = readTextFile(golden_);
-  EXPECT_EQ(updateGolden(comparisonOf(true, true)), Update::kNone);
+  EXPECT_EQ(updated(comparisonOf(true, true)), Update::kNone);
   EXPECT_EQ(readTextFile(golden_), before);
 }
 
 TEST_F(GoldenUpdate, NeverDeletesAndNeverTakesABrokenImage) {
   writePng(golden_, flatRaster(5, 4, 10));
   const std::string before = readTextFile(golden_);
-  EXPECT_EQ(updateGolden(comparisonOf(false, true)), Update::kRefused);
+  EXPECT_EQ(updated(comparisonOf(false, true)), Update::kRefused);
   truncateFile(actual_);
-  EXPECT_EQ(updateGolden(comparisonOf(true, true)), Update::kRefused);
+  EXPECT_EQ(updated(comparisonOf(true, true)), Update::kRefused);
   EXPECT_EQ(readTextFile(golden_), before);
 }
 
 TEST_F(GoldenUpdate, RepairsABrokenGoldenImage) {
   writePng(golden_, flatRaster(5, 4, 90));
   truncateFile(golden_);
-  EXPECT_EQ(updateGolden(comparisonOf(true, true)), Update::kReplaced);
+  EXPECT_EQ(updated(comparisonOf(true, true)), Update::kReplaced);
   EXPECT_EQ(readTextFile(golden_), readTextFile(actual_));
 }
 
 TEST_F(GoldenUpdate, ATargetThatCannotBeWrittenIsSaidAndKept) {
   const Comparison c = compared({"f.png", actual_, actual_ / "f.png", true, false}, {});  // below a file
-  EXPECT_THROW(updateGolden(c), CannotWrite);
+  EXPECT_THROW(updated(c), CannotWrite);
 }
 
 }  // namespace

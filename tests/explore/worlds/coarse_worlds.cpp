@@ -83,15 +83,7 @@ class CoarseMaker {
     for (int i = 0; i < count; ++i) {
       Shape shape = someShape();
       const double reach = 1.001 * reachOf(shape);
-      Pose X{random_.rotation(), Vec3::Zero()};
-      for (double wide = 2.0 * size_;; wide *= 1.1) {
-        const double x = random_.uniform(-wide, wide), y = random_.uniform(-wide, wide);
-        X.position = Vec3(x, y, reach + random_.uniform(0.02, 1.0) * wide);
-        const bool clear = std::all_of(bodies().begin() + 1, bodies().end(), [&](const Body& other) {
-          return (other.X_WS.position - X.position).norm() > reach + 1.001 * reachOf(other.shape);
-        });
-        if (clear) break;
-      }
+      const Pose X = scatteredPose(random_, reach, std::span(bodies()).subspan(1), {2.0 * size_, 0.02, 1.0});
       add(std::move(shape), X);
     }
   }

@@ -80,15 +80,7 @@ class IceMaker {
     for (int i = 0; i < count; ++i) {
       Shape shape = someShape();
       const double reach = 1.001 * reachOf(shape);
-      Pose X{random_.rotation(), Vec3::Zero()};
-      for (double wide = 1.5 * size_;; wide *= 1.1) {
-        const double x = random_.uniform(-wide, wide), y = random_.uniform(-wide, wide);
-        X.position = Vec3(x, y, reach + random_.uniform(1e-3, 0.5) * wide);
-        const bool clear = std::all_of(bodies().begin() + 1, bodies().end(), [&](const Body& other) {
-          return (other.X_WS.position - X.position).norm() > reach + 1.001 * reachOf(other.shape);
-        });
-        if (clear) break;
-      }
+      const Pose X = scatteredPose(random_, reach, std::span(bodies()).subspan(1), {1.5 * size_, 1e-3, 0.5});
       add(std::move(shape), X);
     }
   }
